@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
-# The time limits of tests, in seconds. A limit ends a test that hangs, but a busy machine must not reach it. So it is at least
-# ten times the test's time alone on a machine with two processors.
+# The time limits of tests, in seconds. A limit ends a test that hangs, but a busy machine must not reach it. The limit is
+# therefore at least ten times the test's time alone on a machine with two processors.
 #   riis_test_timeout          the limit of a test that states no other
 #   riis_test_timeout_saturne  the limit of example_code_saturne
 #   riis_test_timeout_flow     the limit of the flow solver, which has checks, a run and a restart
 #   riis_test_timeout_script   the limit of a script that runs the program or compiles many times
 #   riis_test_timeout_long     the limit of tests that have to end with RIIS_TEST_LONG=1
 # With sanitizers each test has at least three times its usual limit, and with the thread sanitizer six times. The emulator of
-# ./run arm64 needs 7 to 20 times as long as a processor, and up to 40 times for pictures. There a limit is ten times as long.
-# A test that is a script and states no limit has CTest's limit, 1500.
+# ./run arm64 needs 7 to 20 times as long as a processor, and up to 40 times for pictures. The limits for the emulator are ten
+# times as long. A script without a stated limit has CTest's limit, 1500.
 set(riis_test_timeout 300) # needs at most 30
 set(riis_test_timeout_saturne 800) # example_code_saturne needs at most 80
 set(riis_test_timeout_flow 900) # the flow solver needs at most 80

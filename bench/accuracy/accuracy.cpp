@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures the errors of the paper's three methods for a distance (4.1, "Performance evaluation"). It uses a leaflet of the
-// aortic and of the mitral valve, and points whose true distance is known. Prints a table. Fails if an error is larger than
-// promised.
+// Measures the errors of the paper's three methods for a distance (4.1, "Performance evaluation"). One leaflet belongs to the
+// aortic valve and one to the mitral valve. The true distances of the points are known. Prints a table. Fails if an error is
+// larger than its promised bound.
 //   argv[1]  a JSON file for the table and further results
 //   argv[2]  the number of points per leaflet
 #include <riis/riis.h>
@@ -30,19 +30,19 @@ using namespace riis::accuracy;
 using nlohmann::json;
 using Clock = std::chrono::steady_clock;
 
-// The tolerance of the triangles that check true distances. It gives about two million triangles per leaflet.
+// The tolerance of the triangles that check true distances. This tolerance gives about two million triangles per leaflet.
 constexpr double fine_tolerance = 5e-5;
 constexpr std::uint64_t seed = 1;
-// For this fraction of the points, the error of sampling may exceed the tolerance.
+// For this fraction of the points, sampling may have an error above the tolerance.
 constexpr double sampling_share = 1e-3;
 
-// Returns the value below which a given fraction of the ascending values lies.
+// Returns the value below which a given fraction of the values lies. The values ascend.
 double quantile(const std::vector<double> &ascending, double share) {
   const auto n = static_cast<double>(ascending.size());
   return ascending[std::min(ascending.size() - 1, static_cast<std::size_t>(share * n))];
 }
 
-// Counts values in bins of their logarithm. Values below the first bin count only in "below".
+// Counts values in bins of their logarithm. Values below the first bin are only counted in "below".
 json histogram_of(const std::vector<double> &values, double lowest_power, double highest_power, double bins_per_power) {
   std::vector<std::int64_t> counts(static_cast<std::size_t>((highest_power - lowest_power) * bins_per_power));
   std::int64_t below = 0, above = 0;
@@ -67,7 +67,7 @@ json summary_of(std::vector<double> values) {
   return {{"median", quantile(values, 0.5)}, {"p95", quantile(values, 0.95)}, {"max", values.back()}};
 }
 
-// Returns microseconds per point, from the fastest of three passes, because other work on the machine makes times longer.
+// Returns microseconds per point. The fastest of three passes counts, because other work on the machine makes times longer.
 double mean_microseconds(const MeasuredSurface &surface, const TruePoints &points) {
   double least = std::numeric_limits<double>::infinity(), sum = 0;
   for (int pass = 0; pass < 3; ++pass) {
@@ -91,7 +91,7 @@ json measure(const MeasuredSurface &surface, const TruePoints &points, double to
     least = std::min(least, error);
     most = std::max(most, error);
     errors.push_back(std::abs(error));
-    // The tolerance has a margin for the rounding of the points' coordinates.
+    // The tolerance has a margin for the rounding of coordinates.
     n_over += std::abs(error) > tolerance + 1e-9;
   }
   json result = summary_of(errors);
@@ -107,7 +107,7 @@ json measure(const MeasuredSurface &surface, const TruePoints &points, double to
   return result;
 }
 
-// Returns a text that describes the broken promise, or "" if all promises are kept.
+// Returns a text about the first broken promise, or "" if all promises are kept.
 std::string broken_promise(const Setting &setting, const json &run) {
   for (const char *where : {"on_surface", "off_surface"}) {
     const double share = run.at(where).at("share_over_tolerance");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Points whose distance to the smooth surface is known: points on it, and points moved from it along its normal.
-// Input: patches, the number of points, a seed. Output: points with their distances, and the results of checks.
+// Makes points whose distance to the smooth surface is known: points on it, and points moved from it along its normal. Input:
+// patches, the number of points, a seed. Output: points with their distances, and the results of checks.
 #pragma once
 
 #include <array>
@@ -33,14 +33,14 @@ struct TruthRequest {
 
 struct GroundTruth {
   TruePoints on_surface;  // evenly by area; u and v at least SmoothSurface::step away from a patch's sides
-  // Each point of on_surface, moved by the offsets in turn. The next two fields count points that are left out.
+  // Each point of on_surface, moved by the offsets in turn. The two fields below count points that are left out.
   TruePoints off_surface;
   std::int64_t n_curved;  // points whose radius of curvature is too small for the offset
   std::int64_t n_nearer;  // points to which another part of the surface is nearer than the foot
   std::int64_t n_fine_triangles;
-  // fine_error and most_from_fine are in half thicknesses. Every true distance was compared with the distance to triangles
-  // within fine_error of the smooth surface. So all true distances are right within twice fine_error. (Near a point's foot
-  // on the surface they are right up to rounding, because the foot is the only minimum there.)
+  // fine_error and most_from_fine are in half thicknesses. Every true distance was compared with the distance to triangles, which
+  // are within fine_error of the smooth surface. All true distances are therefore right within twice fine_error. (Near a point's
+  // foot they are right up to rounding, because the foot is the only minimum there.)
   double fine_error;
   double most_from_fine;  // the largest difference between a true distance and the distance to the fine triangles
 };

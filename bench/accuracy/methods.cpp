@@ -14,8 +14,8 @@ void check(riis_status status) {
   if (status != RIIS_OK) throw std::runtime_error(std::string(riis_status_name(status)) + ": " + riis_last_error());
 }
 
-// Returns a kind of valve with the given patches. They may be patches of arcs, which riis_valve_create_from_patches does not
-// accept.
+// Returns a kind of valve with the given patches. The patches may be patches of arcs, which riis_valve_create_from_patches does
+// not accept.
 const ValveKind &fixed_patches_kind() {
   static const ValveKind &kind =
       *new ValveKind{"fixed patches",
@@ -36,7 +36,7 @@ PatchSet patches_of(const Leaflet &leaflet) {
     patch.images.erase(std::remove_if(patch.images.begin(), patch.images.end(),
                                       [&](const PatchImage &image) { return image.leaflet_id != leaflet.leaflet_id; }),
                        patch.images.end());
-  // The curves of removed patches may remain, because nothing uses them.
+  // The curves of removed patches may remain, because nothing uses these curves.
   set.patches.erase(
       std::remove_if(set.patches.begin(), set.patches.end(), [](const Patch &patch) { return patch.images.empty(); }),
       set.patches.end());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Provides the paper's three methods for measuring a distance, with the compared settings, on a single leaflet as in the paper.
-// Input: a leaflet, a method, a tolerance. Output: a surface for queries through the public interface.
+// Provides the paper's three methods for measuring a distance on a single leaflet, with the settings that are compared. Input: a
+// leaflet, a method, a tolerance. Output: a surface for queries through the public interface.
 #pragma once
 
 #include <riis/riis.h>
@@ -33,7 +33,7 @@ struct Setting {
   const char *name;
 };
 const char *name_of(std::int32_t method);
-// Minimisation has the paper's tolerances; the other methods have 1, 2, 5 and 10 %.
+// Minimisation has the paper's tolerances. The other methods have 1, 2, 5 and 10 %.
 inline constexpr std::array<Setting, 10> settings{{{RIIS_MEASURE_MINIMIZATION, 0.001, "0.001"},
                                                    {RIIS_MEASURE_MINIMIZATION, 0.01, "0.01"},
                                                    {RIIS_MEASURE_SAMPLING, 0.01, "1 %"},
@@ -45,7 +45,7 @@ inline constexpr std::array<Setting, 10> settings{{{RIIS_MEASURE_MINIMIZATION, 0
                                                    {RIIS_MEASURE_TRIANGLES, 0.05, "5 %"},
                                                    {RIIS_MEASURE_TRIANGLES, 0.1, "10 %"}}};
 
-// A surface made of patches. Failures throw std::runtime_error with the library's message.
+// A surface made of patches. A failure throws std::runtime_error with the library's message.
 class MeasuredSurface {
  public:
   MeasuredSurface(const PatchSet &patches, std::int32_t method, double tolerance);

@@ -11,7 +11,7 @@
 namespace riis::accuracy {
 namespace {
 
-// Returns the larger principal curvature, from the fundamental forms.
+// Computes the larger principal curvature from the fundamental forms.
 double largest_curvature(Vec3 su, Vec3 sv, const std::array<Vec3, 3> &second, Vec3 normal) {
   const double e = dot(su, su), f = dot(su, sv), g = dot(sv, sv), determinant = e * g - f * f;
   const double l = dot(second[0], normal), m = dot(second[1], normal), n = dot(second[2], normal);

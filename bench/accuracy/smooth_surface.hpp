@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Evaluates the smooth surface to which tolerances refer (docs/theory/triangles.md). The surface consists of Coons patches and
-// patches of arcs. They are made from the Bézier curves themselves, with the fraction of their exact length as parameter. It
-// has no polylines, no grid and no tolerance. Input: curves and patches of a valve. Output: points, normals and curvatures
-// anywhere.
+// patches of arcs. The patches are made from the Bézier curves themselves. The parameter of a curve is the fraction of its exact
+// length. The surface has no polylines, no grid and no tolerance. Input: curves and patches of a valve. Output: points, normals
+// and curvatures anywhere.
 #pragma once
 
 #include <cstddef>
@@ -30,12 +30,12 @@ class SmoothSurface {
   std::int32_t patch_id(std::size_t image) const { return images_[image].image.patch_id; }
   std::size_t image_of(std::int32_t patch_id) const;
 
-  // Returns a point. Its relative error is 1e-13, because the lengths of the curves are rounded.
+  // Returns a point with a relative error of 1e-13, because the lengths of the curves are rounded.
   Vec3 at(std::size_t image, double u, double v) const;
   // Computes derivatives by differences over `step`. u and v must be at least `step` away from 0 and 1.
   static constexpr double step = 1e-4;
   SurfacePoint describe(std::size_t image, double u, double v) const;
-  // Returns all points (u[i], v[j]), with u running fastest. Every curve is evaluated once per line.
+  // Returns all points (u[i], v[j]). u runs fastest. Every curve is evaluated once per line.
   std::vector<Vec3> at_lines(std::size_t image, const std::vector<double> &u, const std::vector<double> &v) const;
 
  private:
@@ -48,7 +48,7 @@ class SmoothSurface {
     std::size_t patch;
     PatchImage image;
   };
-  // The curves' values on a line of constant u, and on a line of constant v.
+  // The values of the curves on a line of constant u, and on a line of constant v.
   struct AcrossU {
     Vec3 c0, c1, offset;
   };

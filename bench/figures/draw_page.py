@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Draws the geometry into one page, beginning with the paper's figures. Next come valves at the openings in the KIND.csv tables
-of `riis states`, then the pictures that the GIVEN.json files name.
+"""Draws the geometry into one page. The page begins with the paper's figures. Then it shows valves at the openings in the
+KIND.csv tables of `riis states`, and the pictures that the GIVEN.json files name.
 
 draw_page.py FOLDER FILE.html [GIVEN.json|KIND.csv...]: FOLDER has the programs riis and riis-figures."""
 

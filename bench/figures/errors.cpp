@@ -39,14 +39,15 @@ std::vector<double> ends_of_steps(std::size_t n, const Part &part) {
   return ends;
 }
 
-// Paints cells of about the given size. The error in a cell is the computed distance at its middle, where the true distance is 0.
+// Paints cells of about the given size. The middle of a cell lies on the surface, so its true distance is 0 and its computed
+// distance is the error.
 struct Painter {
   const SmoothSurface &smooth;
   const MeasuredSurface &surface;
   double cell;
   Numbers &numbers;
 
-  // Several lines run along one parameter of a patch. Returns the number of cells that the longest of these lines needs.
+  // Several lines run along one parameter of a patch. Returns how many cells the longest line needs.
   std::size_t n_cells(std::size_t image, const Part &u, const Part &v, bool along_u) const {
     constexpr std::size_t n = 16;
     const std::vector<Vec3> net = smooth.at_lines(image, ends_of_steps(n, u), ends_of_steps(n, v));
@@ -73,7 +74,7 @@ struct Painter {
   }
 };
 
-// Returns the painted cells of a leaflet. If is_part is true, returns those of a part of one of its patches.
+// Returns the painted cells of a leaflet. If is_part is true, returns the cells of a part of one of the leaflet's patches.
 json paintings(const accuracy::Leaflet &leaflet, bool is_part, Numbers &numbers) {
   // Sampling has the tolerance 10 %, so its samples are far enough apart to be visible.
   constexpr std::array<Setting, 3> painted{{{RIIS_MEASURE_MINIMIZATION, 0.01, "0.01"},
@@ -84,7 +85,8 @@ json paintings(const accuracy::Leaflet &leaflet, bool is_part, Numbers &numbers)
   json made = json::array();
   for (const Setting &setting : painted) {
     const MeasuredSurface surface(patches, setting.method, setting.tolerance);
-    // Minimisation is slow, and its errors vary over larger distances than those of sampling. Its cells are therefore larger.
+    // Minimisation is slow, and its errors change over larger distances than those of sampling. The cells of minimisation are
+    // therefore larger.
     const double cell = is_part ? 0.001 : setting.method == RIIS_MEASURE_MINIMIZATION ? 0.007 : 0.0035;
     const Painter painter{smooth, surface, cell, numbers};
     json images = json::array();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Writes the geometry of valves: their curves, the sides of their patches, their quads and triangles. A Bézier curve is the list
-// of its control points, and a curve is the list of its pieces.
+// of its control points. A curve is the list of its spans.
 #include <algorithm>
 #include <array>
 #include <string>
@@ -43,8 +43,8 @@ json json_of(const PatchSet &set, const Side &side, const PatchImage &image) {
   return pieces;
 }
 
-// The lengths are the lengths of the sides. "own_frame" has the sides before the image is turned and moved. "ends_of_lines" has
-// points of the sides v0 and v1 at equal shares of their lengths.
+// The lengths belong to the sides. "own_frame" has the sides before the image is turned and moved. "ends_of_lines" has points of
+// the sides v0 and v1 at equal shares of their lengths.
 json json_of(const PatchSet &set, std::size_t patch_number, const PatchImage &image) {
   constexpr int n_lines = 32;
   const Patch &patch = set.patches[patch_number];
@@ -90,8 +90,8 @@ Valve valve_of(const std::string &kind, const json &settings) {
   return valve;
 }
 
-// "example" has the parameters that differ from their defaults. Lengths whose default is 0 have other values there, so that
-// they are visible.
+// "example" has the parameters that differ from their defaults. If a length has the default 0, the example has another value, so
+// that the drawing shows the length.
 json valve_at_openings(const std::string &kind, json example) {
   json states = json::array();
   for (const double opening : {0.0, 0.5, 1.0}) {
@@ -115,8 +115,8 @@ PatchSet only(const PatchSet &set, int patch_id) {
   return made;
 }
 
-// Returns the lines of a patch's grid, the points of its image, and the boundary points on the curves, which are the vertices
-// of their polylines. A collapsed side has one such point.
+// Returns the lines of a patch's grid, the points of its image, and the boundary points on the curves. The boundary points are
+// the vertices of the curves' polylines. A side that is a point has one boundary point.
 json json_of(const PatchSet &set, const Patch &patch, const QuadGrid &grid, const PatchImage &image, Numbers &numbers) {
   const std::size_t n_u = grid.u.size(), n_v = grid.v.size();
   std::vector<double> points;

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Draws the stages by which curves and patches are made, the aortic valve, the mitral valve, and the effect of the tolerance."""
+"""Draws the stages that make curves and patches, the aortic valve, the mitral valve, and the effect of the tolerance."""
 
 import math
 
@@ -87,7 +87,7 @@ def bezier_figure():
 
 # ---------------------------------------------------------------------------------------------------------------- a Coons patch
 
-# The tolerance for the upper patch of half a cusp, so coarse that the grid lines can be distinguished.
+# The tolerance of the upper patch of half a cusp. This tolerance is so coarse that the grid lines can be distinguished.
 COARSE = 0.2
 SIDES = (
     (BLUE, "v = 0, bending curve"), (VERMILION, "v = 1, leaflet curve"), (GREEN, "u = 0, symmetry curve"),
@@ -96,7 +96,7 @@ SIDES = (
 
 
 def labelled(t):
-    """Returns the inner vertices that are far enough from other vertices for a label."""
+    """Returns the inner vertices that are far enough from other vertices to have a label."""
     found, last = [], 1
     for i in range(len(t) - 2, 0, -1):
         if last - t[i] > 0.12 and t[i] > 0.12:
@@ -221,7 +221,7 @@ def curves_of(cusp):
 
 
 def widest_gap(cusps):
-    """Returns the widest gap between the ends of neighbouring cusps' free edges."""
+    """Returns the widest gap between the free edges of neighbouring cusps at their ends."""
     ends = [np.array([edge[-1][-1] for edge in cusp["leaflet"]]) for cusp in cusps]
     return max(
         min(math.dist(end, other) for j, others in enumerate(ends) if j != i for other in others)
@@ -329,7 +329,7 @@ def aortic_cusp_figure():
 # -------------------------------------------------------------------------------------------------------------- the mitral valve
 
 CURVE_COLOURS = {"annulus": DARK, "posterior": VERMILION, "anterior": BLUE}  # in the order of drawing
-# The view from the side has the anterior point of the annulus on the right and the ventricle below.
+# In the view from the side, the anterior point of the annulus is on the right and the ventricle below.
 FROM_THE_SIDE = looking((-1, 0, 0), (0, 0, 1))
 
 
@@ -338,7 +338,7 @@ def mitral_at(opening, tolerance):
 
 
 def name_annulus_points(picture, annulus, from_top):
-    """Labels the joints of the annulus' pieces in the order of the paper's points P0 to P5, anticlockwise from the posterior
+    """Labels the joints between the annulus' spans in the order of the paper's points P0 to P5: anticlockwise from the posterior
     point."""
     joints = np.array([piece[0] for piece in annulus])
     n, is_in_order = len(joints), joints[1][0] > joints[0][0]
@@ -483,7 +483,7 @@ def tolerance_figure():
             picture = Picture((1000, 720), view, quads.points, 45)
             picture.add_title(percent(tolerance))
             picture.add_faces(triangles, "flat")
-            # The finest triangles have edges in the leaflet's colour, because dark edges would cover them.
+            # The finest triangles have edges in the leaflet's colour, because dark edges would cover the triangles.
             picture.add_segments(triangles.edges(), LEAFLETS[0] if tolerance == tolerances[-1] else DARK, 1)
             n = [count(len(faces)) for faces in (quads.corners, triangles.corners, valve.quads().corners, valve.corners)]
             panels.append(Panel(picture.png(), f"The {name} at {percent(tolerance)}: {n[0]} quads, {n[1]} triangles."))

@@ -48,7 +48,7 @@ def written(*words):
 
 
 def control_points(pieces):
-    """Returns every control point once. An end that two pieces share counts once, and so does the end of a closed curve."""
+    """Returns every control point once. The common end of two spans counts once, and so does the end of a closed curve."""
     points = [p for i, piece in enumerate(pieces) for p in piece[min(i, 1) :]]
     return np.array(points[:-1] if np.allclose(points[0], points[-1], atol=1e-9) else points)
 
@@ -58,7 +58,7 @@ def samples(pieces):
 
 
 def add_controlled(to, pieces, colour, width, diameter, white):
-    """Adds a curve to a picture, with its control points and its control polygons, which are dashed."""
+    """Adds a curve to a picture, with its control points and its dashed control polygons."""
     for piece in pieces:
         to.add_dashed(piece, picture.paler(colour, white), 2.5)
     to.add_curve(samples(pieces), colour, width)
@@ -66,7 +66,7 @@ def add_controlled(to, pieces, colour, width, diameter, white):
 
 
 class Grid:
-    """The points of the image of one patch."""
+    """Returns the points of the image of one patch."""
 
     def __init__(self, image):
         self.leaflet, self.placed, self.lengths = image["leaflet"], image["placed"], image["lengths"]
@@ -82,7 +82,7 @@ class Grid:
         return [(line[vertices], np.array(t)[vertices]) for (line, t), vertices in zip(lines, kept)]
 
     def corners(self):
-        """Returns the corners of each quad as numbers of points."""
+        """Returns the corners of each quad as indices of points."""
         number = np.arange(self.points.size // 3).reshape(self.points.shape[:2])
         return np.stack([number[:-1, :-1], number[:-1, 1:], number[1:, 1:], number[1:, :-1]], axis=-1).reshape(-1, 4)
 
@@ -124,7 +124,8 @@ class Model:
         return Faces(self.points, self.corners[chosen], table[self.leaflet[chosen]])
 
     def triangle_edges(self, leaflet=None):
-        """Returns the edges that subdivision adds to the quads, and the diagonals that divide quads into triangles."""
+        """Returns two kinds of lines: the edges that subdivision adds to the quads, and the diagonals that divide quads into
+        triangles."""
         corners = self.corners[self.is_chosen(leaflet)]
         ends = np.stack([corners, np.roll(corners, -1, axis=1)], axis=2).reshape(-1, 2)
         is_diagonal = np.all(self.uv[ends[:, 0]] != self.uv[ends[:, 1]], axis=1)
@@ -139,6 +140,6 @@ class Model:
 
 @functools.cache
 def model(kind, tolerance, patch_id=None, **settings):
-    """Returns a valve with these settings, or only the image of the patch with this number."""
+    """Returns a valve with these settings, or only the image of the patch with the number patch_id."""
     patch = [] if patch_id is None else [str(patch_id)]
     return Model(written("--model", kind, str(tolerance), json.dumps(settings), *patch))

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// riis-figures writes numbers that only the library knows, for draw_page.py and parameters/draw.py.
+// riis-figures writes numbers for draw_page.py and parameters/draw.py. Only the library has these numbers.
 #include <cstdio>
 #include <exception>
 #include <fstream>
@@ -30,7 +30,7 @@ void write(const std::string &path, const char *bytes, std::size_t n) {
   if (!out) throw std::runtime_error(path + ": cannot be written");
 }
 
-// Returns a null value if the words are not a command.
+// Returns a null value if the words are not a valid command.
 json made_by(const std::vector<std::string> &words, Numbers &numbers) {
   if (words.size() == 2 && words[0] == "--curves") return valves();
   if (words.size() == 2 && words[0] == "--polylines") return polylines();

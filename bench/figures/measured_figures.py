@@ -31,23 +31,22 @@ UNMARKED = (244, 244, 244)
 
 
 def mesh_cylinder(middle, radius, height):
-    """Returns nodes and tetrahedra. Makes hexahedra and cuts each into 6 tetrahedra along the same diagonal, so that neighbours
-    match."""
+    """Returns nodes and tetrahedra. Each hexahedron is cut into 6 tetrahedra along the same diagonal, so neighbours match."""
     n_across, n_up = math.ceil(2 * radius / EDGE), math.ceil(height / EDGE)
     across, up = 2 * np.arange(n_across + 1) / n_across - 1, 2 * np.arange(n_up + 1) / n_up - 1
     z, y, x = np.meshgrid(up, across, across, indexing="ij")
-    # Maps a square to a disc. Its grid lines become parts of ellipses.
+    # Maps a square to a disc. The square's grid lines become parts of ellipses.
     on_disc = radius * x * np.sqrt(1 - 0.5 * y * y), radius * y * np.sqrt(1 - 0.5 * x * x), 0.5 * height * z
     nodes = middle + np.stack(on_disc, axis=-1).reshape(-1, 3)
     number_of = np.arange(len(nodes)).reshape(x.shape)
     cube = [number_of[k:, j:, i:][:n_up, :n_across, :n_across].ravel() for k in (0, 1) for j in (0, 1) for i in (0, 1)]
-    # There are six paths from corner 0 to corner 7 along edges.
+    # Six paths lead along edges from corner 0 to corner 7.
     ways = ((1, 3), (3, 2), (2, 6), (6, 4), (4, 5), (5, 1))
     return nodes, np.stack([[cube[0], cube[a], cube[b], cube[7]] for a, b in ways], axis=0).transpose(2, 0, 1).reshape(-1, 4)
 
 
 class Marked:
-    """A mesh of tetrahedra that the program has marked. `leaflet` is the leaflet of a tetrahedron's closest marked node, or
+    """A mesh of tetrahedra that the program has marked. `leaflet` is the leaflet of the tetrahedron's closest marked node, or
     -1."""
 
     def __init__(self, kind, opening, cylinder):
@@ -65,7 +64,7 @@ class Marked:
         self.n_marked = np.count_nonzero(is_marked)
 
     def marks(self, kind, opening):
-        """Marks the nodes with the program, as users do."""
+        """Marks the nodes by the program, as users do."""
         with tempfile.TemporaryDirectory() as folder:
             mesh, marked = os.path.join(folder, "mesh.vtu"), os.path.join(folder, "marked.vtu")
             writer, reader = vtkXMLUnstructuredGridWriter(), vtkXMLUnstructuredGridReader()
@@ -81,7 +80,7 @@ class Marked:
             return made[0].astype(bool), *made[1:]
 
     def outline(self):
-        """Returns the edges of the cylinder's ends, and two lines between them."""
+        """Returns the edges at the cylinder's ends, and two lines between these edges."""
         turn, up = np.linspace(0, 2 * math.pi, 121), np.array((0, 0, 0.5 * self.height))
         rim = self.middle + self.radius * np.stack([np.cos(turn), np.sin(turn), 0 * turn], axis=1)
         return [rim - up, rim + up, *([rim[i] - up, rim[i] + up] for i in (0, 60))]
@@ -90,14 +89,14 @@ class Marked:
         """Returns the outer faces of the tetrahedra whose nodes are all marked."""
         wholes = self.tetrahedra[self.is_whole]
         faces = np.sort(np.concatenate([np.delete(wholes, k, axis=1) for k in range(4)]), axis=1)
-        # A face that belongs to two tetrahedra is not on the outside.
+        # A face that belongs to two tetrahedra is inside the mesh.
         unique, first, n = np.unique(faces, axis=0, return_index=True, return_counts=True)
         leaflets = np.tile(self.leaflet[self.is_whole], 4)[first]
         return Faces(self.nodes, unique[n == 1], np.array(LEAFLETS)[leaflets[n == 1]])
 
     def slice(self, normal):
-        """Cuts the mesh by the plane through the origin with this normal. Returns faces in the colour of their tetrahedron's
-        leaflet, which is paler if only some nodes are marked, and the edges of the cut tetrahedra."""
+        """Cuts the mesh by the plane through the origin with this normal. Returns the faces of the cut, and the edges of the cut
+        tetrahedra. A face has the colour of its tetrahedron's leaflet, which is paler if only some nodes are marked."""
         colours = np.array([[paler(colour, 0.6) for colour in LEAFLETS] + [UNMARKED], [*LEAFLETS, UNMARKED]])
         shown = numpy_to_vtk(colours[self.is_whole.astype(int), self.leaflet].astype(np.uint8), deep=True)
         self.grid.GetCellData().SetScalars(shown)
@@ -239,7 +238,7 @@ def accuracy_figure():
     )  # fmt: skip
 
 
-# The scale of the distributions. Smaller values are drawn at its lower end.
+# The scale of the distributions. A value below the scale is drawn at the scale's lower end.
 LEAST_POWER, MOST_POWER, BINS_PER_POWER = -6, 0, 20
 
 

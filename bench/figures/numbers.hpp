@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Declares the parts of riis-figures' output. Long lists of numbers stand in a separate file, as doubles. The JSON refers to
-// such a list by its first number and its length: {"at", "n"}.
+// Declares the parts of riis-figures' output. Long lists of numbers stand in a separate file, as doubles. The JSON refers to such
+// a list by the position of its first number and by its length: {"at", "n"}.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -26,7 +26,7 @@ class Numbers {
 
 // The parameters of each kind of valve, and its patches at three openings.
 nlohmann::json valves();
-// The stages by which a curve becomes a polyline.
+// The stages that turn a curve into a polyline.
 nlohmann::json polylines();
 // Patches, quads and triangles of a valve, or of one image of a patch. The settings are {NAME: VALUE, ...}.
 nlohmann::json model(const std::string &kind, double tolerance, const nlohmann::json &settings,

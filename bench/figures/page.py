@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Writes one HTML file that contains everything, with pictures as base64 and inline styles. It has no scripts and loads
+"""Writes one HTML file that contains everything, with pictures as base64 and inline styles. The file has no scripts and loads
 nothing."""
 
 import base64
@@ -19,7 +19,7 @@ class Panel(NamedTuple):
 
 
 class Figure(NamedTuple):
-    """A figure. Its texts are HTML, and contain numbers that are counted while drawing."""
+    """A figure. The texts are HTML, and the numbers in the texts are counted while the figures are drawn."""
 
     title: str
     columns: int
@@ -35,7 +35,7 @@ def count(n):
 
 
 def number(value, digits=3):
-    """Returns the number with at most this many significant digits: 0.050 becomes "0.05"."""
+    """Returns the number with at most this many significant digits. For example, 0.050 becomes "0.05"."""
     return f"{value:.{digits}g}"
 
 
@@ -44,7 +44,7 @@ def percent(share):
 
 
 def html_table(rows):
-    """Returns an HTML table of texts. The first row is its head."""
+    """Returns an HTML table of texts. The first row is the table's head."""
     lines = [
         "<tr>" + "".join(f"<{tag}>{cell}</{tag}>" for cell in row) + "</tr>\n"
         for row, tag in zip(rows, ["th"] + ["td"] * (len(rows) - 1))
@@ -68,7 +68,7 @@ def read_file(path, mode="rb", **how):
 
 
 def given_figure(path, given):
-    """Returns a figure of a JSON file. Paths of pictures are relative to the file's folder."""
+    """Returns a figure of a JSON file. Paths of pictures start from the file's folder."""
     texts = [given[name] for name in ("title", "caption", "paper")]
     if not all(isinstance(text, str) for text in texts):
         raise TypeError("a text is not a string")
@@ -84,9 +84,9 @@ def given_figure(path, given):
 
 
 def read_figures(path):
-    """Reads figures that another program drew for the same page: {"figures": [{"title", "columns", "panels": [{"png",
-    "caption"}, ...], "caption", "paper"}, ...], "left_out": [...]}. "left_out" names the missing figures, and the commands
-    that make them. Returns the figures and the texts of "left_out"."""
+    """Reads figures that another program drew for the same page: {"figures": [{"title", "columns", "panels": [{"png", "caption"},
+    ...], "caption", "paper"}, ...], "left_out": [...]}. "left_out" names the missing figures, and the commands that make these
+    figures. Returns the figures and the texts of "left_out"."""
     text = read_file(path)
     try:
         given = json.loads(text)
@@ -149,7 +149,7 @@ def html_of(figure, n):
         f'<div class="panels" style="grid-template-columns: repeat({figure.columns}, 1fr)">\n'
     )
     for letter, (png, caption) in zip("abcdefghijklmnopqrstuvwxyz", figure.panels):
-        # The attributes give the picture's own size. The style sheet lets the panel decide the displayed size.
+        # The attributes give the size of the picture. The style sheet lets the panel decide how large it is displayed.
         width, height = size_of(png, "a picture")
         text += (
             f'<figure><img width="{width}" height="{height}" alt="Figure {n}{letter}" '
@@ -180,7 +180,7 @@ def parameter_tables(valves):
 
 
 def page_of(version, figures, left_out, valves):
-    """Returns the page. For each figure that the page lacks, left_out has a text with the command that makes the figure."""
+    """Returns the page. For each missing figure, left_out has a text with the command that makes the figure."""
     contents = [f'<li><a href="#figure-{n}">{figure.title}</a></li>\n' for n, figure in enumerate(figures, 1)]
     missing = "".join(f"<li>{text}</li>\n" for text in left_out)
     if missing:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Draws a picture of surfaces, curves, points and texts, seen without perspective on a white background.
+"""Draws surfaces, curves, points and texts, seen without perspective on a white background.
 
 Objects are in centimetres. Lines, points and texts have sizes in pixels. Points are arrays (n, 3), segments (n, 2, 3)."""
 
@@ -21,13 +21,13 @@ from vtkmodules.vtkRenderingCore import (
 for module in ("vtkRenderingFreeType", "vtkRenderingOpenGL2"):  # importing these modules makes them draw
     importlib.import_module("vtkmodules." + module)
 
-# Most readers with defective colour vision can distinguish these colours (Okabe, Ito 2008).
+# Most readers with colour-vision deficiency can distinguish these colours (Okabe, Ito 2008).
 PALETTE = ((0, 114, 178), (230, 159, 0), (0, 158, 115), (204, 121, 167), (213, 94, 0), (86, 180, 233))
 BLUE, ORANGE, GREEN, PURPLE, VERMILION, SKY_BLUE = PALETTE
 DARK, GREY, LIGHT_GREY = (45, 45, 45), (130, 130, 130), (205, 205, 205)
 LEAFLETS = (BLUE, ORANGE, GREEN)
 TITLE_HEIGHT = 36  # pixels
-# Smooth edges take most of the time of a picture without a graphics card. The tests do without.
+# Without a graphics card, smooth edges take most of a picture's time. The tests draw without them.
 N_SAMPLES = int(os.environ.get("RIIS_FIGURES_SAMPLES", "8"))
 
 
@@ -60,7 +60,7 @@ class Faces(NamedTuple):
 
 
 def cell_array(cells):
-    """Returns cells of equal size from an array with a row of points for each cell."""
+    """Returns cells of equal size. The array has a row of points for each cell."""
     array, cells = vtkCellArray(), np.asarray(cells, dtype=np.int64)
     offsets = np.arange(len(cells) + 1) * cells.shape[1]
     array.SetData(numpy_to_vtkIdTypeArray(offsets, deep=True), numpy_to_vtkIdTypeArray(cells.ravel(), deep=True))
@@ -79,8 +79,8 @@ def poly_data(points, polygons=None, lines=None):
 
 
 def held_display():
-    """Returns a small window that holds a connection to the display. A virtual display starts anew after its last client has
-    left, and a picture that comes at this moment finds no display."""
+    """Returns a small window that holds a connection to the display. Without this connection, a virtual display restarts when its
+    last client leaves. A picture that starts at this moment would find no display."""
     window = vtkRenderWindow()
     window.SetOffScreenRendering(1)
     window.SetSize(8, 8)
@@ -89,7 +89,7 @@ def held_display():
 
 
 class Picture:
-    """The picture contains all points of `to_fit`, with at least the margin to the edges and to the title."""
+    """The picture contains all points of `to_fit`. The points keep at least the margin from the edges and the title."""
 
     def __init__(self, size, view, to_fit, margin=60):
         self.width, self.height = size
@@ -104,7 +104,7 @@ class Picture:
         self.renderer = vtkRenderer()
         self.renderer.SetBackground(1, 1, 1)
         self.renderer.TwoSidedLightingOn()
-        # One lamp is at the eye, the other to the eye's upper left. Parts that face away from both lamps are dim, but not black.
+        # One lamp is at the eye, and one at the eye's upper left. Parts that face away from both lamps are dim.
         for position, intensity in (((0, 0, 1), 0.62), ((-0.6, 0.8, 1), 0.45)):
             light = vtkLight()
             light.SetLightTypeToCameraLight()
@@ -119,11 +119,11 @@ class Picture:
         camera.SetViewUp(self.up)
         camera.SetParallelScale(0.5 * self.height * self.pixel)
 
-    # Objects in faces are drawn above the faces, in this order: faces, segments, curves, points. Among objects of one kind, a
-    # higher rank is drawn above a lower one.
+    # Objects in faces are drawn above the faces. The order is: faces, segments, curves, points. Among objects of one kind, an
+    # object of higher rank is drawn above an object of lower rank.
 
     def raised(self, points, layer):
-        """Moves points towards the eye. The picture has no perspective, so the points keep their position in it."""
+        """Moves points towards the eye. Without perspective, the points keep their place in the picture."""
         return np.asarray(points, dtype=float) - 0.004 * layer * self.depth * self.direction
 
     def add(self, data, colour, ambient, diffuse):
@@ -143,12 +143,12 @@ class Picture:
         return actor.GetProperty()
 
     def add_faces(self, faces, shading):
-        """Adds faces whose shading is smooth, flat, ghost (transparent) or painted. Painted faces keep their colours from every
-        direction, because the colours are data."""
+        """Adds faces whose shading is smooth, flat, ghost (transparent) or painted. Painted faces have constant colours from
+        every direction, because the colours are data."""
         data = poly_data(faces.points, faces.corners)
         data.GetCellData().SetScalars(numpy_to_vtk(np.ascontiguousarray(faces.colours, dtype=np.uint8), deep=True))
         if shading in ("smooth", "ghost"):
-            # Where patches meet, they have separate points. One common normal hides the seam between them.
+            # Patches have separate points where they meet. One common normal hides the seam between the patches.
             clean, normals = vtkCleanPolyData(), vtkPolyDataNormals()
             clean.SetInputData(data)
             clean.ToleranceIsAbsoluteOn()
@@ -160,7 +160,7 @@ class Picture:
             normals.ConsistencyOff()
             normals.Update()
             data = normals.GetOutput()
-        # The surface emits some light, so that parts that face away from the lamps keep their colour.
+        # The surface emits some light, so that unlit parts keep their colour.
         ambient, diffuse = {"painted": (1, 0), "ghost": (0.8, 0.3)}.get(shading, (0.52, 0.55))
         style = self.add(data, None, ambient, diffuse)
         if shading in ("flat", "painted"):
@@ -231,7 +231,7 @@ class Picture:
         self.add_text(0.5 * self.width + x + right, 0.5 * self.height + y + above, text, colour, size, True)
 
     def add_label_away(self, at, away_from, text, distance, colour=DARK, size=26):
-        """Adds a text whose middle is moved away from another point, as seen by this camera."""
+        """Adds a text. In this camera's view, the text's middle is shifted away from another point."""
         way = self.in_picture(np.asarray(at) - away_from)
         length = np.hypot(*way)
         self.add_label(at, text, *(distance * way / length if length > 0 else (0, distance)), colour, size)

@@ -16,7 +16,7 @@ from picture import DARK, GREY, LEAFLETS, TOP_VIEW, Faces, Picture, looking
 SIZE, MARGIN, TOLERANCE = (480, 400), 26, 0.01
 MOST_OPENINGS = 6  # at most this many pictures stand in a row
 ORIFICE = (247, 196, 190)
-# The housing is higher than the closed leaflets, so that they lie inside it.
+# The housing is higher than the closed leaflets, so the leaflets lie inside it.
 HOUSING_HEIGHT, HOUSING = 1.1, 2
 
 
@@ -80,7 +80,7 @@ SUBJECTS = {
 
 
 class Table(NamedTuple):
-    """The columns of a table by their names. `edges` is empty if the leaflets are rigid."""
+    """A table of `riis states`: its columns by their names. `edges` is empty if the leaflets are rigid."""
 
     kind: str
     columns: dict
@@ -89,7 +89,7 @@ class Table(NamedTuple):
 
 
 def read_table(path):
-    """Reads a file KIND.csv from `riis states KIND.csv --valve KIND`. Refuses a table for another kind, other leaflets or other
+    """Reads a file KIND.csv from `riis states KIND.csv --valve KIND`. Refuses a table of another kind, other leaflets or other
     openings."""
     kind = os.path.basename(path)[: -len(".csv")]
     head, *rows = list(csv.reader(read_file(path, "r", encoding="utf-8").splitlines())) or [[]]
@@ -154,7 +154,8 @@ def outlines(kind, state):
 
 
 def disc_below(edge, z):
-    """Returns the disc, moved below everything else. Seen from above, its uncovered part is the orifice."""
+    """Returns the disc, shifted below everything else. Seen from above, the part of the disc that no leaflet covers is the
+    orifice."""
     edge = edge * (1, 1, 0) + (0, 0, z)
     n = len(edge)
     first = np.arange(n - 1)
@@ -163,7 +164,7 @@ def disc_below(edge, z):
 
 
 def panels_of(kind, valves, openings):
-    """Draws all states at the same scale, first from above, then from the side."""
+    """Draws all states at one scale: the first row from above, the second row from the side."""
     subject = SUBJECTS[kind]
     states = [model(kind, TOLERANCE, opening=opening) for opening in openings]
     discs = [edge_of_disc(kind, valves, state) for state in states]
@@ -191,7 +192,7 @@ def panels_of(kind, valves, openings):
 
 
 def cells_of(table, column):
-    """Returns table cells: the values, and their changes from the closed valve if the table has them."""
+    """Returns table cells: the values, and the changes since the closed valve if the table has them."""
     values = table.columns[column]
     shares, cells = table.columns.get(column + "_ratio"), [f"{values[0]:.2f}"]
     for i in range(1, len(values)):

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// ./run bench peers: gives the same nodes and triangles to other programs (CGAL, VTK, OpenVDB), on one thread. First it compares
-// their marks with the marks of a loop over all triangles. Then it times the programs in turns. The bars compare every distance
-// with queries node by node, with FCPW and with CGAL. Fails if the library or CGAL does not mark the same nodes as the loop.
-// Also fails if queries by leaves give other bits than queries node by node.
+// ./run bench peers: gives the library's nodes and triangles to other programs (CGAL, VTK, OpenVDB), on one thread. First the
+// marks of all programs are compared with the marks of a loop over all triangles. Then the programs are timed in turns. One group
+// of bars compares queries of every distance with queries node by node, with FCPW and with CGAL. Fails if the library or CGAL
+// marks other nodes than the loop. Also fails if queries by leaves give other bits than queries node by node.
 //   argv[1]  a file for the results as JSON
 //   argv[2]  thousands of nodes; default 100
 //   argv[3]  a folder for nodes, triangles and distances as raw binary numbers, for peers.py
@@ -42,11 +42,11 @@ using nlohmann::json;
 constexpr double half_thickness = 0.1;
 constexpr int n_turns = 10, n_slow_turns = 5;
 constexpr double fine = 0.0034;  // the tolerance of the fine triangles of ./run bench marking
-// The width of these points' box, in widths of the cylinder. Their leaves are then larger than the valve.
+// The width of the box around the points, in widths of the cylinder. In this box, leaves are larger than the valve.
 constexpr double wide = 40;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// In each row named "node by node", Embree gets a query for each point, as in the library before it compared leaves with groups.
+// In each row named "node by node", Embree gets one query for each point, without leaves and groups.
 constexpr RatioBar distance_bars[] = {
     {"every distance of a prepared mesh: node by node / leaves", "riis, every distance, node by node",
      "riis, every distance of a prepared mesh", Wanted::at_least, 8},
@@ -67,7 +67,7 @@ constexpr RatioBar distance_bars[] = {
      Wanted::at_least, 15},
 };
 
-// Arrays for every field of closest points.
+// Holds arrays for every field of closest points.
 struct Fields {
   std::vector<double> distance, point, barycentric, normal;
   std::vector<std::int64_t> triangle_id;
@@ -82,7 +82,8 @@ struct Fields {
   }
 };
 
-// Finds closest points in pieces of `per_piece` points, on one thread. The library queries the points of short pieces one by one.
+// Finds closest points in parts of `per_piece` points, on one thread. If the parts are short, the library queries their points
+// one by one.
 constexpr std::int64_t in_one_piece = std::numeric_limits<std::int64_t>::max(), node_by_node = 63;
 void find_closest(const riis_surface *surface, const std::vector<double> &xyz, std::int64_t per_piece, Fields &to) {
   riis_closest_options options;
@@ -104,7 +105,8 @@ void find_closest(const riis_surface *surface, const std::vector<double> &xyz, s
   }
 }
 
-// Adds every field of the given points, once over leaves and once node by node. Returns whether both give the same bits.
+// Adds two contenders that compute every field of the given points: over leaves, and node by node. Returns whether both ways give
+// the same bits.
 bool add_closest(Contest &contest, const std::string &name, const riis_surface *surface,
                  const std::vector<double> &xyz) {
   const std::size_t n = xyz.size() / 3;
@@ -118,18 +120,18 @@ bool add_closest(Contest &contest, const std::string &name, const riis_surface *
   return *leaves == *one_by_one;
 }
 
-// The reference for all peers: distances by a loop over all triangles.
+// The reference for all peers is a loop over all triangles.
 struct Truth {
   std::vector<double> distance;
   std::vector<bool> nearest_is_thin;  // whether the nearest triangle's height is below 1e-6 of its longest edge
 };
 
-// Whether a peer measures distances to the triangles, or to an approximation of them.
+// Tells whether a peer measures distances to the triangles, or to an approximation of the triangles.
 enum class Measures { triangles, approximately };
 
-// Compares one peer's distances with the truth. Counts the nodes that are marked differently, by reason.
+// Compares a peer's distances with the truth. Counts, by reason, the nodes that are marked differently.
 json compared(const Truth &truth, const std::vector<double> &distance, Measures measures = Measures::triangles) {
-  // The errors in cm of coordinates of some centimetres, in double and single precision.
+  // The errors in cm of coordinates of some centimetres: in double precision, and in single precision.
   constexpr double rounding = 1e-12, single = 2e-6;
   std::map<std::string, std::int64_t> reasons;
   std::int64_t n_marked = 0, n_different = 0;
@@ -176,7 +178,7 @@ Truth truth_of(const riis_surface *surface, const Triangles &triangles, const Cy
   for (std::int64_t i = 0; i < n; ++i)
     truth.distance[static_cast<std::size_t>(i)] =
         every_triangle(nodes.xyz().data() + 3 * i, std::numeric_limits<double>::infinity());
-  // The library gives the nearest triangle. The comparison checks the triangle's distance.
+  // The library gives the nearest triangle. The comparison measures the distance to this triangle.
   std::vector<std::int64_t> nearest(static_cast<std::size_t>(n));
   riis_closest_arrays arrays;
   check(riis_closest_arrays_init(&arrays, sizeof arrays));
@@ -237,7 +239,7 @@ Surface made_surface(const char *kind, double tolerance) {
   return make_surface(valve.get(), &options);
 }
 
-// Returns false if the library or CGAL does not mark the same nodes as the loop.
+// Returns false if the library or CGAL marks other nodes than the loop.
 bool compare(const char *kind, const Cylinder &cylinder, std::int64_t about_n_nodes, const std::string &folder,
              json &out) {
   const Surface made = made_surface(kind, 0);
@@ -289,7 +291,8 @@ bool compare(const char *kind, const Cylinder &cylinder, std::int64_t about_n_no
     is_right = is_right && is_equal(marks[name]) && marks[name]["largest_anywhere"] <= 1e-12;
   };
   add_right("riis, every distance", n_slow_turns, all_distances);
-  // A marking with a limit that leaves out nothing, over the clusters of a prepared mesh and node by node with Embree.
+  // Times a marking with a limit that includes every node. The marking runs over the clusters of a prepared mesh, and node by
+  // node with Embree.
   const auto marking = [&](const riis_surface *of, std::int32_t search) {
     riis_mark_options options;
     check(riis_mark_options_init(&options, sizeof options));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Competitors in single precision, each built if its library was found.
+// Declares competitors in single precision. Each competitor is built if its library was found.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace bench {
 
-// A competitor of every distance: FCPW's tree with eight branches and eight triangles at a time. It is built if RIIS_FCPW_DIR is
-// FCPW's source folder. FCPW's package on PyPI has four branches (peers.py).
+// A competitor for every distance: FCPW's tree with eight branches and eight triangles at a time. This competitor is built if
+// RIIS_FCPW_DIR is FCPW's source folder. FCPW's package on PyPI has only four branches (peers.py).
 class FcpwQuery {
  public:
   explicit FcpwQuery(const Triangles &triangles);
@@ -23,16 +23,16 @@ class FcpwQuery {
   std::unique_ptr<Implementation> implementation_;
 };
 
-// A competitor of the library's marking. It makes a narrow band of voxels with distances, and interpolates the distances at the
-// nodes. It runs on one thread.
+// A competitor of the library's marking. OpenVDB makes a narrow band of voxels with distances. The distances at the nodes are
+// interpolated. Everything runs on one thread.
 class OpenVdbBand {
  public:
   // The band reaches one voxel beyond the limit.
   OpenVdbBand(const Triangles &triangles, double voxel, double limit);
   ~OpenVdbBand();
-  // Makes the band. This must be repeated after the surface has moved.
+  // Makes the band. A new band is needed after the surface has moved.
   void make();
-  // distance: (n_nodes); about the limit for nodes outside the band. xyz: (3, n_nodes).
+  // distance: (n_nodes); nodes outside the band have about the limit. xyz: (3, n_nodes).
   void distances(std::int64_t n_nodes, const double *xyz, double *distance) const;
 
  private:

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Gives the nodes and triangles from riis_bench_peers to Python packages. Compares their marks, then measures their times, and
-writes both as JSON.
+"""Gives the nodes and triangles from riis_bench_peers to Python packages. Compares the packages' marks, measures the packages'
+times, and writes both as JSON.
 
-Runs in a virtual environment that study.py makes. A missing package is left out, with the reason. The process uses one
-processor, so packages with their own threads have no advantage."""
+This script runs in a virtual environment that study.py makes. If a package is missing, the script omits it and gives the reason.
+The process uses one processor, so packages with several threads have no advantage."""
 
 import argparse
 import collections
@@ -53,7 +53,7 @@ def fcpw(np, nodes, vertices, triangles, radius=HALF_THICKNESS):
         scene.find_closest_points(asked, squared_radii, found)
         return None
 
-    # The list becomes an array after the timing, so that the conversion is not measured.
+    # The list of results becomes an array after the timing, so the conversion is not timed.
     ask.read = lambda: np.array([at.d if at.primitive_index != 2**32 - 1 and at.d >= 0 else np.inf for at in found])
     return ask
 
@@ -73,7 +73,7 @@ PEERS = {
 
 
 def compared(np, truth, distance):
-    """Compares distances with the truth, as riis_bench_peers does. Counts the nodes that are marked differently, by reason."""
+    """Compares distances with the truth, as riis_bench_peers does. Counts, by reason, the nodes that are marked differently."""
     by_peer, marked = distance <= HALF_THICKNESS, truth <= HALF_THICKNESS
     reasons = collections.Counter()
     for i in np.flatnonzero(by_peer != marked):

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ./run uris: reads exports back and marks the nodes of a cylinder by the rule of svMultiPhysics. By this rule, a node's
-// distance is the distance to the nearest middle of a triangle. The program compares these distances with the library's
-// distances to the same triangles, and prints rows of the table in docs/export.md.
+// ./run uris: reads exports and marks the nodes of a cylinder by the rule of svMultiPhysics. By this rule, a node's distance is
+// the distance to the nearest middle of a triangle. The program compares these distances with the library's distances to the
+// triangles themselves. The program prints rows of the table in docs/export.md.
 //   argv[1]   the kind of the valve
 //   argv[2]   thousands of nodes
 //   argv[3..] the output of riis export
@@ -32,7 +32,7 @@ namespace {
 using namespace bench;
 
 constexpr double pi = 3.14159265358979323846;
-// This cylinder contains the bileaflet valve, open or closed.
+// This cylinder contains the bileaflet valve, closed and open.
 constexpr Cylinder prosthesis_cylinder{1.6, -1.0, 1.6, 0};
 
 [[noreturn]] void give_up(const std::string &text) {
@@ -43,8 +43,8 @@ constexpr Cylinder prosthesis_cylinder{1.6, -1.0, 1.6, 0};
 // Triangles in one state: their corners, (3, 3, n).
 using Corners = std::vector<double>;
 
-// The solver's input in one state: the leaflets' triangles, and all nodes, with the nodes of the face that enlarges the solver's
-// box.
+// The solver's input in one state: the leaflets' triangles, and all nodes. The nodes include those of the face that enlarges the
+// solver's box.
 struct State {
   Corners leaflets, nodes;
 };
@@ -134,7 +134,7 @@ State state_at(const char *kind, double opening) {
   return {corners, corners};
 }
 
-// Returns the library's distances from nodes to these triangles, and infinity beyond the half thickness.
+// Returns the library's distances from nodes to these triangles. Beyond the half thickness the distance is infinity.
 std::vector<double> distances_by_library(const Corners &corners, double half_thickness, const CylinderNodes &nodes) {
   std::vector<std::int64_t> ids(corners.size() / 3);
   std::iota(ids.begin(), ids.end(), 0);
@@ -166,8 +166,8 @@ double longest_edge(const Corners &corners) {
   return longest;
 }
 
-// Tests whether a node is in the solver's box. On each side, that box is a tenth larger than the bounding box of the faces'
-// nodes.
+// Tests whether a node is in the solver's box. On each side, this box extends beyond the bounding box of the faces' nodes by a
+// tenth.
 class SolverBox {
  public:
   explicit SolverBox(const std::vector<double> &xyz) {

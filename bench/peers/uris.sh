@@ -1,8 +1,8 @@
 # shellcheck shell=bash
 # SPDX-License-Identifier: Apache-2.0
-# ./run uris, which reads this file. The steps use $build, $n_jobs, install_missing, step and say of `run`.
+# `run` reads this file for ./run uris. The steps use $build, $n_jobs, install_missing, step and say of `run`.
 
-# Largest edges, cm. The half thickness is 0.1. "none" stands for the triangles that the library makes.
+# The largest edges of exported triangles in cm, for the half thickness 0.1 cm. "none" stands for the library's triangles.
 uris_edges=(none 0.1 0.05 0.035 0.025 0.02 0.015)
 
 # export_of_size KIND EDGE: writes build/uris/KIND_EDGE, and prints the solver's input to build/uris/KIND_EDGE.xml.
@@ -15,8 +15,8 @@ export_of_size() {
 
 # ---- ./run uris drop ----
 
-# Writes a duct of 2 cm x 2 cm, from z = -1.3 to 1.3, with edges of about $2 cm, as $3.msh. A tube has tetrahedra, and fits the
-# trileaflet valve.
+# Writes a duct of 2 cm x 2 cm, from z = -1.3 to 1.3, with edges of about $2 cm, as $3.msh. The duct `tube` has tetrahedra, and
+# fits the trileaflet valve.
 duct_of_edge() { # arguments: hex|tet|tube, edge, path without ending
   if [[ $1 == hex ]]; then
     cat >"$3.geo" <<'END'
@@ -40,8 +40,8 @@ END
   gmsh -3 -format msh2 -setnumber h "$2" -o "$3.msh" "$3.geo" >"$3.log" || { cat "$3.log" >&2; return 1; }
 }
 
-# export_in_duct PATH HALF_THICKNESS SHIFT [TIME_STEP VALVE EDGE]: exports a valve with triangles up to EDGE, moved along the duct
-# of PATH.msh, to PATH and PATH.xml. Without another valve it is the flat one.
+# export_in_duct PATH HALF_THICKNESS SHIFT [TIME_STEP VALVE EDGE]: exports a valve with triangles up to EDGE to PATH and PATH.xml.
+# The valve is moved along the duct of PATH.msh. The default valve is flat.
 export_in_duct() {
   local time_step=${4-0.002}
   rm -rf "$1"
@@ -54,16 +54,17 @@ export_in_duct() {
 # expected_drop PATH: prints the drop over (R/eps) u that the export forecasts.
 expected_drop() { sed -n 's/.*closed valve: \([0-9.]*\) of.*/\1/p' "$1.xml"; }
 
-# leaflets_area PATH: prints the area of the closed leaflets in the mesh, cm2, that the export found.
+# leaflets_area PATH: prints the area of the closed leaflets in the mesh in cm2, as the export found it.
 leaflets_area() { sed -n 's/.*leaflets in the mesh, \([0-9.e+-]*\);.*/\1/p' "$1.xml"; }
 
-# Prints the expected drop, and the share of the sum of delta, for a flat valve that is moved along the duct.
+# Moves a flat valve along the duct. Prints the expected drop, and the share of the sum of delta.
 drop_in_duct() { # arguments: path without ending, half thickness, shift along the duct
   export_in_duct "$1" "$2" "$3" &&
     printf '%s %s' "$(expected_drop "$1")" "$(sed -n 's/.*sum of delta is \([0-9.e+-]*\) of.*/\1/p' "$1.xml")"
 }
 
-# Writes a flat valve for the duct. It is inclined by a rise of $2 over half of the duct, or lies across the duct without $2.
+# Writes a flat valve for the duct. With $2, the valve rises by $2 over half of the duct. Without $2 it lies straight across the
+# duct.
 flat_valve() { # arguments: name of the file, rise
   local low=-${2-0} high=${2-0}
   cat >"$build/uris/$1.json" <<END
@@ -75,7 +76,7 @@ flat_valve() { # arguments: name of the file, rise
 END
 }
 
-# A flat valve in a duct: the drop that the solver will have, and its sum of delta.
+# For a flat valve in a duct, prints the drop that the solver will have, and its sum of delta.
 uris_drop() {
   local elements ratio edge shift path
   flat_valve flat
@@ -105,9 +106,9 @@ uris_drop() {
 
 # ---- ./run uris solver PROGRAM ----
 
-# Each line has: the valve, the elements of its duct, eps over their edge, the shift of the valve over the edge, the time step
-# in s, eps in cm, and the largest edge of the valve's triangles in cm. In each marking the solver measures the distance of each
-# node to each triangle.
+# Each line has these numbers: the valve, the elements of its duct, eps over their edge, the shift of the valve over the edge, the
+# time step in s, eps in cm, and the largest edge of the valve's triangles in cm. In each marking the solver measures the distance
+# of each node to each triangle.
 uris_solver_cases=(
   "flat hex 1.1 0.3 0.001 0.2 0.03" "flat hex 1.1 0.3 0.004 0.2 0.03" "flat hex 1.5 0.3 0.001 0.2 0.03"
   "flat hex 1.5 0.3 0.004 0.2 0.03" "flat hex 2 0.3 0.001 0.2 0.06" "flat hex 3 0.3 0.001 0.4 0.06"
@@ -147,10 +148,9 @@ uris_solver() {
 }
 
 # ./run uris [drop | solver PROGRAM]
-#   Exports every kind of valve for svMultiPhysics with triangles of several sizes, and reads the files back. It prints the errors
-#   of that solver's marks, as the table of docs/export.md. drop prints the drop that the solver will have across a flat valve
-#   instead, in meshes by gmsh. solver runs PROGRAM, an svmultiphysics, with closed valves, and prints its drop beside the
-#   forecast.
+#   Exports every kind of valve for svMultiPhysics with triangles of several sizes, and reads the files. Prints the errors of
+#   this solver's marks, for the table of docs/export.md. drop instead prints the drop that the solver will have across a flat
+#   valve, in meshes by gmsh. solver runs PROGRAM, an svmultiphysics, with closed valves, and prints its drop beside the forecast.
 run_uris() {
   local kind edge blocks
   if [[ (${1-} == drop && $# == 1) || (${1-} == solver && $# == 2) ]]; then

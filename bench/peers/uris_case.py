@@ -4,8 +4,9 @@
     uris_case.py write DUCT.msh BLOCK.xml FOLDER TIME_STEP   # makes FOLDER; the working folder is that of `riis export`
     uris_case.py drop FOLDER AREA FORECAST                   # prints the drop over (R/eps) u; AREA is the area of the leaflets
 
-duct_of_edge of uris.sh makes the duct. Blood enters at the top and flows down, so the valve stays closed. Units are CGS.
-The drop is refused if it changed by more than a thousandth in the last step, or differs by more than 3 % from the forecast.
+duct_of_edge of uris.sh makes the duct. Blood enters at the top and flows down, so the valve stays closed. Units are CGS. The drop
+is refused if it changed by more than a thousandth in the last step. A drop is also refused if it differs from the forecast by
+more than 3 %.
 """
 import collections
 import pathlib
@@ -14,7 +15,7 @@ import sys
 
 FLOW = 2.0  # ml/s
 STEPS = 14
-# The faces of an element by gmsh's type of element: its number of nodes, VTK's type, and the nodes of the faces.
+# For each of gmsh's types of elements: its number of nodes, VTK's type, and the nodes of its faces.
 ELEMENTS = {
     4: (4, 10, ((0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2))),
     5: (8, 12, ((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))),
@@ -22,7 +23,7 @@ ELEMENTS = {
 
 
 def read_msh(path):
-    """Returns the nodes, and the elements with their type."""
+    """Returns the nodes, and the elements with their types."""
     lines = iter(path.read_text(encoding="ascii").splitlines())
     nodes, elements = {}, []
     for line in lines:
@@ -41,7 +42,7 @@ def read_msh(path):
 
 
 def array(kind, name, values, components=1):
-    # The solver reads coordinates from text, so they need all digits.
+    # The solver reads coordinates from text, so the text has all digits.
     text = " ".join(f"{value:.17g}" if kind == "Float64" else str(value) for value in values)
     return f'<DataArray type="{kind}" Name="{name}" NumberOfComponents="{components}" format="ascii">{text}</DataArray>\n'
 
@@ -55,7 +56,7 @@ def ends(cells):
 
 
 def write_vtk(path, places, node_ids, cells, element_ids, cell_type=None):
-    """Writes a mesh if a type of cells is given, and a face otherwise. The ids count from 1 in the whole mesh."""
+    """Writes a mesh if a type of cells is given, otherwise a face. The ids belong to the whole mesh and count from 1."""
     kind, part = ("UnstructuredGrid", "Cells") if cell_type else ("PolyData", "Polys")
     count = "NumberOfCells" if cell_type else "NumberOfPolys"
     path.write_text(
@@ -73,7 +74,7 @@ def write_vtk(path, places, node_ids, cells, element_ids, cell_type=None):
 
 
 def outer_faces(elements):
-    """Returns the faces that belong to only one element: their nodes, and the number of the element."""
+    """Returns the faces that belong to only one element. For each face, returns its nodes and the number of its element."""
     seen = collections.defaultdict(list)
     for number, (kind, corners) in enumerate(elements, 1):
         for face in ELEMENTS[kind][2]:
@@ -101,7 +102,8 @@ def write_mesh(msh, folder):
 
 
 def valve_of(block):
-    """Returns the valve of a block that `riis export` printed. Its paths become absolute: the solver runs in another folder."""
+    """Returns the valve of a block that `riis export` printed. The valve's paths become absolute, because the solver runs in
+    another folder."""
     valve = re.search("<Add_URIS_mesh.*</Add_URIS_mesh>", pathlib.Path(block).read_text(encoding="utf-8"), re.S)
     if not valve:
         sys.exit(f"uris_case.py: {block} has no Add_URIS_mesh")
@@ -156,7 +158,7 @@ def write(msh, block, folder, time_step):
 
 
 def last_rows(path):
-    """Returns the values of the last two steps in a table of face averages, by the names of the faces."""
+    """Returns the values of the last two steps in a table of face averages. The values are listed by the names of the faces."""
     lines = [line.split() for line in path.read_text(encoding="ascii").splitlines() if line.strip() and line[0] != "#"]
     (names,) = [line[2:] for line in lines if line[:2] == ["step", "time"]]
     if int(lines[-1][0]) != STEPS:
@@ -165,7 +167,8 @@ def last_rows(path):
 
 
 def drop(folder, area, forecast):
-    """Prints the difference of the mean pressures at both ends, divided by (R/eps) u. The outlet's flow gives u."""
+    """Prints the drop divided by (R/eps) u. The drop is the difference of the mean pressures at both ends. The outlet's flow
+    gives u."""
     folder = pathlib.Path(folder)
     case = (folder / "solver.xml").read_text(encoding="utf-8")
     resistance, half_thickness = (float(re.search(rf"<{name}>([^<]*)<", case)[1]) for name in ("Resistance", "Closed_thickness"))

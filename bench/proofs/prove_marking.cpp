@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// ./run bench proof, its first part: the search over clusters marks the same nodes as a loop over triangles, with the same
-// distances to the last bit and the same triangles. The proof covers a million nodes, both valves, three positions, three half
-// thicknesses, every instruction set of the processor, and 1 to 4 threads. The loop runs the scalar form of the library's
-// decision kernel on every triangle whose box is near the node. It finds these triangles by its own grid. On a sample of
-// nodes it runs the kernel on every triangle. The program prints a table and fails on any difference. argv[1]: thousands of
+// ./run bench proof, its first part: the search over clusters marks the nodes that a loop over triangles marks. Search and loop
+// give the same triangles, and the same distances to the last bit. The proof covers a million nodes, both valves, three
+// positions, three half thicknesses, every instruction set of the processor, and 1 to 4 threads. The loop runs the scalar form of
+// the library's decision kernel on every triangle whose box is near the node. A separate grid finds these triangles. For a sample
+// of nodes, the loop runs over every triangle. The program prints a table and fails on any difference. argv[1]: thousands of
 // nodes, instead of a million.
 #include <algorithm>
 #include <cmath>
@@ -21,10 +21,10 @@ namespace {
 
 using namespace bench;
 
-// Finds the triangles whose boxes are near a point. Each cell of a grid over the surface has a list of triangles.
+// Finds the triangles whose boxes are near a point. Each cell of the grid over the surface has a list of triangles.
 class NearTriangles {
  public:
-  // Boxes that are farther than `reach` are ignored.
+  // Ignores boxes that are farther than `reach`.
   NearTriangles(const riis::TriangleSet &set, double reach) : set_(set), edge_(std::max(reach, 0.05)) {
     boxes_.reserve(set.triangle_id.size());
     for (std::int64_t i = 0; i < set.n_triangles(); ++i) {
@@ -48,8 +48,8 @@ class NearTriangles {
             cells_[i + n_[0] * (j + n_[1] * k)].push_back(t);
   }
 
-  // Returns the closest of the triangles whose boxes are within reach. Of several equally close triangles, returns the lowest.
-  // Counts the pairs that it measures.
+  // Returns the closest of the triangles whose boxes are within reach. If several are equally close, returns the lowest. Counts
+  // the pairs that it measures.
   riis::ClosestTriangle closest(const double *p, std::int64_t &n_pairs) const {
     riis::ClosestTriangle best{INFINITY, -1};
     if (!has(whole_, p)) return best;
@@ -72,8 +72,8 @@ class NearTriangles {
       if (p[i] < box.lower[i] || p[i] > box.upper[i]) return false;
     return true;
   }
-  // The cell is a monotone function of the coordinate. If a box contains a point, the point's cell is therefore one of the
-  // box's cells.
+  // A larger coordinate never gives a lower cell. If a box contains a point, the point's cell is therefore one of the box's
+  // cells.
   std::size_t cell_of(double coordinate, int i) const {
     return static_cast<std::size_t>((coordinate - whole_.lower[i]) / edge_);
   }
@@ -142,7 +142,7 @@ Differences compare(const Expected &expected, const riis_mark_list &marked) {
   return d;
 }
 
-// Checks that the grid misses nothing: measures every 997th node, and a thousand marked nodes, against every triangle.
+// Checks that the grid misses nothing. Every 997th node and a thousand marked nodes are compared with every triangle.
 Differences compare_sample(const CylinderNodes &nodes, const riis::TriangleSet &set, double half_thickness,
                            const Expected &expected) {
   Differences d;
@@ -202,7 +202,7 @@ std::int64_t prove(const CylinderNodes &nodes, riis_mesh *mesh, StepOptions opti
               static_cast<long long>(sum.distances), static_cast<long long>(sum.triangles),
               static_cast<long long>(sample.all()));
   std::fflush(stdout);
-  // The row proves nothing if no node is marked or no instruction set ran.
+  // The row proves something only if nodes are marked and an instruction set ran.
   if (expected.node_id.empty() || n_markings < 4) {
     std::fprintf(stderr, "nothing was compared\n");
     std::exit(1);

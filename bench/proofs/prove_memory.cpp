@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ./run bench proof, its second part: 10,000 time steps of a valve that opens and closes, for both valves, with 100,000 nodes and
-// 2 threads. At the end, the memory of the process equals the memory at step 100 to within 1 MB. With one thread, a marking no
-// longer calls malloc after the valve has been in all positions. The program prints a table and fails if this does not hold.
+// ./run bench proof, its second part: both valves open and close for 10,000 time steps, with 100,000 nodes and 2 threads. At the
+// end, the memory of the process must equal the memory at step 100 to within 1 MB. With one thread, a marking must no longer call
+// malloc after the valve has been in all positions. The program prints a table and fails if one of these claims does not hold.
 // argv[1]: another number of steps, a multiple of 100.
 #include <algorithm>
 #include <atomic>
@@ -25,7 +25,7 @@ void count() {
 
 }  // namespace
 
-// An executable's functions take precedence over those of libraries. So all allocations of the process call these functions,
+// Functions of an executable come before those of libraries. All allocations of the process therefore call these functions,
 // including those of operator new.
 extern "C" {
 void *__libc_malloc(std::size_t size);
@@ -68,8 +68,8 @@ struct Case {
   const Cylinder &cylinder;
   int n_threads;
   int n_steps;
-  // The limit on allocations of all markings after the warm-up. Threads divide the work by chance. If a thread gets more work
-  // than ever before, its memory doubles. After some steps, no memory grows further.
+  // The limit on allocations of all markings after the warm-up. Chance divides the work between threads. If a thread gets more
+  // work than ever before, its memory doubles. After some steps, the memory grows no further.
   std::int64_t most_allocations;
 };
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// ./run bench proof, its third part: the memory of the process does not grow while every search marks a small mesh many times. It
-// runs with 1, 2 and 4 threads, on processors that other processes keep busy. Threads then arrive late at a search of less than a
-// millisecond, and TBB keeps the memory that it allocated for them. The program prints a table and fails if memory grows.
-// argv[1]: another number of markings. OpenMP's threads should sleep while they wait (OMP_WAIT_POLICY=passive), otherwise the
-// run takes many times as long.
+// ./run bench proof, its third part: every search marks a small mesh many times, and the memory of the process must not grow.
+// Each search runs with 1, 2 and 4 threads, on processors that other processes keep busy. A search takes less than a millisecond,
+// so threads join it late. TBB keeps the memory that it allocated for late threads. The program prints a table and fails if
+// memory grows. argv[1]: another number of markings. OpenMP's threads should sleep while they wait (OMP_WAIT_POLICY=passive).
+// Otherwise the run takes many times as long.
 #include <sched.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
@@ -22,8 +22,8 @@ namespace {
 
 using namespace bench;
 
-// Processes that keep the processors busy, one for each processor that this process may use. They end with this object. If this
-// process ends first (by exit or a signal), the system kills them.
+// Processes that keep the processors busy, one for each processor that this process may use. The processes end when this object
+// is destroyed. If this process ends earlier (by exit or a signal), the system kills the busy processes.
 class BusyProcessors {
  public:
   BusyProcessors() {
@@ -62,8 +62,8 @@ class BusyProcessors {
   std::vector<pid_t> processes_;
 };
 
-// Tells when a case makes the handles of a marking. A solver keeps all handles. A solver whose mesh moves may make a new mesh
-// each time. A subroutine that keeps nothing between calls makes all handles each time.
+// The ways in which a case makes the handles of a marking. One solver keeps all handles. A solver whose mesh moves may make a new
+// mesh each time. A subroutine that keeps nothing between calls makes all handles each time.
 enum class Made { before, mesh_each_time, all_each_time };
 
 struct Case {
@@ -88,7 +88,7 @@ Surface aortic_surface() {
   return make_surface(valve.get(), &options);
 }
 
-// The handles of a marking, made when the case requires.
+// The handles of a marking. The case decides when the handles are made.
 class Marking {
  public:
   Marking(const Case &of, int n_threads) : made_(of.made), nodes_(cylinders[0], 3000), rows_(nodes_.rows()) {
@@ -119,9 +119,9 @@ class Marking {
   Result result_;
 };
 
-// The number of bytes that the markings may add to the memory of the process. If a thread first takes part during the
-// measurement, its stack and its allocator's first pages are added. In the short form (300 markings) this limit is 1 kB per
-// marking. TBB's arena of two threads takes 7 kB.
+// The number of bytes that the markings may add to the memory of the process. A thread that first takes part during the
+// measurement adds its stack and its allocator's first pages. In the short form (300 markings) this limit is 1 kB per marking.
+// TBB's arena of two threads takes 7 kB.
 constexpr double most_growth = 3e5;
 
 // A leak grows in every round. Memory that is allocated only once does not grow.

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Reports which benchmarks have become slower than a baseline. The exit status is 1 if there are such benchmarks.
+"""Reports which benchmarks have become slower than a baseline. The exit status is 1 if a benchmark became slower.
 
-Times are divided by those of the calibration benchmarks of the same run. Runs on two machines, or on one machine on two days,
-can therefore be compared. There are two calibrations, for memory and for arithmetic. A benchmark may depend on either
-calibration, so it counts as slower only if it is slower relative to both. If the calibrations of the two machines differ
-much, a loss below this difference is not noticed. --factor should not be below this difference, which the output states.
+Times are divided by those of the calibration benchmarks of the same run. The division makes runs on two machines, or on one
+machine on two days, comparable. There are two calibrations, for memory and for arithmetic. A benchmark may depend on memory or on
+arithmetic, so it counts as slower only if it is slower relative to both calibrations. If the calibrations of two machines differ
+by a factor, a loss below this factor is not noticed. The output states this factor, and --factor should not be smaller.
 
 Exit status: 0, no benchmark is slower; 1, one is slower, is missing or ended early; 2, a file has the wrong content."""
 
@@ -23,7 +23,7 @@ class Unusable(Exception):
 
 
 def read(path):
-    """Returns times in milliseconds by name, and the failures. It reads a baseline or Google Benchmark's own JSON."""
+    """Returns times in milliseconds by name, and the failures. The file is a baseline, or JSON of Google Benchmark."""
     try:
         with open(path, encoding="utf-8") as file:
             data = json.load(file)
@@ -43,8 +43,8 @@ def read(path):
 
 
 def compare(base, now):
-    """For each benchmark, returns by how many times it is slower now, by the more lenient calibration. Also returns the
-    calibrations' own factors."""
+    """Returns by how many times each benchmark is slower now. The more lenient calibration counts. Also returns the factors of
+    the calibrations themselves."""
     calibrations = sorted(name for name in base if name.startswith(CALIBRATION) and name in now)
     if not calibrations:
         raise Unusable("the two files have no calibration in common")

@@ -13,9 +13,9 @@ def without_suffix(name):
 
 
 def least_times(runs):
-    """Returns two results: the "benchmarks" of a file by name, and the messages of the runs that ended early. Of repeated runs,
-    the run with the least time counts. "ms" is the counter least_ms, the shortest single call. Without this counter, "ms" is the
-    time per iteration."""
+    """Returns the "benchmarks" of a file by name, and the messages of the runs that ended early. If a benchmark was repeated, the
+    run with the least time counts. "ms" is the counter least_ms, the shortest single call. Without this counter, "ms" is the time
+    per iteration."""
     best, failed = {}, {}
     for run in runs:
         if run.get("run_type", "iteration") != "iteration":

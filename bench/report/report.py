@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes the numbers of the JSON in out/bench into docs/performance.md, and makes out/bench/details.md.
 
-This script computes every number of the pages from the JSON. A ratio is always between two times of the same run."""
+This script computes every number of the pages from the JSON. Both times of a ratio always come from one run."""
 
 import argparse
 import json
@@ -75,7 +75,7 @@ def search(data, name, valve, size, threads):
 
 
 def paper_rows(data, valve):
-    """Returns every row of the paper's table, with this run's searches of that size and number of threads."""
+    """Returns every row of the paper's table, with this run's searches of the row's size and number of threads."""
     for block, size in zip(data.paper[valve], SIZES):
         for threads, exhaustive, neighbor in block["rows"]:
             runs = {
@@ -99,7 +99,7 @@ def ms_of(name, run):
 
 
 def table_of_paper(data, valve):
-    """Returns the table for at most as many threads as there are processors. details.md has the speed-ups of more threads."""
+    """Returns the table for at most as many threads as there are processors. details.md has the speed-ups with more threads."""
     rows = []
     for nodes, threads, exhaustive, neighbor, runs in paper_rows(data, valve):
         if threads_text(data, threads) != str(threads):
@@ -168,7 +168,7 @@ def table_of_other_searches(data):
 
 
 def queried_values(data, valve):
-    """Returns the fraction of nodes that the plain neighbour search queries, by size."""
+    """Returns, by size, the fraction of nodes that the plain neighbour search queries."""
     rows, sample = [], None
     for nodes, threads, exhaustive, neighbor, runs in paper_rows(data, valve):
         if threads != 1:
@@ -281,7 +281,7 @@ def table_of_queries(data):
 
 
 def pair_ns(data):
-    """Returns the reference's time for one node and one triangle, by the plain loop."""
+    """Returns the time of the reference for one node and one triangle, in the plain loop."""
     counts = data.marking["counts"]
     least = data.marking["times"]["the paper's search, every triangle, 1 thread"]["least_ms"]
     return 1e6 * least / counts["asked_by_paper"] / counts["triangles"]
@@ -313,8 +313,8 @@ def stage_shares(case):
 
 
 def floor_values(data):
-    """Returns the time that a step would take if it met the missed bars, and the times of the step's parts by the
-    roofline's fractions."""
+    """Returns the times at which a step would meet the bars that it misses. Also returns the times of the step's parts, by the
+    fractions of the roofline."""
     least = {name: t["least_ms"] for name, t in data.marking["times"].items()}
     step, fine = least.get("step, 1 thread"), least.get("step, 2 threads, fine triangles")
     queries, cgal = least.get("the paper's search, point queries, 1 thread"), least.get("CGAL, every node, 1 thread")
@@ -332,7 +332,7 @@ def floor_values(data):
 
 
 def design_values(data):
-    """Returns the gains of design changes, which were measured once and are kept in design_steps.json."""
+    """Returns the gains of design changes. The gains were measured once, and are stored in design_steps.json."""
     if not data.marking:
         return None
     design = data.design
@@ -406,14 +406,14 @@ STEP_STAGES = (
 
 
 def peak_ns(peak, stage, unit, case):
-    """Returns the least time that the machine needs for a stage: the time for its operations or for its bytes, whichever is
-    longer."""
+    """Returns the least time that the machine needs for a stage. The operations need one time and the transfer of the bytes
+    another, and the longer time counts."""
     by_memory = case["bytes"][stage] / peak["bytes"]
     return max(by_memory, case["operations"][stage] / peak[unit]) if unit else by_memory
 
 
 def table_of_stages(data, case):
-    """Returns a row for each stage, per marked node, and a row for their sum."""
+    """Returns a row for each stage, and a row for their sum. The numbers are per marked node."""
     peak, marked, rows, sums = data.roofline["peak"], case["marked"], [], [0.0] * 4
     for stage, label, unit in STEP_STAGES:
         values = [
@@ -558,7 +558,7 @@ def plot_searches(data, path):
 
 
 def plot_threads(data, path):
-    """Plots the speed-up over one thread for a million nodes. Runs with more threads than processors are left out, because these
+    """Plots the speed-up over one thread for a million nodes. Runs with more threads than processors are omitted, because their
     threads take turns. Returns False if the data is missing."""
     if not data.searches or not data.machine:
         return False
@@ -617,7 +617,7 @@ PLOTS = (
 
 
 def images_for_page(data, folder):
-    """Draws the plots whose data exists. Returns the markdown of each by its name."""
+    """Draws the plots whose data exists. Returns the markdown of each plot by its name."""
     return {
         name: f"![{title}](performance-{name}.png)\n"
         for name, plot, title in PLOTS
@@ -626,8 +626,8 @@ def images_for_page(data, folder):
 
 
 def measured_text(data, name):
-    """Returns when and where a part was measured, in HTML. It includes the machine, because the page of figures does not describe
-    the machine."""
+    """Returns when and where a part was measured, in HTML. The text includes the machine, because the page of figures does not
+    describe it."""
     run = data.run(name)
     if not run:
         return ""
@@ -653,7 +653,7 @@ def plot_left_out(data, name, title):
 
 
 def write_figures(data, folder):
-    """Writes the plots for the page of figures, and plots.json, which has the texts and names the missing plots with
+    """Writes the plots for the page of figures. Also writes plots.json, which has the texts and names the missing plots with
     reasons."""
     os.makedirs(folder, exist_ok=True)
     drawn = {name: title for name, plot, title in PLOTS if plot(data, os.path.join(folder, name + ".png"))}
@@ -698,7 +698,7 @@ def write_figures(data, folder):
 
 
 def values_of_page(data, plots):
-    """Returns every value by its name in the templates. A value that was not measured is empty."""
+    """Returns every value by its name in the templates. A missing measurement gives an empty value."""
     return {
         "machine": data.machine and {"machine_table": machine_table(data)},
         "searches": searches_values(data, plots),
@@ -712,7 +712,7 @@ def values_of_page(data, plots):
     }
 
 
-# For each PART of ./run bench: the heading of the page's section, and the part of details.template.md to print.
+# Lists two things for each PART of ./run bench: the heading of the page's section, and the part of details.template.md to print.
 PRINTED = {
     "search": ("## The paper's tables", "searches"), "marking": ("## A time step", "marking"), "roofline": (None, "roofline"),
     "peers": ("## Others", None),
@@ -720,7 +720,7 @@ PRINTED = {
 
 
 def section_of(path, heading):
-    """Returns the section of a page with this heading, as its readers see it."""
+    """Returns the section of a page with this heading, as readers see it."""
     with open(path, encoding="utf-8") as file:
         after = without_marks(file.read()).partition(heading + "\n")[2]
     return heading + "\n" + after.partition("\n## ")[0]

@@ -61,7 +61,7 @@ def _results(runs):
 
 
 def _findings(data):
-    """Returns sentences that interpret the numbers."""
+    """Returns sentences about the numbers."""
     used = [run[where]["max"] / run["tolerance"] for run in _runs(data, "triangulation")
             for where in ("on_surface", "off_surface")]
     sampled = [run["on_surface"]["max"] / run["tolerance"] for run in _runs(data, "sampling")]

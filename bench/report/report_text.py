@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Markdown and plots for report.py."""
+"""Makes markdown and plots for report.py."""
 
 import re
 import textwrap
 
-# The colours of lines and bars: the colours of the program's pictures (src/riis_vtk/picture/drawing.hpp), and a dark one. They
-# are distinct for all kinds of colour vision.
+# The colours of lines and bars are those of the program's pictures (src/riis_vtk/picture/drawing.hpp), and a dark colour. These
+# colours are distinct for all kinds of colour vision.
 COLOURS = ("#0072b2", "#e69f00", "#009e73", "#cc79a7", "#d55e00", "#56b4e9", "#2d2d2d")
 
 _TAG = re.compile(r"^[ \t]*\{\{([#^/])(\w+)\}\}[ \t]*\n|\{\{([#^/]?)(\w+)\}\}", re.MULTILINE)
@@ -37,7 +37,7 @@ class Template:
         self._parts = stack[0][1] + [text[end:]]
 
     def fill(self, values, only=None):
-        """Returns the whole text, or only the parts with the name `only`, with prose wrapped."""
+        """Returns the text with wrapped prose: the whole text, or only the parts with the name `only`."""
         parts = [part for part in self._parts if only is None or part[1:2] == (only,)]
         return wrapped(_filled(parts, [values]))
 
@@ -73,9 +73,9 @@ _PLACE = re.compile(r"<!--=([\w.]+)-->(\n?)(.*?)<!--/-->", re.DOTALL)
 def fill_in_place(path, values, to=None):
     """Writes the values between their marks in a page, or in a copy of the page.
 
-    The mark `<!--=a.b-->` begins the place of values["a"]["b"], and `<!--/-->` ends it. A mark on its own line begins a
-    block such as a table. No other mark begins a line, because Markdown would take such a line for HTML. A place without a
-    value, or with the value None, keeps its text. Returns the names of these places."""
+    The mark `<!--=a.b-->` begins the place of values["a"]["b"], and `<!--/-->` ends it. A mark alone on a line begins a block
+    such as a table. Other marks must not begin a line, because Markdown would take such a line for HTML. A place without a value,
+    or with the value None, keeps its text. Returns the names of these places."""
     left = []
 
     def put(found):
@@ -96,13 +96,13 @@ def fill_in_place(path, values, to=None):
 
 
 def without_marks(text):
-    """Returns a page as its readers see it."""
+    """Returns a page as readers see it."""
     return re.sub(r"^<!--(=[\w.]+|/)-->\n\n|<!--(=[\w.]+|/)-->", "", text, flags=re.MULTILINE)
 
 
 def wrapped(text):
-    """Wraps paragraphs and list items as on all pages, leaves tables and similar blocks unchanged, and puts one empty line
-    between blocks."""
+    """Wraps paragraphs and list items as on all pages, and puts one empty line between blocks. Tables and similar blocks stay
+    unchanged."""
     blocks = [block.strip("\n") for block in re.split(r"\n(?:[ \t]*\n)+", text)]
     return (
         "\n\n".join(block if block.startswith(("|", "#", "!", "<!--")) else _wrapped_block(block) for block in blocks if block)
@@ -116,7 +116,7 @@ def _wrapped_block(block):
 
 
 def _wrapped_item(item, mark):
-    # No line begins with a per cent sign. Code in backticks and links are broken only at spaces.
+    # A line must not begin with a per cent sign. Code in backticks and links are broken only at spaces.
     text = " ".join(item[len(mark) :].split()).replace(" %", "~%")
     indents = {"initial_indent": mark, "subsequent_indent": " " * len(mark)}
     return textwrap.fill(text, width=100, break_long_words=False, break_on_hyphens=False, **indents).replace("~%", " %")
@@ -148,7 +148,7 @@ def table(heads, rows):
 
 
 class figure:
-    """Makes plots with logarithmic axes. If matplotlib is missing, it makes no plots, and prints a line that says so."""
+    """Makes plots with logarithmic axes. If matplotlib is missing, the class makes no plots, and prints a line that says so."""
 
     @staticmethod
     def _pyplot():
@@ -170,15 +170,15 @@ class figure:
 
     @staticmethod
     def _save(pyplot, plot, path):
-        # The program's version is left out, so that the same data gives the same bytes.
+        # The version of the program is omitted, so that equal data gives equal bytes.
         plot.savefig(path, dpi=140, metadata={"Software": None})
         pyplot.close(plot)
         return True
 
     @staticmethod
     def lines(panels, across, up, path, ticks=None):
-        """Draws lines, with one key below all panels. panels: titles and lines. A line is a label, points and a style. It has the
-        same colour and marker in all panels. ticks: values on the axes, instead of powers of ten."""
+        """Draws lines, with one key below all panels. panels: titles and lines. A line is a label, points and a style. A label
+        has one colour and marker in all panels. ticks: values on the axes, instead of powers of ten."""
         pyplot = figure._pyplot()
         if not pyplot:
             return False

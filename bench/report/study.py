@@ -19,12 +19,12 @@ PAPER_THREADS = (1, 2, 4, 8, 12)
 SEARCHES = "exhaustive|clusters|neighbor_warm|neighbor_cold|paper|all_distances|paper_exhaustive|paper_neighbor"
 ONCE = "^search_(every_triangle|groups|adjacency)"
 STAGES = "^(calibration|pipeline|distance_query|surface_update|closest_point|mark_exhaustive|brute_force)"
-# Baselines keep these benchmarks. Each takes at most about a second, on the smallest mesh.
+# Baselines keep these benchmarks. Each benchmark takes at most about a second, on the smallest mesh.
 GUARDED = (
     r"^(calibration|pipeline|surface_update|closest_point/|mark_exhaustive|distance_query/.*/(method:0/|method:1/tolerance:50/))"
     r"|^search_(exhaustive|clusters|neighbor_warm|neighbor_cold|all_distances)/[01]/110/[12]/"
 )
-# Files from other programs, and files that are always written again, are not removed.
+# The results that a new study removes first. Other programs wrote the other files, or the study always writes them again.
 OWN_JSON = ("searches", "stages", "marking", "roofline", "accuracy", "peers", "peers_python")
 
 
@@ -151,7 +151,7 @@ class Study:
         self.run("accuracy", [self.program("riis_accuracy"), "OUT", "20000" if full else "2000"])
 
     def peers(self):
-        # Earlier results of the Python packages belong to an earlier run of the peers, so they are removed.
+        # Old results of the Python packages are removed, because they belong to an earlier run of the other packages.
         if os.path.exists(self.path("peers_python")):
             os.remove(self.path("peers_python"))
         os.makedirs(os.path.join(self.out, "peers"), exist_ok=True)
@@ -172,8 +172,8 @@ class Study:
         self.run("peers_python", [python, os.path.join(here, "..", "peers", "peers.py"), os.path.join(self.out, "peers"), "OUT"])
 
     def missing_for_figures(self):
-        """Measures the costs that the page of figures plots, if out/bench lacks them. Existing results are kept, since they
-        may come from a longer run."""
+        """Measures the costs that the page of figures plots, if out/bench lacks them. Existing results are kept, because they may
+        come from a longer run."""
         for name, measure in (("searches", lambda: self.searches(False)), ("peers", self.peers)):
             if os.path.exists(self.path(name)):
                 print(f"==> {self.path(name)} is there and is not measured again", flush=True)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Marks a mesh that never exists as a whole: a box of hexahedra in pieces. Each piece is made, written, read by the program's own
+// Marks a mesh that never exists as a whole: a box of hexahedra in pieces. Each piece is made, written, read by the program's
 // loop, marked, written, checked and deleted. Prints the peak memory and the times. docs/scale.md has the results.
 //   riis_bench_scale [PIECES] [NODES_PER_SIDE] [mark|leaks]
 #include <riis/riis_vtk.h>
@@ -39,7 +39,7 @@ double peak_megabytes() {
   return static_cast<double>(usage.ru_maxrss) / 1000 * 1.024;
 }
 
-// The processor time of this process. On a busy machine the wall time is longer.
+// The processor time of this process. The wall time would be longer on a busy machine.
 double processor_seconds() {
   struct rusage usage {};
   getrusage(RUSAGE_SELF, &usage);
@@ -58,7 +58,7 @@ std::array<std::int64_t, 3> shape_of(std::int64_t n_pieces) {
   return best;
 }
 
-// A writer of files that are read through offsets.
+// Writes files whose arrays are read through offsets.
 class File {
  public:
   File(const std::string &path, const char *mode) : path_(path), file_(std::fopen(path.c_str(), mode)) {
@@ -92,7 +92,7 @@ class File {
   std::FILE *file_;
 };
 
-// The pieces are boxes of side^3 nodes, and share their outer nodes.
+// The pieces are boxes of side^3 nodes. Neighbours share their outer nodes.
 class GridPieces : public MeshPieces {
  public:
   GridPieces(const MarkOptions &options, const std::string &folder, std::int64_t n_pieces, std::int64_t side)
@@ -109,7 +109,7 @@ class GridPieces : public MeshPieces {
   std::int64_t n_cells() const { return shape_[0] * shape_[1] * shape_[2] * (side_ - 1) * (side_ - 1) * (side_ - 1); }
   const std::array<std::int64_t, 3> &shape() const { return shape_; }
   double spacing() const { return spacing_; }
-  // Returns z of a plane of nodes, counted from the lowest.
+  // Returns the z of a plane of nodes. Planes are counted from the lowest.
   double z_of(std::int64_t plane) const { return coordinate(2, plane); }
 
   MeshFile read(std::int64_t piece) const override {
@@ -125,7 +125,7 @@ class GridPieces : public MeshPieces {
     return MeshFile(mesh);
   }
 
-  // Counts the marks in the written file. Each node counts in the first piece that has it. Then deletes the file.
+  // Counts the marks in the written file, and then deletes the file. Each node counts in the first piece that has it.
   void finished(std::int64_t piece) const override {
     const auto begin = Clock::now();
     const std::string digits = std::to_string(piece), zeros(4 - std::min<std::size_t>(4, digits.size()), '0');
@@ -276,7 +276,7 @@ int run(int argc, char **argv) {
     const riis::Surface surface(made);
     const riis_surface_info info = info_of(made);
     pieces.half_thickness = info.half_thickness;
-    // Two points on the axis in the box, one below and one above the valve.
+    // Two points on the axis, inside the box: one below and one above the valve.
     const double low = pieces.z_of(0), high = pieces.z_of(pieces.shape()[2] * (side - 1));
     if (with_leaks)
       all.options.check_leaks = all.valves[0].options.check_leaks =

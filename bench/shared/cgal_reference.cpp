@@ -37,8 +37,8 @@ double distance_sq(const Point &p, const CGAL::Bbox_3 &box) {
   return x * x + y * y + z * z;
 }
 
-// Tells CGAL's traversal which boxes to enter, and what to do with a triangle. CGAL's own class for closest points does the
-// same, but this class starts with a limit on the distance.
+// Tells CGAL's traversal which boxes to enter, and what to do with a triangle. Unlike CGAL's class for closest points, this class
+// starts with a limit on the distance.
 struct WithinLimit {
   double radius_sq;
   const Triangle *nearest = nullptr;
@@ -78,7 +78,7 @@ void CgalQuery::distances(std::int64_t n_nodes, const double *xyz, double limit,
   const CGAL::Bbox_3 box = tree.bbox();
   const bool is_unlimited = std::isinf(limit);
   const Triangle *last = nullptr;  // the last node's triangle, if there is no limit
-  // Threads take chunks, since nodes near the valve take longer than others.
+  // Threads take chunks, because nodes near the valve take longer than other nodes.
 #pragma omp parallel for num_threads(n_threads) firstprivate(last) schedule(dynamic, 4096)
   for (std::int64_t i = 0; i < n_nodes; ++i) {
     const Point p(xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]);

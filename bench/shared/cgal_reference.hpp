@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Declares a competitor of the library's marking, built if CGAL was found. The competitor uses CGAL's tree of boxes around
-// triangles (AABB_tree).
+// Declares a competitor of the library's marking, which is built if CGAL was found. The competitor uses CGAL's tree of boxes
+// around triangles (AABB_tree).
 #pragma once
 
 #include <cstdint>
@@ -25,8 +25,8 @@ class CgalQuery {
  public:
   explicit CgalQuery(const Triangles &triangles);
   ~CgalQuery();
-  // distance: (n_nodes). xyz: (3, n_nodes). With an infinite limit, the search for a node begins with its distance from the last
-  // node's triangle.
+  // distance: (n_nodes). xyz: (3, n_nodes). If the limit is infinite, the search for a node starts with the node's distance from
+  // the triangle that the last search found.
   void distances(std::int64_t n_nodes, const double *xyz, double limit, int n_threads, double *distance) const;
 
  private:

@@ -15,9 +15,9 @@ double milliseconds_of(const Contest::Work &work) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-// Waits for at most a second until only the calling thread runs. After a loop, OpenMP's threads spin for some milliseconds,
-// and would take processors from the next contender. The calling thread stays awake: if it slept, Linux would often wake a
-// further thread of the next loop on the calling thread's own processor.
+// Waits for at most a second until only the calling thread runs. After a loop, OpenMP's threads spin for some milliseconds, and
+// would take processors from the next contender. The calling thread does not sleep. Otherwise Linux would often wake a thread of
+// the next loop on the calling thread's processor.
 void wait_for_other_threads() {
   using std::chrono::steady_clock;
   constexpr double share = 0.1;  // the share of a processor that the other threads may use
@@ -55,7 +55,7 @@ void Contest::run() {
   }
   for (int turn = 0; turn < most; ++turn)
     for (const Contender &contender : contenders_) {
-      // If a contender has fewer turns, they are spread over the whole run.
+      // If a contender has few turns, its turns are spread over the whole run.
       if (turn * contender.n_turns / most == (turn + 1) * contender.n_turns / most) continue;
       wait_for_other_threads();
       contender.before();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Times several pieces of work in turns, so that other work on the machine slows all of them alike. Ratios of these times must
-// meet bars. The output is tables in markdown, and JSON.
+// Times several pieces of work in turns, so that other work on the machine slows them equally. Bars are required ratios of these
+// times. The output is JSON, and tables in markdown.
 #pragma once
 
 #include <functional>
@@ -15,13 +15,13 @@ class Contest {
  public:
   using Work = std::function<void()>;
 
-  // before() prepares a turn and is not timed. There must be at least 5 turns, because a ratio is the median of five parts of the
+  // before() prepares a turn and is not timed. At least 5 turns are needed, because a ratio is the median of five parts of the
   // run.
   void add(
       const std::string &name, int n_turns, Work work, Work before = [] {});
-  // Records a contender that cannot take part here. Its bars are left out, and the reason is printed.
+  // Records a contender that cannot take part here. The contender's bars are left out, and the reason is printed.
   void leave_out(const std::string &name, const std::string &why) { left_out_[name] = why; }
-  // Runs all contenders that were added since the last run. Before the first turn, each works once untimed.
+  // Runs all contenders that were added since the last run. Before the first turn, each contender works once without timing.
   void run();
 
   double least(const std::string &name) const;
@@ -29,7 +29,7 @@ class Contest {
   double ratio(const std::string &above, const std::string &below) const;
   // Returns the reason why a contender was left out, or "" if it took part.
   std::string why_left_out(const std::string &name) const;
-  // Returns the reasons of all contenders that were left out, by name.
+  // Returns, by name, the reasons why contenders were left out.
   const std::map<std::string, std::string> &left_out() const { return left_out_; }
 
   void print() const;
@@ -48,7 +48,7 @@ class Contest {
 
 enum class Wanted { at_least, at_most };
 
-// A bar: the required ratio of two contenders' times.
+// A bar is the required ratio of two contenders' times.
 struct RatioBar {
   const char *name, *above, *below;
   Wanted wanted;

@@ -8,7 +8,7 @@
 namespace bench {
 
 CylinderNodes::CylinderNodes(const Cylinder &cylinder, std::int64_t about_n_nodes) {
-  // Edges along the axis are as long as the average edge across the axis.
+  // Along the axis, edges are as long as the average edge across the axis.
   const double width = std::sqrt(M_PI) * cylinder.radius, length = cylinder.upper - cylinder.lower;
   const double edge = std::cbrt(width * width * length / static_cast<double>(about_n_nodes));
   n_across_ = std::lround(width / edge) + 1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes meshes like the paper's: cylinders of tetrahedra around a valve, with any number of nodes.
+// Makes meshes like those of the paper: cylinders of tetrahedra around a valve, with any number of nodes.
 #pragma once
 
 #include <cstdint>
@@ -14,13 +14,13 @@ struct Cylinder {
   double centre_y;
 };
 
-// The cylinders of the aortic and of the mitral valve. The first is somewhat larger than the demo's cylinder, and the second
-// equals the demo's cylinder. About 4 % of the nodes are marked. The paper's ratio of its two searches, 18 to 26, suggests
-// this fraction.
+// The cylinders of the aortic and of the mitral valve. The aortic cylinder is slightly larger than the demo's cylinder, and the
+// mitral cylinder equals the demo's. About 4 % of the nodes are marked. The times of the paper's two searches have a ratio of 18
+// to 26, which suggests this fraction of marked nodes.
 inline constexpr Cylinder cylinders[] = {{1.8, -1.6, 0.9, 0}, {2.4, -1.35, 2.1, 0.3}};
 
-// A wider cylinder around the aortic valve. About 3 % of the nodes are within 0.1 cm of the valve. The paper's ratio of its
-// two searches suggests the same fraction for its meshes.
+// A wider cylinder around the aortic valve. About 3 % of the nodes are within 0.1 cm of the valve. The ratio of the times of the
+// paper's two searches suggests 3 % for the paper's meshes.
 inline constexpr Cylinder wide_cylinder{2.0, -2.1, 1.3, 0};
 
 // A structured grid, deformed into a cylinder.
@@ -40,7 +40,7 @@ class CylinderNodes {
   std::vector<double> xyz_;
 };
 
-// Makes a mesh of the library from these nodes. The mesh borrows the nodes' coordinates.
+// Makes a mesh of the library from these nodes, and borrows their coordinates.
 Mesh mesh_over(const CylinderNodes &nodes);
 
 // A mesh with the adjacency from its tetrahedra.
@@ -60,7 +60,7 @@ class CylinderMesh : public CylinderNodes {
 
 Adjacency adjacency_of(std::int64_t n_nodes, const std::vector<std::int32_t> &tetrahedra, int n_threads);
 
-// Returns the number of nodes: argv[at] in thousands, or a million without this argument. If the number of thousands is below
+// Returns the number of nodes: argv[at] in thousands, or a million without this argument. If the number is below
 // fewest_thousands, ends the program with status 2 and a message.
 std::int64_t n_nodes_given(int argc, char **argv, int at, std::int64_t fewest_thousands);
 

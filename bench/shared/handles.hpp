@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Gives the library's handles destructors, for benchmarks. An error ends the program.
+// Gives destructors to the library's handles, for benchmarks. An error ends the program.
 #pragma once
 
 #include <riis/riis.h>
@@ -98,7 +98,7 @@ inline riis_points points_of(std::int64_t n, const double *xyz) {
   return points;
 }
 
-// Writes the distances of marked nodes, and far_distance for other nodes.
+// Writes the distances of marked nodes. Other nodes get far_distance.
 inline void get_distances(const riis_marks *marks, double far_distance, std::vector<double> &distance) {
   riis_dense_arrays arrays;
   check(riis_dense_arrays_init(&arrays, sizeof arrays));

@@ -9,7 +9,7 @@
 
 namespace bench {
 
-// Returns the bytes that malloc has allocated and that are not freed yet, in all arenas and in separate pages.
+// Returns the bytes that malloc has allocated and not yet freed, in all arenas and in separate pages.
 inline double allocated() {
   const struct mallinfo2 info = mallinfo2();
   return static_cast<double>(info.uordblks) + static_cast<double>(info.hblkhd);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rule by which svMultiPhysics marks: a node's distance is the distance to the nearest middle of a triangle.
+// Marks by the rule of svMultiPhysics: a node's distance is the distance to the nearest middle of a triangle.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +22,7 @@ inline std::vector<double> middles_of(const Triangles &triangles) {
   return middles;
 }
 
-// For each node, measures the distances to all middles, as svMultiPhysics does. distance: (n_nodes); xyz: (3, n_nodes).
+// Measures the distance of each node to all middles, as svMultiPhysics does. distance: (n_nodes); xyz: (3, n_nodes).
 inline void distances_to_middles(const std::vector<double> &middles, std::int64_t n_nodes, const double *xyz,
                                  double *distance) {
   const double *const end = middles.data() + middles.size();

@@ -23,8 +23,8 @@ struct Point {
 Point operator-(Point a, Point b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 double dot(Point a, Point b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-// Returns the squared distance of a point from a triangle, by the region of the triangle's plane into which the point projects
-// (C. Ericson, Real-Time Collision Detection, 5.1.5).
+// Returns the squared distance from a point to a triangle. The region of the triangle's plane into which the point projects gives
+// the formula (Christer Ericson, Real-Time Collision Detection, 5.1.5).
 double distance_sq(Point p, const double *corners) {
   const Point a{corners[0], corners[1], corners[2]}, b{corners[3], corners[4], corners[5]},
       c{corners[6], corners[7], corners[8]};
@@ -82,7 +82,7 @@ EveryTriangle::EveryTriangle(const Triangles &triangles) {
   }
 }
 
-// Decides by the same regions of the triangle's plane as distance_sq does.
+// Uses the regions of distance_sq.
 double EveryTriangle::operator()(const double *p, double) const {
   double least = std::numeric_limits<double>::infinity();
   for (const Prepared &t : triangles_) {

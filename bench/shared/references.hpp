@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Declares competitors of the library's marking, written plainly and compiled with the same flags. They are the paper's
-// neighbour search, with a method for distances of choice, and a pass over the coordinates.
+// Declares plain competitors of the library's marking, compiled with its flags. The competitors are the paper's neighbour search,
+// with a choice of methods for distances, and a pass over the coordinates.
 #pragma once
 
 #include <riis/riis.h>
@@ -20,8 +20,8 @@ struct Triangles {
   std::int64_t n() const { return static_cast<std::int64_t>(leaflet_id.size()); }
 };
 
-// Computes the least distance to any triangle by measuring all of them (paper, 4.1). A triangle's edges and their products do not
-// depend on the point, so they are computed once.
+// Computes the least distance to any triangle by measuring all triangles (paper, 4.1). The edges of a triangle and their products
+// do not depend on the point, so they are computed once.
 class EveryTriangle {
  public:
   explicit EveryTriangle(const Triangles &triangles);
@@ -37,7 +37,7 @@ class EveryTriangle {
 };
 
 // Computes the least distance to any triangle by an Embree point query with a radius. Each triangle is a primitive, and distances
-// are in double precision. If no triangle is within the limit, the result is above the limit.
+// are in double precision. If all triangles are beyond the limit, the result is above the limit.
 class PointQuery {
  public:
   explicit PointQuery(const Triangles &triangles);
@@ -49,14 +49,14 @@ class PointQuery {
   std::unique_ptr<Implementation> implementation_;
 };
 
-// The paper's neighbour search (4.2.2). It goes breadth first through marked nodes. For every leaflet it begins at the node
-// nearest to the leaflet. It takes its queue level by level, so that threads can share each level.
+// The paper's neighbour search (4.2.2). The search goes breadth first through marked nodes. For every leaflet the search begins
+// at the node that is nearest to the leaflet. The queue is processed level by level, so that threads can share a level.
 class PaperSearch {
  public:
   PaperSearch(std::int64_t n_nodes, const double *xyz, const riis_csr &rows)
       : n_nodes_(n_nodes), xyz_(xyz), rows_(rows) {}
 
-  // Finds the nodes where the first search begins. Later searches begin at the nodes of the last marking.
+  // Finds the nodes where the first search begins. A later search begins at the nodes of the last marking.
   void begin_at(const Triangles &triangles);
   // Returns the number of marked nodes. n_asked() returns the number of queried nodes.
   template <class Distance>
@@ -72,7 +72,7 @@ class PaperSearch {
   std::int64_t n_asked_ = 0;
 };
 
-// Returns the least squared distance of a node from the origin. The loop reads every coordinate once.
+// Returns the least squared distance from the origin to a node. The loop reads every coordinate once.
 double pass_over_coordinates(std::int64_t n_nodes, const double *xyz, int n_threads);
 
 }  // namespace bench

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Times a call by its shortest run, because other work on the machine only adds to a time.
+// Times a call by its shortest run, because other work on the machine only makes runs longer.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 namespace bench {
 
-// Returns the seconds of the shortest call. Makes at least five calls, and continues for at least a second.
+// Returns the seconds of the shortest call. Makes at least five calls, which together last at least a second.
 inline double shortest(
     const std::function<void()> &call, const std::function<void()> &before = [] {}) {
   using Clock = std::chrono::steady_clock;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A solver's time step: the valve moves, its surface is updated, nodes are marked, and the list of marked nodes is read.
+// Makes a solver's time step: the valve moves, its surface is updated, nodes are marked, and the list of marked nodes is read.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ struct StepOptions {
   double tolerance = 0.05;
   int n_threads = 1;
   std::int32_t instructions = RIIS_INSTRUCTIONS_AUTO;
-  // With a fixed triangulation, the steps of the aortic valve change its opening instead of its cusps' angles.
+  // With a fixed triangulation, the aortic valve changes its opening from step to step. Otherwise its cusps' angles change.
   std::int32_t triangulation = RIIS_TRIANGULATION_ADAPTED;
 };
 
@@ -41,7 +41,7 @@ class TimeSteps {
   }
 
   // Moves the valve to a position from 0 to 1. The valve opens, or the free edges of the aortic valve's cusps turn by 30 degrees.
-  // A fixed triangulation allows all openings, but no other change of the valve.
+  // A fixed triangulation allows only the opening to change.
   void move_to(double position) {
     if (opens_)
       check(riis_valve_set_scalar(valve_.get(), "opening", position));

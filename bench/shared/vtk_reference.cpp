@@ -18,7 +18,7 @@
 namespace bench {
 namespace {
 
-// Corners that triangles share become one point, because the signed distance uses neighbouring triangles.
+// Corners that triangles share become one point, because VTK's signed distance uses neighbouring triangles.
 void fill(vtkPolyData *mesh, const Triangles &triangles) {
   const vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();

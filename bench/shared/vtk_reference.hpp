@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Declares competitors of the library's marking, built if VTK was found. They are VTK's tree of cells with a bounded
-// query (vtkStaticCellLocator), its signed distance (vtkImplicitPolyDataDistance), which has no bound, and its bins of
-// points (vtkStaticPointLocator). They run on one thread.
+// Declares competitors of the library's marking, which are built if VTK was found. vtkStaticCellLocator is VTK's tree of cells
+// with a bounded query. vtkImplicitPolyDataDistance is VTK's signed distance, which has no bound. vtkStaticPointLocator has bins
+// of points. All three run on one thread.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ class VtkLocator {
  public:
   explicit VtkLocator(const Triangles &triangles);
   ~VtkLocator();
-  // distance: (n_nodes), infinity if no triangle is within the limit. xyz: (3, n_nodes).
+  // distance: (n_nodes), with infinity if all triangles are beyond the limit. xyz: (3, n_nodes).
   void distances(std::int64_t n_nodes, const double *xyz, double limit, double *distance) const;
 
  private:
@@ -42,7 +42,7 @@ class VtkPoints {
   // points: (3, n)
   explicit VtkPoints(const std::vector<double> &points);
   ~VtkPoints();
-  // distance: (n_nodes), infinity if no point is within the limit. xyz: (3, n_nodes).
+  // distance: (n_nodes), with infinity if all points are beyond the limit. xyz: (3, n_nodes).
   void distances(std::int64_t n_nodes, const double *xyz, double limit, double *distance) const;
 
  private:

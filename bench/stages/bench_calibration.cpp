@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Work that does not use the library. compare.py divides every other time by these times, so that runs on other machines, or on
-// the same machine on another day, can be compared.
+// Measures work that does not use the library. compare.py divides every other time by these times. The division makes runs on
+// different machines or days comparable.
 #include <benchmark/benchmark.h>
 
 #include <cstddef>
@@ -19,7 +19,7 @@ void calibration_coordinates(benchmark::State &state) {
 }
 BENCHMARK(calibration_coordinates)->Unit(benchmark::kMillisecond);
 
-// Measures a core: products and sums in double precision, each of which needs the previous result.
+// Measures a core. Each product or sum in double precision needs the result of the operation before.
 void calibration_products(benchmark::State &state) {
   constexpr int n_products = 1000000;
   double factor = 0.9999999, summand = 1e-7;

@@ -29,8 +29,8 @@ Surface surface_of(const char *kind, std::int32_t measure, double tolerance) {
   return make_surface(make_valve(kind).get(), &options);
 }
 
-// The points are the same in every run. Reference distances are measured to fine triangles, which lie within 1e-3 half
-// thicknesses of the smooth surface.
+// The points are the same in every run. Reference distances are measured to fine triangles. The fine triangles lie within 1e-3
+// half thicknesses of the smooth surface.
 struct Points {
   std::vector<double> xyz, distances;
 
@@ -53,7 +53,7 @@ struct Points {
   }
 };
 
-// Arguments: RIIS_MEASURE_*, the tolerance in tenths of a per cent, and 1 if the points are on the surface.
+// The arguments are RIIS_MEASURE_*, the tolerance in tenths of a per cent, and 1 if the points are on the surface.
 void distance_query(benchmark::State &state, const char *kind) {
   const auto method = static_cast<std::int32_t>(state.range(0));
   const Surface surface = surface_of(kind, method, 1e-3 * static_cast<double>(state.range(1)));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Times the stages from parameters to a scene (paper, 3 and 4.1), on one thread. The valves are the aortic valve and the
-// half-open mitral valve, at the default tolerance. Every stage starts from the results of the previous one. riis_surface_create
-// runs all stages. A stage is faster in riis_surface_create if it reuses the memory of the last surface.
+// half-open mitral valve, at the default tolerance. Every stage starts from the results of the stage before. riis_surface_create
+// runs all stages. Inside riis_surface_create, a stage is faster if it reuses the memory of the last surface.
 #include <benchmark/benchmark.h>
 
 #include "api/handles.hpp"
@@ -37,7 +37,7 @@ void pipeline_patches(benchmark::State &state, const char *kind) {
   state.counters["curves"] = static_cast<double>(valve->valve.make_patches().curves.size());
 }
 
-// Flattens every curve once with the whole tolerance. Surfaces need finer curves.
+// Flattens every curve once, with the whole tolerance. Surfaces need finer polylines.
 void pipeline_curves(benchmark::State &state, const char *kind) {
   const riis::PatchSet patches = moved_valve(kind)->valve.make_patches();
   std::size_t n_points = 0;
@@ -55,7 +55,7 @@ void pipeline_quads(benchmark::State &state, const char *kind) {
   for (auto _ : state) benchmark::DoNotOptimize(riis::make_grids(patches, max_error));
 }
 
-// Flattens the curves and makes the placed triangles directly, without storing quads.
+// Flattens the curves and makes the placed triangles directly. No quads are stored.
 void pipeline_triangles(benchmark::State &state, const char *kind) {
   const Valve valve = moved_valve(kind);
   const riis::PatchSet patches = valve->valve.make_patches();
@@ -75,7 +75,7 @@ void pipeline_scene(benchmark::State &state, const char *kind) {
   state.counters["triangles"] = n_triangles_of(surface.get());
 }
 
-// Makes the scene again for triangles that moved.
+// Makes the scene again after the triangles have moved.
 void pipeline_scene_again(benchmark::State &state, const char *kind) {
   const Surface surface = surface_of(moved_valve(kind).get());
   riis::TriangleScene scene;

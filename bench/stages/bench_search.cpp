@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Times the searches on cylinders with room around the valves, as in the paper's tables (4.2.3). The valve moves between
-// markings. Arguments: valve (0 aortic, 1 mitral), thousands of nodes, threads. report.py makes tables of the times.
+// markings. The arguments are the valve (0 aortic, 1 mitral), thousands of nodes, and threads. report.py makes tables of the
+// times.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -29,7 +30,7 @@ const CylinderMesh &mesh_of(const benchmark::State &state) {
   return *mesh;
 }
 
-// A valve that moves back and forth, by a hundredth of its motion between its states. The tolerance is 5 %, as in the paper.
+// A valve that moves back and forth by a hundredth of its motion between its states. The tolerance is 5 %, as in the paper.
 class MovingValve {
  public:
   explicit MovingValve(std::int64_t kind) {
@@ -94,7 +95,7 @@ void count(benchmark::State &state, const riis_marks *result) {
   count_time_per(state, "time/node", static_cast<double>(stats.n_nodes));
 }
 
-// Marks repeatedly into the same result while the valve moves.
+// Marks repeatedly into one result while the valve moves.
 void mark_repeatedly(benchmark::State &state, std::int32_t search) {
   const riis_mesh *mesh = mesh_of(state).mesh();
   MovingValve &valve = valve_of(state);
@@ -115,8 +116,8 @@ void search_exhaustive(benchmark::State &state) { mark_repeatedly(state, RIIS_SE
 void search_neighbor_warm(benchmark::State &state) { mark_repeatedly(state, RIIS_SEARCH_NEIGHBOR); }
 void search_paper(benchmark::State &state) { mark_repeatedly(state, RIIS_SEARCH_PAPER); }
 
-// Marks into a new result every time, so there is no earlier marking as a start, and no memory to reuse. The mesh already has
-// its balls.
+// Marks into a new result every time. The search therefore has no earlier marking as a start, and no memory to reuse. The mesh
+// already has its balls of nodes.
 void search_neighbor_cold(benchmark::State &state) {
   const riis_mesh *mesh = mesh_of(state).mesh();
   MovingValve &valve = valve_of(state);
@@ -161,8 +162,9 @@ void search_all_distances(benchmark::State &state) {
   count_time_per(state, "time/node", static_cast<double>(mesh.n_nodes()));
 }
 
-// Runs the paper's exhaustive search: every node and every triangle, on one thread, with the library's kernel. Only every 50th
-// node is measured. Each node takes the same time, so "all_nodes_s" is the extrapolated time of all nodes.
+// Runs the paper's exhaustive search with the library's kernel, on one thread. The search measures every node against every
+// triangle. Here the search measures only every 50th node. Each node takes the same time, so "all_nodes_s" is the extrapolated
+// time of all nodes.
 void search_every_triangle(benchmark::State &state) {
   const CylinderMesh &mesh = mesh_of(state);
   const riis_surface *surface = valve_of(state).first();
@@ -185,8 +187,9 @@ void search_every_triangle(benchmark::State &state) {
   count_time_per(state, "time/pair", static_cast<double>(n_sample) * n_triangles_of(surface));
 }
 
-// The first of the paper's two searches, written plainly (references.hpp). It measures an evenly spaced sample of about 2,000
-// nodes against every triangle. Each node takes the same time, so "all_nodes_ms" is the extrapolated time of all nodes.
+// Runs the first of the paper's two searches, in plain code (references.hpp). The search measures an evenly spaced sample of
+// about 2,000 nodes against every triangle. Each node takes the same time, so "all_nodes_ms" is the extrapolated time of all
+// nodes.
 void search_paper_exhaustive(benchmark::State &state) {
   const CylinderMesh &mesh = mesh_of(state);
   const Triangles triangles(valve_of(state).first());
@@ -214,8 +217,8 @@ void search_paper_exhaustive(benchmark::State &state) {
       shortest.milliseconds() * static_cast<double>(mesh.n_nodes()) / static_cast<double>(n_sample);
 }
 
-// The paper's second search, also written plainly. It walks from marked nodes to their neighbours. It measures each of
-// these nodes against every triangle.
+// Runs the paper's second search, also in plain code. The search walks from marked nodes to their neighbours, and measures each
+// node on its way against every triangle.
 void search_paper_neighbor(benchmark::State &state) {
   const CylinderMesh &mesh = mesh_of(state);
   const Triangles triangles(valve_of(state).first());
@@ -232,7 +235,7 @@ void search_paper_neighbor(benchmark::State &state) {
   state.counters["triangles"] = static_cast<double>(triangles.n());
 }
 
-// Measures the sorting of a mesh's nodes into balls, which the mesh's first neighbour search does.
+// Measures the sorting of a mesh's nodes into balls. The first neighbour search of a mesh sorts the nodes.
 void search_groups(benchmark::State &state) {
   const CylinderMesh &mesh = mesh_of(state);
   const double *xyz = mesh.xyz().data();
@@ -255,7 +258,7 @@ void search_adjacency_of_tetrahedra(benchmark::State &state) {
   count_time_per(state, "time/node", static_cast<double>(mesh.n_nodes()));
 }
 
-// Times an adjacency from faces. The grid's nodes count as cells; each face has an owner and a neighbour.
+// Times an adjacency from faces. The nodes of the grid count as cells. Each face has an owner and a neighbour.
 void search_adjacency_of_faces(benchmark::State &state) {
   const CylinderMesh &mesh = mesh_of(state);
   const std::int64_t n[3] = {mesh.n_across(), mesh.n_across(), mesh.n_along()};
@@ -298,7 +301,7 @@ void search_adjacency_of_grid(benchmark::State &state) {
   count_time_per(state, "time/node", static_cast<double>(mesh.n_nodes()));
 }
 
-// The sizes are about those of the paper's meshes. The numbers of threads are the paper's.
+// The sizes are close to those of the paper's meshes. The numbers of threads are those of the paper.
 const std::vector<std::int64_t> valves{0, 1}, sizes{110, 260, 500, 1000, 1480}, threads{1, 2, 4, 8, 12};
 
 void with(benchmark::internal::Benchmark *benchmark, const std::vector<std::vector<std::int64_t>> &arguments) {

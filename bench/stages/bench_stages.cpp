@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Times each stage by one benchmark, on the aortic valve at the default tolerance and 100,000 nodes around it. Times depend on
-// the machine. Ratios hardly depend on it, because both times of a ratio are measured in the same run.
+// Each benchmark times one stage. The valve is the aortic valve at the default tolerance, with 100,000 nodes around it. Times
+// depend on the machine. Ratios hardly depend on the machine, because both times of a ratio come from one run.
 #include <benchmark/benchmark.h>
 #include <riis/riis.h>
 
@@ -56,8 +56,8 @@ Mesh box_mesh() {
   return Mesh(mesh);
 }
 
-// Times all stages from parameters to triangles and the scene, as in every time step of a moving valve. Argument: tolerance
-// in tenths of a per cent.
+// Times all stages from parameters to triangles and the scene, as in every time step of a moving valve. The argument is the
+// tolerance in tenths of a per cent.
 void surface_update(benchmark::State &state) {
   const Valve valve = make_valve("aortic");
   const riis_surface_options options = with_tolerance(static_cast<double>(state.range(0)) * 1e-3);
@@ -79,7 +79,7 @@ void closest_point(benchmark::State &state) {
   const Surface surface = aortic_surface(static_cast<double>(state.range(0)) * 1e-3);
   std::size_t i = 0;
   riis_closest closest;
-  // The first query of a surface prepares the data for sides, so this query is not timed.
+  // The first query of a surface prepares the data for sides. The first query is not timed.
   check(riis_closest_point(surface.get(), nodes().data(), &closest, sizeof closest));
   for (auto _ : state) {
     check(riis_closest_point(surface.get(), nodes().data() + 3 * (i++ % 100000), &closest, sizeof closest));
@@ -103,8 +103,8 @@ void mark_exhaustive(benchmark::State &state) {
 }
 BENCHMARK(mark_exhaustive)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
 
-// Compares the loop over all triangles, which uses the library's own kernel, with the marking of the same nodes on one thread.
-// The ratio tells how many times as fast the marking is. The loop measures every 100th node.
+// Compares a loop over all triangles, which uses the library's kernel, with the marking of the same nodes on one thread. The
+// ratio says how many times as fast the marking is. The loop measures every 100th node.
 void brute_force_over_marking(benchmark::State &state) {
   const Surface surface = aortic_surface(0.05);
   const riis::TriangleSet &triangles = riis::content_of(surface.get()).triangles();

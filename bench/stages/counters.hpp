@@ -14,7 +14,7 @@ inline void count_time_per(benchmark::State &state, const char *name, double n) 
       benchmark::Counter(n, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
-// Reports the counts of the last marking, and the time of a query.
+// Reports the counts of the last marking and the time per query.
 inline void count_marking(benchmark::State &state, const riis_mark_stats &stats) {
   const auto n_queries = static_cast<double>(stats.n_queries);
   state.counters["nodes"] = static_cast<double>(stats.n_nodes);

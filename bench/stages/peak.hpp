@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The peak rates at which one thread of this machine computes and copies. ./run bench roofline compares the stages of a step with
-// them.
+// these rates.
 #pragma once
 
 #include <stdint.h>
@@ -9,14 +9,15 @@
 
 namespace bench {
 
-// Each function repeats its operations on registers and returns a number that depends on all of them. Operations are counted as
-// in kernels/lanes.hpp.
+// Each function repeats its operations on registers, and returns a number that depends on all of these operations. Operations are
+// counted as in kernels/lanes.hpp.
 struct PeakKernel {
   int64_t operations;  // in one repetition
   double (*repeat)(int64_t n);
 };
 struct PeakKernels {
-  // Functions for single precision: multiply-adds; multiply-adds and additions; multiplications and additions.
+  // These functions use single precision. The three functions do multiply-adds; multiply-adds and additions; multiplications and
+  // additions.
   PeakKernel floats[3];
   PeakKernel doubles;  // for double precision: multiplications and additions, because the decision kernel fuses no
                        // operations
@@ -24,7 +25,7 @@ struct PeakKernels {
 
 extern const PeakKernels peak_kernels_baseline, peak_kernels_avx2, peak_kernels_avx512;
 
-// The highest rates per nanosecond. For `bytes`, a copy reads and writes arrays that are too large for any cache.
+// The highest rates per nanosecond. For `bytes`, a copy reads and writes arrays that are larger than any cache.
 struct Peak {
   double floats, doubles, bytes;
 };

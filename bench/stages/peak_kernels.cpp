@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Kernels that do as many operations as the processor can, on registers alone. They are compiled for each instruction set, like
-// the library's kernels.
+// These kernels do as many operations as the processor can, on registers alone. Like the library's kernels, they are compiled for
+// each instruction set.
 #include "kernels/lanes.hpp"
 #include "kernels/table.hpp"
 #include "peak.hpp"
@@ -8,7 +8,7 @@
 namespace bench {
 namespace {
 
-// Twelve independent chains of operations keep all units of a core busy, and fit into sixteen registers.
+// Twelve independent chains of operations keep all units of a core busy. The chains fit into sixteen registers.
 constexpr int n_chains = 12;
 
 template <class Register, class Scalar, class Step>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ./run bench roofline: compares the time of each stage of a step with the machine's limits. A step makes the surface of a valve
-// that moved, and marks by the search over clusters, on one thread. First the search runs with kernels that read a clock. Then it
-// runs with kernels that count operations and pairs, and record which memory they use.
+// that moved, and marks by the search over clusters, on one thread. The search first runs with kernels that read a clock. The
+// search then runs with kernels that count operations and pairs, and record which memory they use.
 //   argv[1]  the file for counts, times and peaks as JSON
 //   argv[2]  the number of nodes in thousands, 1000 by default
 #include <riis/riis.h>
@@ -96,7 +96,7 @@ riis::Kernels measuring(const riis::Kernels &kernels) {
   return with_clocks;
 }
 
-// Sums the sizes of the pieces of memory that a stage uses. Each piece counts once.
+// Sums the sizes of the blocks of memory that a stage uses. Each block counts once.
 class Touched {
  public:
   void add(const void *piece, std::size_t size) {
@@ -114,7 +114,7 @@ class Touched {
   std::size_t bytes_ = 0;
 };
 
-// The counts that the counting kernels below make.
+// The numbers that the counting kernels below collect.
 struct Counted {
   Touched boxes, filter, decide, leaves;
   riis::Counts in_boxes{0, 0}, in_filter{0, 0}, in_decide{0, 0};
@@ -122,7 +122,7 @@ struct Counted {
 };
 Counted *counted = nullptr;
 
-// During this object's lifetime, adds the operations and pairs that the kernels count.
+// While this object exists, it adds the operations and pairs that the kernels count.
 class CountsOf {
  public:
   explicit CountsOf(riis::Counts &to) : to_(to), before_(riis::counts_of_kernels) {}
@@ -203,7 +203,7 @@ std::size_t bytes_of(const std::vector<Number> &numbers) {
   return numbers.size() * sizeof(Number);
 }
 
-// Returns the bytes of a surface's triangles and groups. Embree's scene needs additional memory, which Embree does not report.
+// Returns the bytes of a surface's triangles and groups. Embree's scene needs more memory, which Embree does not report.
 double bytes_of(const riis::Surface &surface) {
   const riis::TriangleSet &set = surface.triangles();
   const riis::TriangleGroups &groups = surface.scene().groups();
@@ -243,7 +243,7 @@ class StagedSteps {
       : steps_(mesh, options), mesh_(mesh->mesh), kernels_(riis::kernels(riis::best_instruction_set())) {}
 
   void move() { steps_.move(); }
-  // Makes a step as a solver does. The time is this thread's own time, because on a busy machine other work interrupts every
+  // Makes a step as a solver does. Only the time of this thread counts, because on a busy machine other work interrupts every
   // whole step.
   double whole() {
     const double start = nanoseconds_of_thread();
@@ -251,7 +251,7 @@ class StagedSteps {
     return nanoseconds_of_thread() - start;
   }
 
-  // Makes a step with a clock read between its stages. The time that reading the clock takes is subtracted.
+  // Makes a step and reads a clock between its stages. The time for reading the clock is subtracted.
   Times staged(double of_clock) {
     const auto start = Clock::now();
     steps_.update();
@@ -266,8 +266,7 @@ class StagedSteps {
     Times times;
     times.update = nanoseconds(updated - start);
     times.regions = nanoseconds(measured.regions_end - updated) - n_boxes * of_clock;
-    // An interval takes two readings of the clock. The time of one reading falls into the interval, and the time of the other
-    // reading falls outside.
+    // An interval needs two readings of the clock, and contains the time of one reading.
     times.filter = nanoseconds(measured.filter) - n_filter * of_clock;
     times.decide = nanoseconds(measured.decide) - n_decide * of_clock;
     times.rest = nanoseconds(searched - measured.regions_end - measured.filter - measured.decide) -
@@ -276,7 +275,7 @@ class StagedSteps {
     return times;
   }
 
-  // Counts the operations of the present step's stages, and the bytes that they use.
+  // Counts the operations of the present step's stages, and the bytes that the stages use.
   nlohmann::json count() {
     Counted counts;
     counted = &counts;
@@ -340,7 +339,8 @@ nlohmann::json measure(const riis_mesh *mesh, double tolerance, double of_clock)
   options.half_thickness = half_thickness;
   options.tolerance = tolerance;
   StagedSteps steps(mesh, options);
-  // Whole steps and timed steps take turns. For each stage the shortest time counts, because other work makes times longer.
+  // Whole steps and steps with clock readings take turns. For each stage the shortest time counts, because other work makes times
+  // longer.
   Times least{};
   double whole = 1e300;
   for (int turn = 0; turn < n_turns + 1; ++turn) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// ./run bench marking: measures the cost of a time step, of an adjacency and of their competitors in one run. A step makes the
-// surface of a valve that moved and its scene, marks nodes, and reads the list of marked nodes with distances and triangles
-// (time_steps.hpp). The program prints the times and the bars. It fails if a competitor marks other nodes or makes other rows.
+// ./run bench marking: measures the cost of a time step, of an adjacency, and of their competitors in one run. A step makes the
+// surface and the scene of a valve that moved, and marks nodes. The step then reads the list of marked nodes with distances and
+// triangles (time_steps.hpp). The program prints the times and the bars. The program fails if a competitor marks other nodes or
+// makes other rows.
 //   argv[1]  a file for the times and bars as JSON, optional
 //   argv[2]  the number of nodes in thousands, 1000 by default
 #include <riis/riis.h>
@@ -69,7 +70,8 @@ StepOptions step_options(int n_threads, std::int32_t instructions = RIIS_INSTRUC
   return options;
 }
 
-// Runs a brief loop of OpenMP, as a solver does before its step. So the threads of a contender are awake when its turn begins.
+// Runs a brief loop of OpenMP, as a solver does before its step. The threads of a contender are therefore awake when its turn
+// begins.
 void wake_threads(int n_threads) {
   const double coordinates[3 * 64] = {};
   pass_over_coordinates(64, coordinates, n_threads);
@@ -87,7 +89,8 @@ void add(Contest &contest, const std::string &name, TimeSteps &steps) {
 std::string of_threads(int n_threads) { return n_threads == 1 ? ", 1 thread" : ", 2 threads"; }
 
 #if defined(RIIS_WITH_CGAL)
-// Returns whether CGAL marks the same nodes. Nodes whose distance equals the half thickness up to rounding may differ.
+// Returns whether CGAL marks the same nodes as the library. The marks may differ at nodes whose distance equals the half
+// thickness up to rounding.
 bool is_same(const std::vector<double> &distance, const riis_mark_list &marked) {
   constexpr double rounding = 1e-12;
   std::int64_t n_different = 0, n_unexplained = 0, next = 0;
@@ -108,7 +111,7 @@ bool is_same(const std::vector<double> &distance, const riis_mark_list &marked) 
 }
 #endif
 
-// Times steps and their competitors on the same nodes. Returns false if a competitor marks other nodes.
+// Times steps and their competitors on one set of nodes. Returns false if a competitor marks other nodes.
 bool compare_with_others(Contest &contest, Bars &bars, std::int64_t about_n_nodes, nlohmann::json &counts) {
   const CylinderMesh nodes(wide_cylinder, about_n_nodes);
   const std::int64_t n = nodes.n_nodes();
@@ -146,7 +149,7 @@ bool compare_with_others(Contest &contest, Bars &bars, std::int64_t about_n_node
       contest.leave_out(name, "the processor has no AVX-512");
   }
 
-  // The competitors mark with the present surface.
+  // The competitors mark nodes by the present surface.
   const riis_mark_list marked = two.step();
   const Triangles triangles(two.surface());
   PaperSearch paper(n, xyz, nodes.rows());
@@ -208,8 +211,8 @@ bool compare_with_others(Contest &contest, Bars &bars, std::int64_t about_n_node
               100.0 * static_cast<double>(marked.n_nodes) / static_cast<double>(n));
   std::fflush(stdout);
   contest.run();
-  // More threads than processors come last. OpenMP starts and ends threads for them, which would slow down the other
-  // contenders' steps on two threads.
+  // Contenders with more threads than processors come last. OpenMP starts and ends threads for them, which would slow other
+  // contenders on two threads.
   add(contest, "step, 4 threads", four);
   contest.run();
   const double ns_a_pair = 1e6 * contest.least("the paper's search, every triangle, 1 thread") /
@@ -235,7 +238,7 @@ bool compare_with_others(Contest &contest, Bars &bars, std::int64_t about_n_node
   return is_right;
 }
 
-// Times a tenth of the nodes, all nodes, and ten times as many. The meshes have coordinates only.
+// Times a tenth of the nodes, all nodes, and ten times as many nodes. The meshes only have coordinates.
 void compare_sizes(Contest &contest, std::int64_t about_n_nodes, nlohmann::json &counts) {
   struct Size {
     CylinderNodes nodes;
@@ -265,8 +268,8 @@ void compare_sizes(Contest &contest, std::int64_t about_n_nodes, nlohmann::json 
               static_cast<long long>(stats.n_marked));
 }
 
-// Times a grid by its axes beside the same nodes as points, whose mesh is prepared. The nodes fill a box of 1.5 valves. The half
-// thickness is 1.5 steps of the axes. Returns whether both mark the same nodes.
+// Times markings of a grid in two forms: by its axes, and as a prepared mesh of points. The nodes fill a box of 1.5 valves. The
+// half thickness is 1.5 steps of the axes. Returns whether both meshes get the same marks.
 bool compare_grid(Contest &contest, std::int64_t about_n_nodes, nlohmann::json &counts) {
   constexpr double box_of_valves = 1.5, cells_of_half = 1.5;
   const auto n = static_cast<std::int64_t>(std::lround(std::cbrt(static_cast<double>(about_n_nodes))));

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// ./run bench busy: measures time steps on two processors that two other processes keep busy, with 1 and with 2 threads. The
-// same steps are also measured while the two processes are stopped, and after a loop on the caller's own OpenMP threads. It
-// prints times and bars. While other processes are busy, the mean counts, and a few waits of milliseconds decide it. Blocks of
-// calls with 1 and with 2 threads therefore take turns for a long time. The table gives the ratio of their mean times, with
-// its standard error.
+// ./run bench busy: measures time steps on two processors that two other processes keep busy, with 1 and with 2 threads. These
+// steps are also measured while the two processes are stopped, and after a loop on the caller's own OpenMP threads. The program
+// prints times and bars. While other processes are busy, the mean time counts, and a few waits of milliseconds decide this mean.
+// Blocks of calls with 1 and with 2 threads therefore take turns for a long time. The table gives the ratio of their mean times,
+// with its standard error.
 //   argv[1]  the number of nodes in thousands, 1000 by default
 #include <riis/riis.h>
 #include <sched.h>
@@ -42,7 +42,7 @@ constexpr double block_milliseconds = 40;  // of calls with 1 thread; the system
   std::exit(1);
 }
 
-// Leaves two of its processors to this process and its later children.
+// Restricts this process and its later children to two processors.
 void keep_two_processors() {
   cpu_set_t all, two;
   if (sched_getaffinity(0, sizeof all, &all) != 0) fail("sched_getaffinity");
@@ -56,7 +56,7 @@ void keep_two_processors() {
   if (sched_setaffinity(0, sizeof two, &two) != 0) fail("sched_setaffinity");
 }
 
-// Two processes that compute without end. They are stopped at first, and end with this process.
+// Two processes that compute without end. At first they are stopped, and they end with this process.
 class BusyProcesses {
  public:
   BusyProcesses() {
@@ -98,7 +98,7 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-// Measures both calls in turns. before() is not timed.
+// Measures a call with 1 and with 2 threads in turns. before() is not timed.
 std::array<Times, 2> measure(const Subject &subject, const std::function<void()> &before) {
   std::array<std::vector<double>, 2> times;
   const auto first_start = std::chrono::steady_clock::now();
@@ -118,7 +118,7 @@ std::array<Times, 2> measure(const Subject &subject, const std::function<void()>
   return made;
 }
 
-// The mean times of a call in milliseconds, with 1 and with 2 threads. The error is the standard error of their ratio.
+// The mean times of a call in milliseconds, with 1 and with 2 threads. `error` is the standard error of the ratio of these times.
 struct Means {
   std::array<double, 2> mean;
   double error;
@@ -163,7 +163,7 @@ void openmp_loop() {
   }
 }
 
-// Time steps on 1 and on 2 threads, on the same mesh.
+// Time steps on 1 and on 2 threads, with one mesh.
 struct Steps {
   explicit Steps(const riis_mesh *mesh) {
     for (int i = 0; i < 2; ++i) {

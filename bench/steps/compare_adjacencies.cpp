@@ -23,8 +23,8 @@
 namespace bench {
 namespace {
 
-// The earlier version of riis_adjacency_create_from_cells, which did not count into 32-bit entries yet. It competes with
-// the present version.
+// The earlier version of riis_adjacency_create_from_cells, which did not yet count into 32-bit entries. The benchmark compares it
+// with the present version.
 struct PlainRows {
   std::vector<std::int64_t> offsets;
   std::vector<std::int32_t> columns;
@@ -71,8 +71,8 @@ void for_blocks(std::int64_t n, int n_threads, const Body &body) {
   for (std::int64_t block = 0; block < n_blocks; ++block) body(block * per_block, std::min(n, (block + 1) * per_block));
 }
 
-// Makes the rows of cells of 4, 5, 6 or 8 nodes each, with ids of either width. The cells must be valid, and there must be fewer
-// than 2^31 nodes.
+// Makes the rows of cells of 4, 5, 6 or 8 nodes each, with ids of either width. The cells must be valid, and the mesh must have
+// fewer than 2^31 nodes.
 PlainRows plain_adjacency(const riis_mesh_cells &cells, int n_threads) {
   const Integers nodes{cells.node_ids, cells.id_bits == 64}, offsets{cells.offsets, cells.id_bits == 64};
   const std::int64_t first = cells.offsets ? offsets[0] : 0, base = cells.index_base;
@@ -175,7 +175,7 @@ double status_kb(const char *field) {
   return kb;
 }
 
-// Runs the work in a separate process, and returns by how many megabytes the peak memory rises.
+// Runs the work in a separate process. Returns by how many megabytes the peak memory rises.
 double peak_megabytes(const std::function<void()> &work) {
   int ends[2];
   if (pipe(ends) != 0) {

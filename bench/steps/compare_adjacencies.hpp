@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compares the cost of riis_adjacency_create_from_cells with its former loop.
+// Compares the cost of riis_adjacency_create_from_cells with the cost of its former loop.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,9 @@
 
 namespace bench {
 
-// Adds bars on times and on peak memory for the tetrahedra of a cylinder, numbered in order and at random. Returns false if the
-// rows differ. Call this before other threads start, because it forks processes to measure memory.
+// Adds bars on times and on peak memory, for the tetrahedra of a cylinder. The cylinder's nodes are numbered in order, and at
+// random. Returns false if the rows differ. Call this function before other threads start, because it forks processes to measure
+// memory.
 bool compare_adjacencies(Contest &contest, Bars &bars, std::int64_t about_n_nodes, nlohmann::json &counts);
 
 }  // namespace bench

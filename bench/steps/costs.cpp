@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures the cost of each call for the tables in docs/performance.md: the time of the shortest of repeated calls, and the
-// memory that stays with the handle. The meshes are cylinders of a million nodes around the valves, and the tolerance is 5 %.
-// A second table compares a step with an offset to one without. The last table has processor times of orifices, free edges and
-// coaptation of surfaces with 60,000 triangles. argv[1], optional: thousands of nodes, "offset" for the second table alone, or
-// "measures" for the last table alone.
+// Measures the cost of each call for the tables in docs/performance.md. The cost is the time of the shortest of repeated calls,
+// and the memory that stays with the handle. The meshes are cylinders of a million nodes around the valves, and the tolerance is
+// 5 %. A second table compares a step with an offset to a step without. The last table has processor times of orifices, free
+// edges and coaptation, for surfaces with 60,000 triangles. argv[1], optional: thousands of nodes, "offset" for the second table
+// alone, or "measures" for the last table alone.
 #include <riis/riis.h>
 
 #include <algorithm>
@@ -76,7 +76,7 @@ class Table {
   std::vector<Row> rows_;
 };
 
-// Makes the object as often as the timing needs. It makes the object once more to count the bytes from malloc.
+// Makes the object as often as the timing needs. Then makes the object once more to count the bytes from malloc.
 template <class Handle>
 void add_making(Table &table, const std::string &name, const std::function<riis_status(Handle **)> &make,
                 void (*destroy)(Handle **), Handle **made) {
@@ -186,9 +186,10 @@ void measure(Table &table, const char *kind, const Cylinder &cylinder, std::int6
             shortest([&] { get_distances(result.get(), RIIS_FAR_DISTANCE, distance); }));
 }
 
-// ---- The band that steps aside ----
+// ---- The band with an offset ----
 
-// A moving trileaflet valve in nodes at half of the half thickness. A step is an update with velocities, and a marking with K.
+// A moving trileaflet valve, in a mesh whose spacing is half of the half thickness. A step is an update with velocities, and a
+// marking with K.
 class OffsetStep {
  public:
   OffsetStep(double half_thickness, double offset)
@@ -207,7 +208,7 @@ class OffsetStep {
     marking_.n_threads = 1;
   }
 
-  // Returns the processor time of a step in the mesh, in seconds.
+  // Returns the processor time of a step on this mesh, in seconds.
   double seconds_in(riis_mesh *mesh) const {
     const std::clock_t start = std::clock();
     check(riis_surface_update_moving(surface_.get(), valve_.get(), before_.get(), 0.01, &options_, &options_));
@@ -224,8 +225,8 @@ class OffsetStep {
   riis_mark_options marking_;
 };
 
-// Prints the processor time of a step with the offset 0.75 over that without. Both steps take turns, so that other work on the
-// machine slows both of them.
+// Prints the processor time of a step with the offset 0.75, divided by that of a step without. Both steps take turns, so other
+// work on the machine slows both.
 void print_offset() {
   constexpr double half_thickness = 0.1, spacing = half_thickness / 2;
   const Cylinder &around = cylinders[0];
@@ -247,7 +248,7 @@ void print_offset() {
 
 constexpr double wanted_triangles = 60000;
 
-// Returns options that give at least 60,000 triangles. Their number is nearly proportional to 1 / tolerance.
+// Returns options that give at least 60,000 triangles. The number of triangles is nearly proportional to 1 / tolerance.
 riis_surface_options fine_options(const riis_valve *valve) {
   riis_surface_options options;
   check(riis_surface_options_init(&options, sizeof options));
@@ -258,7 +259,7 @@ riis_surface_options fine_options(const riis_valve *valve) {
   }
 }
 
-// The triangles of a valve's surface as arrays and as two equal frames, as a solver or a file gives them.
+// Gives the triangles of a valve's surface as arrays and as two equal frames, as a solver or a file would.
 class OwnTriangles {
  public:
   explicit OwnTriangles(const riis_surface *surface) {
@@ -321,7 +322,8 @@ void get_coaptation(const riis_surface *surface) {
   check(riis_surface_get_coaptation(surface, RIIS_AUTO, RIIS_ALL_LEAFLETS, &coaptation, sizeof coaptation));
 }
 
-// Returns the processor's seconds of the shortest of five calls, on all threads. Other programs hardly make these longer.
+// Returns the processor time in seconds of the shortest of five calls, summed over all threads. Other programs hardly change this
+// time.
 double processor_seconds(const std::function<void()> &call, const std::function<void()> &before) {
   double least = HUGE_VAL;
   for (int n = 0; n < 5; ++n) {
@@ -333,8 +335,7 @@ double processor_seconds(const std::function<void()> &call, const std::function<
   return least;
 }
 
-// Prints the processor's times of the measures. The times of a closed and of an open valve are compared, and the longer is
-// printed.
+// Prints the processor times of the measures. Of the times of a closed and of an open valve, the longer is printed.
 void print_measures() {
   const std::pair<const char *, std::function<void(const riis_surface *)>> calls[] = {
       {"`riis_surface_get_orifice`", get_orifice},

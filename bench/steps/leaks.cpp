@@ -38,7 +38,7 @@ riis_surface_info info_of(const Surface &surface) {
   return info;
 }
 
-// Returns a surface with the same triangles as the given surface, and with another half thickness.
+// Returns a surface that has the triangles of the given surface, and another half thickness.
 Surface with_half_thickness(const Surface &surface, double thickness) {
   riis_surface_arrays arrays;
   check(riis_surface_arrays_init(&arrays, sizeof arrays));
@@ -52,9 +52,9 @@ Surface with_half_thickness(const Surface &surface, double thickness) {
   return make_surface(arrays, thickness);
 }
 
-// Nodes lie at the corners and in the middles of small cubes. These cubes fill a large cube that is turned and shifted at random,
-// and the large cube is cut into equal tetrahedra. Some edges of the tetrahedra are edges of the small cubes. The others lead
-// from a middle to the eight corners around it, and are 0.87 times as long.
+// Nodes lie at the corners and in the middles of small cubes, which fill a large cube. The large cube is turned and shifted at
+// random, and cut into equal tetrahedra. Some edges of the tetrahedra are edges of the small cubes. All other edges lead from a
+// middle to the eight corners around it, and are 0.87 times as long.
 struct Crystal {
   std::vector<double> xyz;
   std::vector<std::int64_t> offsets{0}, columns;
@@ -126,7 +126,7 @@ Mesh mesh_over(const Crystal &crystal) {
   return Mesh(mesh);
 }
 
-// Returns the numbers of leaks. The arrays of the list are NULL, because the leaks are destroyed.
+// Returns the numbers of leaks. The arrays of the list are NULL, because the function destroys the leaks.
 riis_leak_list leaks_of(const Surface &surface, const Mesh &mesh) {
   const Result result = make_result();
   const Leaks leaks = make_leaks();
@@ -159,7 +159,8 @@ void print_leaks(const char *kind) {
   }
 }
 
-// Returns the fraction of a disc around the axis that no triangle covers, seen along the axis. It counts points of a square grid.
+// Returns the fraction of a disc around the axis that no triangle covers, seen along the axis, by counting points of a square
+// grid.
 double open_share(const Surface &surface, double radius, int n_per_radius) {
   const int side = 2 * n_per_radius + 1;
   const auto place = [&](int i) { return radius * (i - n_per_radius) / n_per_radius; };
@@ -197,8 +198,8 @@ double open_share(const Surface &surface, double radius, int n_per_radius) {
   return static_cast<double>(n_open) / static_cast<double>(n_disc);
 }
 
-// Prints the milliseconds of a marking by clusters, of a first search for leaks, and of a second search with known edges.
-// Prints them also for the labels of regions, and for the passage from the first node to the last one.
+// Prints the milliseconds of a marking by clusters, of a first search for leaks, and of a second search with known edges. Also
+// prints the milliseconds of labelling regions, and of the passage from the first node to the last node.
 void print_cost(double thickness, const CylinderMesh &nodes) {
   const Surface surface = with_half_thickness(surface_of("aortic", 0), thickness);
   const double *xyz = nodes.xyz().data();

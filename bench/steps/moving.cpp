@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// ./run bench moving: measures the cost of a valve's velocity, of the fields of the closest points and of the resistance. It
-// compares them with a plain time step on the same nodes in the same run. It does the same for fixed triangulations, coarse and
-// fine, and for the search for crossings. It compares a step of an annulus that moves by landmarks with a moving
-// update of the same patches. It prints times and bars.
+// ./run bench moving: measures the cost of a valve's velocity, of the fields of the closest points and of the resistance. All
+// costs are compared with a plain time step on the same nodes in the same run. Further comparisons cover fixed triangulations,
+// coarse and fine, and the search for crossings. A step of an annulus that moves by landmarks is compared with a moving update of
+// the same patches. The program prints times and bars.
 //   argv[1]  thousands of nodes instead of a million, for a quick look
 #include <riis/riis.h>
 
@@ -69,7 +69,8 @@ struct KJump {
   double with_fixed;
 };
 
-// From evenly spaced openings, makes n_steps steps of the opening by `step`. All values are fractions of the largest K.
+// Makes n_steps steps of the opening by `step`, which start from evenly spaced openings. All values are fractions of the largest
+// K.
 KJump measure_k_jump(riis_valve *valve, const CylinderNodes &nodes, double step, int n_steps) {
   constexpr double tolerance = 0.05, fine = 0.0005;
   ResistanceChange adapted(valve, nodes, tolerance, RIIS_TRIANGULATION_ADAPTED),
@@ -94,7 +95,7 @@ KJump measure_k_jump(riis_valve *valve, const CylinderNodes &nodes, double step,
 constexpr int n_turns = 60;
 constexpr std::int32_t all_fields = 255;
 
-// The mitral valve has an open state of its own. The aortic valve opens to the state in README.md.
+// The mitral valve already has an open state. The aortic valve opens to the state in README.md.
 Valve opening_valve(const char *kind) {
   Valve valve = make_valve(kind);
   if (std::string(kind) != "aortic") return valve;
@@ -169,7 +170,7 @@ class MovingSteps {
   riis_mark_stats stats() const { return stats_of(result_.get()); }
   double n_triangles() const { return n_triangles_of(surface_.get()); }
   double n_fixed_triangles() const { return n_triangles_of(fixed_.get()); }
-  // Returns the largest number of triangles of an adapted triangulation at 1,001 openings.
+  // Returns the largest number of triangles that an adapted triangulation has at 1,001 openings.
   double most_triangles() {
     double most = 0;
     for (int i = 0; i <= 1000; ++i) {
@@ -195,10 +196,10 @@ class MovingSteps {
   double opening_ = 0.45;
 };
 
-// A tolerance that gives about ten times as many triangles as the default.
+// With this tolerance there are about ten times as many triangles as by default.
 constexpr double fine = 0.0034;
 
-// Times the same motion with fine triangulations, adapted and fixed, without a mesh.
+// Times the valve's motion with fine triangulations, adapted and fixed, without a mesh.
 class FineSteps {
  public:
   explicit FineSteps(const char *kind) : valve_(opening_valve(kind)) {
@@ -226,9 +227,10 @@ class FineSteps {
   int step_ = 0;
 };
 
-// An annulus that moves by landmarks: new targets, a warped valve, and a moving update. One contender has the same patches, which
-// were read out before. Neither the warped valve nor this contender is symmetric. Arcs cannot be given as patches, so a mitral
-// valve lacks this contender. The other contender is the symmetric valve without a warp, which opens.
+// Times a step of an annulus that moves by landmarks: new targets, a warped valve, and a moving update. The first contender has
+// the patches of the warped valve, which were read out before. The warped valve and the first contender are asymmetric. Arcs
+// cannot be given as patches, so a mitral valve lacks the first contender. The second contender is the symmetric valve without a
+// warp, which opens.
 class WarpedSteps {
  public:
   WarpedSteps(const char *kind, int n_landmarks)
@@ -340,7 +342,7 @@ void measure_warps(Contest &contest, Bars &bars, WarpedSteps &steps, const std::
   contest.run();
   if (steps.has_patches())
     bars.add(name + ": step / moving update of the same patches", contest.ratio(step, of_patches), Wanted::at_most, 2);
-  // Three cusps share the work of a symmetric update, as do the two halves of a mitral valve.
+  // In a symmetric update, three cusps share the work, and so do the two halves of a mitral valve.
   bars.add(name + ": step / moving update of the symmetric valve", contest.ratio(step, symmetric), Wanted::at_most,
            steps.has_patches() ? 5 : 2.5);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ./run bench ranks: measures the cost of a time step on each rank of a partitioned mesh, for the table of docs/solvers.md. METIS
-// cuts a mesh of a million nodes into 2 to 64 parts. The ranks' steps run here one after the other, on one thread, in turns with
-// an adapted and with a fixed triangulation. The marks of all parts together must equal the whole mesh's marks, bit for bit.
+// cuts a mesh of a million nodes into 2 to 64 parts. The steps of the ranks run here one after the other, on one thread. Adapted
+// and fixed triangulations take turns. The marks of all parts together must equal the marks of the whole mesh, bit for bit.
 // Otherwise the program ends with status 1.
 //   argv[1]  thousands of nodes instead of a million, for a quick look
 #include <metis.h>
@@ -51,7 +51,7 @@ Graph graph_of(const CylinderNodes &nodes) {
   return {{offsets, offsets + nodes.n_nodes() + 1}, {columns, columns + offsets[nodes.n_nodes()]}};
 }
 
-// Returns the part of each node. Every kind of weight is balanced between the parts.
+// Returns the part of each node. Each kind of weight is balanced between the parts.
 std::vector<idx_t> partition(Graph &graph, idx_t n_parts, std::vector<idx_t> &weights) {
   auto n_nodes = static_cast<idx_t>(graph.offsets.size() - 1);
   auto n_weights = static_cast<idx_t>(weights.size() / static_cast<std::size_t>(n_nodes)), cut = idx_t{0};
@@ -66,7 +66,7 @@ std::vector<idx_t> partition(Graph &graph, idx_t n_parts, std::vector<idx_t> &we
   std::exit(1);
 }
 
-// A rank, with its own whole surfaces and the nodes of one part.
+// A rank of the partitioned mesh. The rank has separate copies of the whole surfaces, and the nodes of one part.
 class Rank {
  public:
   Rank(const CylinderNodes &nodes, std::vector<std::int64_t> ids)
@@ -97,7 +97,7 @@ class Rank {
     K_u_surface_.resize(3 * ids_.size());
   }
 
-  // Runs time steps, and keeps the median time of each of their parts.
+  // Runs time steps. Keeps the median time of each part of a step.
   void run() {
     std::vector<double> updates[n_triangulations], markings[n_triangulations];
     for (int i = 0; i < n_steps; ++i) {
@@ -119,7 +119,7 @@ class Rank {
     }
   }
 
-  // Appends the marked nodes of the last step, with their numbers in the whole mesh.
+  // Appends the marked nodes of the last step, with the ids that they have in the whole mesh.
   void append_marks(std::size_t triangulation, NodeDistances &marks) const {
     const riis_mark_list marked = marked_in(sides_[triangulation].result.get());
     for (std::int64_t i = 0; i < marked.n_nodes; ++i)
@@ -136,7 +136,7 @@ class Rank {
     check(riis_valve_set_scalar(valve_.get(), "opening", opening_ = 0.001 * (step_ < 5 ? step_ : 10 - step_)));
   }
 
-  // A surface with one of the triangulations, and its steps.
+  // A surface with an adapted or a fixed triangulation, and its steps.
   struct Side {
     Surface surface;
     Result result = make_result();
@@ -188,7 +188,7 @@ Cost cost_of(const CylinderNodes &nodes, const std::vector<idx_t> &part, idx_t n
     cost.n_empty += n_marked == 0;
   }
   for (std::size_t k = 0; k < n_triangulations; ++k) {
-    // Every rank makes the same surface, so one time stands for all.
+    // Every rank makes the same surface, so one rank's time is the time of all.
     cost.of[k].update = median(updates[k]);
     std::sort(marks[k].begin(), marks[k].end());
   }

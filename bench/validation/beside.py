@@ -1,16 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The tables, rows and picture of bands that lie beside the leaflets (docs/theory/marks.md, "Offset"), from the cases of
+"""Makes the tables, rows and picture of bands with an offset (docs/theory/marks.md, "Offset"), from the cases of
 body_fitted.sh."""
 import numpy
 from cases import RADIUS, SOLVER, WALLS, foam, place
 
-# Bars of the rows of the trileaflet valve whose offset is 0.75, for each opening and half thickness in millimetres. A quarter
-# open, with 1 mm, the aim is 5 %, which most meshes miss.
+# Bars for the rows of the trileaflet valve with the offset 0.75, by opening and half thickness in millimetres. At a quarter of
+# the opening with 1 mm, the aim is 5 %, which most meshes miss.
 BARS = {(1.0, 1.0): 0.015, (1.0, 0.5): 0.015, (0.5, 1.0): 0.04, (0.5, 0.5): 0.04, (0.25, 1.0): 0.08, (0.25, 0.5): 0.05}
 
 
 def stall(run):
-    """Returns words for a run that ended above the limit of the residuals, else no words."""
+    """Returns words for a run that ended above the limit of the residuals, and no words for other runs."""
     if run.converged:
         return ""
     return f"; stalled above the limit of the residuals, but the drop changes by {run.change:.0e} of it in the last 100 steps"
@@ -21,8 +21,8 @@ def beside_words(run):
 
 
 def walls_of(valve, opening, runs, kept):
-    """Returns the area of the walls in cm2, from the finest mesh, and the entries for a row's grids. If the cases are missing,
-    both are from a row of `kept`."""
+    """Returns the area of the walls in cm2, from the finest mesh. Also returns the entries for a row's grids. If the cases are
+    missing, a row of `kept` provides both."""
     fitted = sorted((run for run in runs if run.fitted and run.far == 0.13), key=lambda run: -run.size)
     if fitted:
         return fitted[-1].area, [place(run, run.area) for run in fitted]
@@ -33,7 +33,7 @@ def walls_of(valve, opening, runs, kept):
 
 
 def beside(valve, opening, runs, kept):
-    """Prints the table of one valve at one opening whose band lies beside the leaflets, and returns its rows."""
+    """Prints the table of a band with an offset, for one valve at one opening. Returns the rows of the table."""
     mine = [run for run in runs if run.offset is not None]
     if not mine:
         return []
@@ -67,7 +67,7 @@ def beside(valve, opening, runs, kept):
 
 
 def other_meshes(run, runs, walls):
-    """Returns words with the range of the same case in other meshes, or no words."""
+    """Returns words with the range of this case in other meshes, or no words."""
     same = [one.area / walls - 1 for one in runs if not one.usual and (one.eps, one.offset) == (run.eps, run.offset)]
     if not same:
         return ""
@@ -76,7 +76,7 @@ def other_meshes(run, runs, walls):
 
 def profile(run):
     """Returns places on a diameter 4.5 mm behind the free edges, in mm, and the axial speeds there. Negative places lie on the
-    line through a commissure, positive places on the line through the middle of a cusp."""
+    line through a commissure. Positive places lie on the line through the middle of a cusp."""
     from matplotlib import tri
     slices = sorted((run.folder / "postProcessing/slices").iterdir(), key=lambda path: float(path.name))[-1]
     points, corners, velocity = foam.triangles(slices / "across.vtk")
@@ -91,8 +91,8 @@ def profile(run):
 
 
 def profiles(runs, path):
-    """Draws profiles of the axial speed behind the open and the half-open trileaflet valve, with walls and with the band at two
-    offsets. Draws nothing if a case is missing."""
+    """Draws profiles of the axial speed behind the open and the half-open trileaflet valve. The profiles are computed with walls,
+    and with bands at two offsets. Draws nothing if a case is missing."""
     import matplotlib
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt

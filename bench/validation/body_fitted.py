@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Makes the tables, rows and pictures of body_fitted.sh. They compare the effective areas of open leaflets in two forms: as walls
-of no thickness, and as obstacles of riis. body_fitted.py FOLDER [--quick] reads the cases in FOLDER, prints the tables, and
-leaves body_fitted.json and pictures in FOLDER. Rows of all.json without cases are kept. With --quick none are kept."""
+"""Makes the tables, rows and pictures of body_fitted.sh. The results compare the effective areas of open leaflets in two forms:
+as walls without thickness, and as obstacles of riis. body_fitted.py FOLDER [--quick] reads the cases in FOLDER and prints the
+tables. The script writes body_fitted.json and pictures into FOLDER. Rows of all.json without cases are kept, but not with
+--quick."""
 import json
 import pathlib
 import re
@@ -18,8 +19,8 @@ LINE_BAR = 0.02  # bar of the row for the line through all eps
 
 
 def outline(valve, opening, n=200001):
-    """Returns the area in cm2 that the leaflets leave open, and the length in cm of their outlines inside the tube. Both are
-    seen along the flow."""
+    """Returns two numbers, seen along the flow: the area in cm2 that the leaflets leave open, and the length in cm of their
+    outlines inside the tube."""
     radius = RADIUS[valve]
     if valve == "bileaflet":  # docs/theory/bileaflet.md
         hinge, closed, now = 0.22, numpy.radians(30), numpy.radians(30 + 55 * opening)
@@ -51,8 +52,8 @@ def _length_inside(x, y, radius):
 
 
 def order_of(sizes, values):
-    """Returns order and limit by Richardson's extrapolation from three grids with a constant ratio of sizes. Returns None and the
-    value of the finest grid if the values have no order."""
+    """Returns order and limit by Richardson's extrapolation, from three grids with a constant ratio of sizes. If the values have
+    no order, returns None and the value of the finest grid."""
     if len(values) < 3:
         return None, values[-1]
     (a, b, c), ratio = values[-3:], sizes[-2] / sizes[-1]
@@ -64,7 +65,7 @@ def order_of(sizes, values):
 
 
 def far_from(points, triangles):
-    """Returns the largest distance of a point from the triangles. There are few points, so each is compared with each
+    """Returns the largest distance from a point to the triangles. There are few points, so each point is compared with each
     triangle."""
     a, b, c = (triangles[:, k] for k in range(3))
     largest = 0.0
@@ -75,7 +76,7 @@ def far_from(points, triangles):
             least = min(least, (((p + t * (q - p)) - point) ** 2).sum(1).min())
         normal = numpy.cross(b - a, c - a)
         square = (normal ** 2).sum(1)
-        # Barycentric coordinates of the foot of the perpendicular.
+        # v and w are barycentric coordinates of the perpendicular's foot.
         v = (numpy.cross(point - a, c - a) * normal).sum(1) / square
         w = (numpy.cross(b - a, point - a) * normal).sum(1) / square
         foot = (v >= 0) & (w >= 0) & (v + w <= 1)
@@ -145,8 +146,8 @@ def commit():
 
 
 def solid_row(what, three, solids):
-    """Returns the row that compares the effective areas of `three` with the areas of solid leaflets as thick as the band.
-    `solids` has the area in cm2 for each eps. Returns no row for fewer than two areas."""
+    """Returns a row that compares the effective areas of `three` with the areas of solid leaflets. The solid leaflets are as
+    thick as the band. `solids` has their area in cm2 for each eps. With fewer than two areas, returns no row."""
     if len(three) < 2:
         return []
     share = [one.area / solids[one.eps] for one in three]
@@ -160,7 +161,7 @@ def solid_row(what, three, solids):
 
 
 def compare(valve, opening, runs, solids, folder):
-    """Prints the tables of one valve at one opening, and returns its rows."""
+    """Prints the tables of one valve at one opening. Returns their rows."""
     mine = [run for run in runs if (run.valve, run.opening) == (valve, opening)]
     fitted = sorted((run for run in mine if run.fitted and run.far == 0.13), key=lambda run: -run.size)
     obstacles = [run for run in mine if not run.fitted]
@@ -191,7 +192,7 @@ def compare(valve, opening, runs, solids, folder):
               f" {run.drop:>9.2f} {run.area:>10.4f} {100 * (run.area / body - 1):>+8.2f} %  {c_of(run):>5.3f}")
     rows = []
     for rim in ("round", "cut"):
-        # Other edges and other resistances were only run with the largest half thickness.
+        # Runs with other edges or other resistances exist only for the largest half thickness.
         first = [one for one in obstacles if one.rim == rim and one.eps == max(other.eps for other in obstacles)]
         others = ""
         for words, some in (("edges", [one for one in first if one.resistance == 1e3]),
@@ -240,7 +241,8 @@ def compare(valve, opening, runs, solids, folder):
 
 
 def clinical(runs):
-    """Prints the orifice areas by clinical formulas beside the geometric area, from the finest runs. Returns their rows."""
+    """Prints the orifice areas by clinical formulas beside the geometric area, from the finest runs. Returns the rows of these
+    areas."""
     print("\nOrifice areas in cm2: geometric, effective, by Gorlin's formula, by continuity (flow over the largest speed).")
     print("  valve        opening  leaflets                geometric  effective  discharge  Gorlin  continuity  total, mmHg")
     rows = []
@@ -280,7 +282,7 @@ def clinical(runs):
 
 
 def blood(folder, runs):
-    """Prints means in time of the runs with blood's viscosity, which start from the steady flows. Returns their rows."""
+    """Prints means in time of the runs with blood's viscosity. These runs start from the steady flows. Returns their rows."""
     begin = 0.04  # s
     found = []
     for case in sorted((folder / "blood").glob("*")):
@@ -314,7 +316,8 @@ BLOOD = {"source": WALLS,
 
 
 def blood_line(found, walls):
-    """Returns the row for the line through the areas of `found` at two half thicknesses or more, with blood's viscosity."""
+    """Returns the row for the line through the areas of `found`, with blood's viscosity. There must be at least two half
+    thicknesses."""
     others = [(run, area) for run, area in found if not run.fitted]
     if len(others) < 2:
         return []
@@ -330,7 +333,7 @@ def blood_line(found, walls):
 
 
 def blood_beside(run, area, walls, found):
-    """Returns the row of a band beside the leaflets, with blood's viscosity."""
+    """Returns the row of a band with an offset, with blood's viscosity."""
     fitted = [place(one, its_area) for one, its_area in found if one.fitted]
     return {
         "id": f"offset_blood_{run.valve}_{run.opening:g}_{10 * run.eps:g}_{run.offset:g}", "group": "offset",
@@ -341,8 +344,8 @@ def blood_beside(run, area, walls, found):
 
 
 def merged(rows, kept, now):
-    """Returns the rows, each with the commit on which it was measured, in the order of `kept` and then of `rows`. A row that is
-    equal to the kept one keeps its commit."""
+    """Returns the rows with the commits on which they were measured. The order of the rows is that of `kept`, then that of
+    `rows`. A row that equals the kept row keeps its commit."""
     new = {row["id"]: {**row, "commit": now} for row in rows}
     for key, row in kept.items():
         if {**new.get(key, {}), "commit": row["commit"]} == row:

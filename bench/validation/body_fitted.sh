@@ -1,14 +1,13 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Compares open leaflets that are walls of no thickness in a body-fitted mesh with the same leaflets as obstacles of riis.
-# Both use the same solver and flow: bench/validation/body_fitted.sh FOLDER [--quick] A piece
-# of the valve between its planes of symmetry lies in a tube. Blood with ten times its
-# viscosity enters with a uniform velocity of 0.5 m/s. The effective area is Q / sqrt(2 dp /
-# rho). Here dp is the total pressure at the inlet minus the pressure at the outlet. The jet
-# still exists at the outlet, so it has not regained pressure. FOLDER gets the table
-# body_fitted.txt, the rows body_fitted.json, pictures, and the cases. Only cases whose rows
-# all.json lacks are run, and a complete case in FOLDER is not run again. To measure a row
-# again, remove it from all.json. If a case fails, the others still run, and the status is 1.
+# bench/validation/body_fitted.sh FOLDER [--quick]
+# Compares open leaflets in two forms: as walls without thickness in a body-fitted mesh, and as obstacles of riis. Both forms use
+# the same solver and flow. A piece of the valve between its planes of symmetry lies in a tube. Blood with ten times its viscosity
+# enters with a uniform velocity of 0.5 m/s. The effective area is Q / sqrt(2 dp / rho). Here dp is the total pressure at the
+# inlet minus the pressure at the outlet. At the outlet, the jet still exists and has not regained pressure. FOLDER gets the table
+# body_fitted.txt, the rows body_fitted.json, pictures, and the cases. Only cases whose rows all.json lacks are run, and a
+# complete case in FOLDER is not run again. To measure a row again, remove it from all.json. If a case fails, the others still
+# run, and the status is 1.
 set -euo pipefail
 here=$(dirname -- "$(readlink -f -- "$0")")
 [[ ${1:-} && ${1:-} != -* && (${2:-} == '' || ${2:-} == --quick) && $# -le 2 ]] || {
@@ -20,7 +19,7 @@ out=$(readlink -f -- "$1")
 quick=${2:-}
 cd -- "$here/../.."
 
-# openfoam.sh fetches OpenFOAM's headers and builds the plug-in. It uses the variables and functions that are set here.
+# openfoam.sh fetches OpenFOAM's headers and builds the plug-in. openfoam.sh uses the variables and functions that are set here.
 build=build n_jobs=$(nproc)
 say() { printf '==> %s\n' "$*"; }
 step() {
@@ -50,8 +49,8 @@ logged() {
 # Tests whether OpenFOAM can run a function object in the folder of the mesh. This function replaces the one in openfoam.sh.
 openfoam_function_object() { "${of_with[@]}" postProcess -case "$mesh" -func writeCellCentres -time 0; }
 
-# geometry FOLDER VALVE: prints the path of the valve's .geo file. A valve that has none gets one in the folder, from points of
-# the library. VALVE is the kind, a hyphen, and the opening.
+# geometry FOLDER VALVE: prints the path of the valve's .geo file. If no .geo file exists, the function writes one into the
+# folder, from points of the library. VALVE is the kind, a hyphen, and the opening.
 geometry() {
   local kind=${2%%-*}
   if [[ -e $here/$kind.geo ]]; then
@@ -90,8 +89,8 @@ set_valve() {
     s/kind .*/kind ${2%%-*}; }/; s/opening 1;/opening ${2#*-};/" "$1/system/fvOptions"
 }
 
-# run_case NAME MESH VALVE [EPS RIM RESISTANCE OFFSET]: runs simpleFoam. EPS is in metres. If walls replace riis in a mesh, it
-# has no EPS, RIM, RESISTANCE and OFFSET.
+# run_case NAME MESH VALVE [EPS RIM RESISTANCE OFFSET]: runs simpleFoam. EPS is in metres. In a mesh with walls instead of riis,
+# EPS, RIM, RESISTANCE and OFFSET are missing.
 run_case() {
   local case=$out/cases/$1
   [[ ! -e $case/complete ]] || return 0
@@ -107,7 +106,7 @@ run_case() {
     rm -rf "$case/constant/polyMesh" && say "$1"
 }
 
-# run_blood NAME: continues with blood's viscosity from the steady flow of the case. The unsteady run is in blood/NAME.
+# run_blood NAME: continues the steady flow of the case with blood's viscosity. The unsteady run is in blood/NAME.
 run_blood() {
   local case=$out/blood/$1 mesh=$1 from words
   [[ ! -e $case/complete ]] || return 0
@@ -135,8 +134,8 @@ run_blood() {
     rm -rf "$case/constant/polyMesh" && say "$1, in time"
 }
 
-# same_leaflets VALVE: writes the leaflets of the fitted mesh and the leaflets of the library into the folder leaflets-VALVE. The
-# half thickness of 0.1 mm makes the library's triangles exact to 0.005 mm.
+# same_leaflets VALVE: writes the leaflets of the fitted mesh and those of the library into the folder leaflets-VALVE. With the
+# half thickness of 0.1 mm, the library's triangles are exact to 0.005 mm.
 same_leaflets() {
   local case=$out/leaflets-$1 first geo
   [[ ! -e $case/complete ]] || return 0
@@ -152,7 +151,7 @@ same_leaflets() {
     rm -rf "$case"/[0-9]* "$case/constant" "$case/postProcessing" && touch "$case/complete"
 }
 
-# in_turn FUNCTION LINES: calls the function with the words of each line. As many calls run at once as there are processors.
+# in_turn FUNCTION LINES: calls the function with the words of each line. One call for each processor runs at once.
 in_turn() {
   local line words pids=() pid status=0
   while read -r line; do
@@ -169,9 +168,9 @@ in_turn() {
   return "$status"
 }
 
-# A case with walls has the name fitted-VALVE-SIZE, a case with solid leaflets solid-VALVE-EPS-SIZE. A case of riis has the name
-# riis-VALVE-EPS-SIZE-RIM-RESISTANCE, and -OFFSET, -FAR and -BAND may follow. SIZE is the length of the edges in the band. Lengths
-# are in centimetres.
+# A case with walls has the name fitted-VALVE-SIZE, and a case with solid leaflets solid-VALVE-EPS-SIZE. A case of riis has the
+# name riis-VALVE-EPS-SIZE-RIM-RESISTANCE. -OFFSET, -FAR and -BAND may follow. SIZE is the length of the edges in the band.
+# Lengths are in centimetres.
 meshes='' cases='' blood='' valves=()
 # add MESH CASE: adds the line of a mesh and the line of a case, each once. A line begins with the name.
 add() {
@@ -189,8 +188,8 @@ solid() {
   add "$name $1 0 $3 $(awk -v a="$2" -v b="$3" 'BEGIN { print a + b }') 0.13 $2" "$name $name $1"
 }
 # obstacle VALVE EPS SIZE RIM [RESISTANCE [OFFSET [FAR [BAND]]]]: adds a case of riis and its mesh. Up to the distance BAND from
-# the leaflet, edges have the length SIZE. BAND is EPS + SIZE by default, and 1.75 EPS + SIZE with OFFSET, so that one mesh
-# serves offsets from 0 to 0.85. FAR is as above.
+# the leaflet, edges have the length SIZE. BAND is EPS + SIZE by default. With OFFSET, BAND is 1.75 EPS + SIZE by default, so that
+# one mesh serves offsets from 0 to 0.85. FAR is as above.
 obstacle() {
   local more=${7:+-$7}${8:+-$8} name band=${8:-}
   name=${6:+wide}
@@ -199,7 +198,7 @@ obstacle() {
   add "$name $1 0 $3 $band ${7:-}" \
     "riis-$1-$2-$3-$4-${5:-1e3}${6:+-$6}$more $name $1 $(awk -v a="$2" 'BEGIN { print a / 100 }') $4 ${5:-1e3} ${6:-0}"
 }
-# finished ID: tells whether all.json has the row. Its cases then need not run.
+# finished ID: tells whether all.json has the row. If all.json has the row, the row's cases need not run.
 finished() { grep -qF "\"id\": \"$1\"" "$here/all.json"; }
 # beside VALVE EPS OFFSET: adds the case of the valve with this offset if all.json lacks its row. EPS is in millimetres.
 beside() {
@@ -233,7 +232,7 @@ bileaflet() {
   blood+=$'fitted-bileaflet-1-0.05\nriis-bileaflet-1-0.1-0.05-round-1e3\nriis-bileaflet-1-0.07-0.035-round-1e3\n'
 }
 
-# some_open VALVE: a valve as walls and as obstacle, with three sizes.
+# some_open VALVE: adds cases of a valve as walls and as obstacle, with three sizes.
 some_open() {
   local size rim
   valves+=("$1")
@@ -245,7 +244,7 @@ some_open() {
   done
 }
 
-# Adds the valves whose band lies beside the leaflets, with walls first. The cases of the bars are next.
+# Adds the valves whose band has an offset. Walls come first, and the cases with bars follow.
 beside_leaflets() {
   local offset valve size three=(trileaflet-1 trileaflet-0.5 trileaflet-0.25) two=(coapting-1 coapting-0.5) some
   for offset in 0.75 0; do for valve in "${three[@]}"; do beside "$valve" 1 "$offset"; done; done

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The cases of body_fitted.sh: their names, flows and effective areas."""
+"""Reads the cases of body_fitted.sh: their names, flows and effective areas."""
 import pathlib
 import re
 import sys
@@ -22,7 +22,7 @@ WALLS = "the same leaflets as walls of no thickness, body-fitted"  # the source 
 
 
 class Unsteady(Exception):
-    """A run whose flow is not steady."""
+    """Raised for a run whose flow is not steady."""
 
 
 class Run:
@@ -37,7 +37,7 @@ class Run:
         self.eps = 0.0 if self.fitted else float(words[0])
         self.size = float(words[0 if self.fitted else 1])
         self.far = float(words[1]) if self.fitted and len(words) > 1 else 0.13
-        # Whether the band has two edges in eps, and the mesh no other options.
+        # Tells whether the band has two edges in eps, and the mesh has no other options.
         self.usual = kind == "riis" and abs(self.eps / self.size - 2) < 1e-6 and len(words) < 6
         self.resistance = float(words[3]) if kind == "riis" else None
         self.offset = float(words[4]) if kind == "riis" and len(words) > 4 else None
@@ -50,7 +50,7 @@ class Run:
         pressure = foam.table(folder, "inlet")[:, 1]
         self.steps = len(pressure)
         self.converged = "SIMPLE solution converged" in log
-        # The total drop differs from the static drop by a constant, and decides the area.
+        # The area follows from the total drop, which differs from the static drop by a constant.
         total = pressure[-100:] + INLET ** 2 / 2
         self.change = (total.max() - total.min()) / total[-1]
         if not self.converged and not self.change <= STEADY:
@@ -61,7 +61,7 @@ class Run:
         self.drop = RHO * pressure[-1]  # Pa, static, from the inlet to the outlet
         self.flow = INLET * numpy.pi * RADIUS[self.valve] ** 2 * 1e2  # ml/s
         out = foam.table(folder, "outlet")[-1, 1] * 1e6 * COPIES[self.valve]
-        # The mesh has polygons instead of circles, so a coarse mesh has less flow. The area uses the flow of the polygon.
+        # The mesh has polygons instead of circles, so a coarse mesh has less flow. The area follows from the polygon's flow.
         if abs(out / self.flow - 1) > 0.03:
             raise SystemExit(f"{folder}: {out} ml/s leave the tube, and {self.flow} enter it")
         self.flow = out
@@ -75,7 +75,7 @@ class Run:
 
 
 def read_runs(folder):
-    """Returns the complete cases of the folder. Says which ones are not steady, and leaves them out."""
+    """Returns the complete cases of the folder. Reports cases that are not steady, and leaves them out."""
     runs = []
     for case in sorted((folder / "cases").iterdir()):
         if not (case / "complete").exists():
@@ -88,7 +88,7 @@ def read_runs(folder):
 
 
 def chosen(runs):
-    """Returns the usual runs with R = 1e3, from the largest eps to the smallest."""
+    """Returns the runs with default options and R = 1e3, from the largest eps to the smallest."""
     return sorted((run for run in runs if run.usual and run.resistance == 1e3), key=lambda run: -run.eps)
 
 
@@ -100,6 +100,6 @@ def place(run, value):
 
 
 def line(eps, area):
-    """Fits a straight line to area(eps). Returns its value at 0 and its slope."""
+    """Fits a straight line to area(eps). Returns the line's value at 0 and its slope."""
     slope, at_zero = numpy.polyfit(eps, area, 1)
     return at_zero, slope

@@ -80,8 +80,8 @@ contains
     print '(a, f6.2, es14.5)', 'spread', cells_of_eps, maxval(ratio) - minval(ratio)
   end subroutine closed_plate
 
-  ! Moves a plate by 10 mm in a duct with equal pressures at both ends. The duct is 8 mm by 8 mm by 32 mm and n cells across. The
-  ! half thickness eps is 1.5 mm.
+  ! Moves a plate by 10 mm in a duct with equal pressures at both ends. The duct is 8 mm by 8 mm by 32 mm, with n cells across.
+  ! The half thickness eps is 1.5 mm.
   subroutine moving_plate(n)
     integer, intent(in) :: n
     real(dp), parameter :: dt = 1e-3_dp, w = 0.1_dp, side = 8e-3_dp

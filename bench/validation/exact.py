@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Closed forms of ./run validate. The function check() tests each closed form against its equations.
+"""Has the closed forms of ./run validate. The function check() tests each closed form by its equations.
 
 If phi is harmonic, u = phi e_z - z grad(phi) and p = -2 mu phi_z solve the Stokes equations. Happel and Brenner, Low Reynolds
 number hydrodynamics, 1965, derive the same flows from stream functions. The two flows below use oblate spheroidal coordinates
@@ -11,7 +11,7 @@ import numpy as np
 
 
 def spheroidal(a, r, z):
-    """Returns l >= 0 and c, where c has the sign of z.
+    """Returns l and c. l is at least 0, and c has the sign of z.
 
     a^2 l^2 is a root of t^2 - s t - a^2 z^2 with s = r^2 + z^2 - a^2. The formulas avoid cancellation."""
     s, root = r * r + z * z - a * a, np.hypot(r * r + z * z - a * a, 2 * a * z)
@@ -41,13 +41,14 @@ def hole(a, r, z):
 
 
 def contraction(m):
-    """Returns the contraction C of a plane free jet from a slit. m is the slit's width divided by the channel's width. m = 0
-    stands for a jet from a half space.
+    """Returns the contraction C of a plane free jet from a slit. m is the slit's width divided by the channel's width. If m is 0,
+    the jet comes from a half space.
 
-    The formula comes from the theory of free streamlines (Helmholtz, Kirchhoff). Von Mises 1917 has a table of C. The hodograph
-    w = (u - i v)/U of half the jet is a quarter of the unit disc. It has a source at k = C m, which is the speed far upstream
-    divided by U, and a sink at 1. So W = (Q/pi) (log(w^2 - k^2) + log(w^2 - 1/k^2) - 2 log(w^2 - 1)). The integral of dz = dW /
-    (U w) along the free streamline goes from the edge, w = i, to w = 1. It gives 1/C = 1 + (2/pi) (1/k - k) arctan k."""
+    The formula comes from the theory of free streamlines (Helmholtz, Kirchhoff). Von Mises 1917 has a table of C. The hodograph w
+    = (u - i v)/U of half the jet is a quarter of the unit disc. The quarter has a source at k = C m, which is the speed far
+    upstream divided by U, and a sink at 1. Therefore W = (Q/pi) (log(w^2 - k^2) + log(w^2 - 1/k^2) - 2 log(w^2 - 1)). dz = dW /
+    (U w) is integrated along the free streamline from the edge, w = i, to w = 1. The integral gives 1/C = 1 + (2/pi) (1/k - k)
+    arctan k."""
     if m == 0:
         return np.pi / (np.pi + 2)
     C = 0.6
@@ -73,7 +74,7 @@ def contraction_by_streamline(m, n=200_000):
 
 
 def check(say=print, tolerance=1e-5):
-    """Raises AssertionError unless each closed form solves its equations."""
+    """Raises AssertionError if a closed form does not solve its equations."""
     generator = np.random.default_rng(1)
     e = 1e-4
     for name, flow in (("disc", disc), ("hole", hole)):

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Computes plane jets from a slit in a plate across a channel with slip walls: contraction, drop, and pressure downstream.
 
-Units are SI. The slit's half width is B, and the mean speed in it is SPEED. The viscosity is small near the slit (REYNOLDS) and
-grows downstream (MIXING), because it stands for turbulent mixing. Slip walls have no friction, so the balance of momentum holds
-with any viscosity."""
+Units are SI. The slit's half width is B, and the mean speed in the slit is SPEED. The viscosity is small near the slit
+(REYNOLDS). The viscosity grows downstream (MIXING), because it stands for turbulent mixing. Slip walls have no friction, so the
+balance of momentum holds with any viscosity."""
 
 import numpy as np
 
@@ -31,7 +31,7 @@ def grid_of(eps, per_eps, share, shift):
 
 
 def jet(library, share, eps, per_eps, rim, shift=0.0, speed=SPEED, reynolds=REYNOLDS, say=None):
-    """Computes one jet and returns a dict of measures. share is the slit's width over the channel's width."""
+    """Computes one jet. Returns a dict of measures. `share` is the slit's width over the channel's width."""
     x, y = grid_of(eps, per_eps, share, shift)
     flow = Flow(x, y, walls="channel")
     points = np.vstack([flow.u_points(), flow.v_points()])
@@ -44,7 +44,7 @@ def jet(library, share, eps, per_eps, rim, shift=0.0, speed=SPEED, reynolds=REYN
     u, v, p = flow.solve(marking.RHO, mu, K, q, say=say)
     rho, discharge = marking.RHO, inlet * B / share
     total = p[0, 0] + rho / 2 * inlet**2
-    # The pressure downstream is the pressure in a cell of the dead water behind the plate, half way between slit and wall.
+    # The pressure downstream is that of a cell in the dead water behind the plate, half way between slit and wall.
     i = np.searchsorted(flow.xc, 2 * eps + B / 4)
     j = np.searchsorted(flow.yc, (B + B / share) / 2)
     core = u[(flow.x > 0) & (flow.x < 3 * B), 0].max()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Makes surfaces of triangles, and computes K at points with the library, by the program of marks.c."""
+"""Makes surfaces of triangles. The program of marks.c computes K at points by the library."""
 
 import subprocess
 
@@ -11,7 +11,7 @@ N_SIDES = 1440  # sides of the polygon for a circle; their middles lie 2.4e-6 ra
 
 
 class Library:
-    """Calls the program of marks.c. The test plants errors by the factors scale_K and scale_eps."""
+    """Calls the program of marks.c. The factors scale_K and scale_eps let a test plant errors."""
 
     def __init__(self, program, scale_K=1.0, scale_eps=1.0):
         self.program, self.scale_K, self.scale_eps = program, scale_K, scale_eps
@@ -46,7 +46,8 @@ def plate_with_hole(a, outer):
 
 
 def plate_with_slit(b, outer):
-    """Returns a plate in the plane x = 0 from y = b to y = outer, and its mirror image. Both reach from z = -outer to outer."""
+    """Returns a plate in the plane x = 0 from y = b to y = outer, and its mirror image. The plate and the image reach from z =
+    -outer to outer."""
     vertices, faces = [], []
     for sign in (1, -1):
         first = len(vertices)

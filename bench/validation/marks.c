@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes the resistance K at the points of the solvers of ./run validate with the library:
+// Computes the resistance K by the library, at the points of the solvers of ./run validate:
 //   validation_marks EPS R round|cut < INPUT > OUTPUT
-// INPUT has the numbers of vertices, triangles and points as 64-bit integers. Then it has xyz of each vertex as doubles, and
-// three 64-bit vertex numbers of each triangle, counted from 0. xyz of each point as doubles is last. OUTPUT has K of each point
-// as a double. All numbers have the machine's byte order. The solvers call this program instead of the Python package, because
-// the package cannot be built on Debian 12 without PyPI.
+// INPUT has the numbers of vertices, triangles and points as 64-bit integers. Then INPUT has xyz of each vertex as doubles, and
+// three 64-bit vertex numbers of each triangle, counted from 0. Finally INPUT has xyz of each point as doubles. OUTPUT has K of
+// each point as a double. All numbers have the machine's byte order. The solvers call this program instead of the Python package,
+// because the package cannot be built on Debian 12 without PyPI.
 #include <riis/riis.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Computes Stokes flow through a hole or past a disc in three dimensions, on a staggered grid in one eighth of a box.
 
-Sparse LU solves for the velocities. Conjugate gradients on the Schur complement solve for the pressure. The results show that
+Sparse LU solves for the velocities, and conjugate gradients on the Schur complement solve for the pressure. The results show that
 the axisymmetric results of stokes.py also hold in three dimensions."""
 
 import numpy as np
@@ -15,7 +15,8 @@ from stokes import BOX, consistent
 
 
 class _Side:
-    """One direction of the grid: sizes and centres of its n cells, and for faces 0 to n the distance between the centres."""
+    """One direction of the grid. A direction has the sizes and centres of its n cells, and the distances between the centres
+    beside faces 0 to n."""
 
     def __init__(self, edges):
         self.edge, self.size, self.centre = edges, np.diff(edges), (edges[1:] + edges[:-1]) / 2
@@ -23,7 +24,7 @@ class _Side:
         self.wide = np.concatenate([[self.size[0] / 2], np.diff(self.centre), [self.size[-1] / 2]])
 
     def along(self):
-        """Returns the matrix of -d2/dx2 times length for values on faces. The first and the last face have one neighbour each."""
+        """Returns the matrix of -d2/dx2 times length for values on faces. The first and the last face have only one neighbour."""
         return _springs(1 / self.size)
 
     def across(self, first_given):
@@ -47,8 +48,8 @@ def _kron(a, b, c):
 
 
 def effective_radius(library, kind, eps, per_eps, rim, tolerance=1e-6):
-    """Returns a_eff and the number of cells, as stokes.effective_radius does. The plate lies on a face of the grid. The rim may
-    lie anywhere between faces."""
+    """Returns a_eff and the number of cells, like stokes.effective_radius. The plate lies on a face of the grid. The rim may lie
+    anywhere between faces."""
     h = eps / per_eps
     n, m = round(1.5 * per_eps + 1), round(1 + 2.5 * eps * 1.0 / h + 1 / h)
     side = [_Side(graded(h, (0, m * h), (0, BOX), 1.15))] * 2 + [_Side(graded(h, (0, n * h), (0, BOX), 1.15))]
@@ -68,8 +69,9 @@ def effective_radius(library, kind, eps, per_eps, rim, tolerance=1e-6):
         def schur(p):
             return sum(d @ lu.solve(d.T @ p) for d, lu in zip(D, A))
 
-        # The velocity u = started + A^-1 D^T p must be free of divergence, which gives the equation S p = mass. The Schur
-        # complement S is close to the cell volumes if viscosity dominates, and close to `rough` if K dominates.
+        # The velocity u = started + A^-1 D^T p must be free of divergence. This condition gives the equation S p = mass. The
+        # Schur complement S is close to the cell volumes if viscosity dominates. If K dominates, S is close to the matrix
+        # `rough`.
         p = _conjugate_gradients(schur, mass, lambda x: rough.solve(x) + x / size, tolerance)
         u = [x + lu.solve(d.T @ p) for x, lu, d in zip(started, A, D)]
         if kind == "disc":
@@ -89,7 +91,7 @@ def effective_radius(library, kind, eps, per_eps, rim, tolerance=1e-6):
 
 
 class _Component:
-    """The equation of one component of the velocity: its matrix A, its part D of the divergence, and its boundary values."""
+    """The equation of one velocity component: its matrix A, the component's part D of the divergence, and boundary values."""
 
     def __init__(self, library, surface, side, c, eps, rim):
         self.c, self.side = c, side
@@ -115,8 +117,8 @@ class _Component:
         self.D = _kron(*[jump if d == c else sp.diags(side[d].size) for d in range(3)])
 
     def given(self, kind, a):
-        """Returns the prescribed velocities on the box's faces normal to c, which are 0 elsewhere. Also returns the friction of
-        the box's other faces."""
+        """Returns the prescribed velocities on the box's faces normal to c. The velocities are 0 on all other faces. Also returns
+        the friction of the other faces."""
         def velocity(x, y, z):
             r = np.hypot(x, y)
             u_r, u_z, _ = exact.disc(a, r, z) if kind == "disc" else exact.hole(a, r, z)

@@ -15,8 +15,8 @@ static void check(riis_status status) {
   exit(1);
 }
 
-// Returns for each vertex whether it belongs to the right cusp's lower patch. Both patches share the vertices of the bending
-// curve, whose v is 1 there.
+// Returns, for each vertex, whether it belongs to the lower patch of the right cusp. The vertices of the bending curve, where v
+// is 1, belong to both patches.
 static char *vertices_below(const riis_triangles *all) {
   char *below = calloc((size_t)all->n_vertices, 1);
   if (!below) exit(1);
@@ -26,7 +26,7 @@ static char *vertices_below(const riis_triangles *all) {
   return below;
 }
 
-// Finds the point of the patch at (u, v) in the patch's triangles, and writes it.
+// Finds the point at (u, v) in the triangles of the patch, and writes it.
 static void find(const riis_triangles *all, const char *below, int32_t patch, double u, double v, double *point) {
   double best = -1e300;
   for (int64_t t = 0; t < all->n_triangles; ++t) {
@@ -73,7 +73,8 @@ int main(int argc, char **argv) {
   for (int32_t patch = 0; patch < 2; ++patch)
     for (int i = 0; i <= n; ++i)
       for (int j = 0; j <= n; ++j) {
-        // The root and the end of the coaptation zone, where the patches end in points, are left out. Both lie outside the tube.
+        // The patches end in points at the root and at the end of the coaptation zone. The two end points are left out, because
+        // they lie outside the tube.
         const double v = patch ? (double)i / n : 0.03 + 0.97 * i / n;
         double point[3];
         find(&all, below, patch, 0.97 * j / n, v, point);

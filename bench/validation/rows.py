@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Makes the rows of ./run validate. A row compares a computed value with a reference.
 
-A row is one JSON object with the fields below. bench/validation/all.json also has rows, from solvers that take hours. They
-are under "rows". "commit", "machine" and "command" say where they come from. validate.py merges them into the page.
+A row is one JSON object with the fields below. bench/validation/all.json also has rows, from solvers that take hours. Its key
+"rows" has these rows, and "commit", "machine" and "command" say where they come from. validate.py merges them into the page.
   id            unique word, which the page's prose may use
   group         stokes, closed, jets, bodyfit, offset or clinical: the page's section
   quantity      text
@@ -37,7 +37,7 @@ SIGN = {"hole": 1, "disc": -1}  # the sign of 1 - a_eff
 
 def extrapolate(h, values, least=0.3, most=5.0):
     """Fits f + c h^p to the values of three grids, coarse to fine. Returns the order p and the limit f. If no p from `least` to
-    `most` fits, returns None and the value of the finest grid."""
+    `most` fits, returns None instead of the order, and the value of the finest grid."""
     a, b, c = values
     if not (a - b) * (b - c) > 0 or abs(b - c) < 1e-4 * abs(c):
         return None, c
@@ -73,8 +73,8 @@ def missed(rows):
 
 
 class Variant:
-    """The sizes that a run computes. A half thickness is 1/n of the radius or of the slit's half width, for each n. The grids
-    are given by the number of cells in the half thickness."""
+    """The sizes that a run computes. The half thickness is 1/n of the hole's radius or of the slit's half width, for each n
+    listed. A grid is given by the number of cells in the half thickness."""
 
     def __init__(self, stokes_n, stokes_cells, jet_n, jet_cells, contraction_cells, shares, in_space):
         self.contraction_cells = contraction_cells
@@ -114,7 +114,7 @@ def resistance_tasks(variant):
 
 def resistance_rows(variant, results):
     """Returns the rows that show the effect of R on a hole. The flow enters the band to the depth at which K equals mu over the
-    depth squared. This depth is proportional to (R/mu)^(-1/4). If R is small, blood also leaks through the plate."""
+    squared depth. This depth is proportional to (R/mu)^(-1/4). If R is small, blood also leaks through the plate."""
     n, rows, cells = variant.stokes_n[1], [], variant.stokes_cells
     for factor in FACTORS:
         ratio = factor * marking.R / marking.MU
@@ -179,8 +179,8 @@ def stokes_rows(variant, results):
 
 
 def closed_plane(library, cells, rim="round"):
-    """Returns the drop of a plate across a plane channel over (R/eps) u, for four places of the plate between two faces. `cells`
-    is the number of cells in eps."""
+    """Returns the drop of a plate across a plane channel, divided by (R/eps) u. The drop is computed for four places of the plate
+    between two faces of the grid. `cells` is the number of cells in eps."""
     h, u, ratios = 1e-3, 0.1, []
     eps = cells * h
     for place in (0.1, 0.35, 0.6, 0.85):
@@ -195,8 +195,8 @@ def closed_plane(library, cells, rim="round"):
 
 
 def closed_rows(library, flow_program=None, short=False):
-    """Returns the rows of flat plates. With flow_program, the program of closed.f90, it also returns the rows of the solver of
-    examples/flow_fortran."""
+    """Returns the rows of flat plates. If flow_program, the program of closed.f90, is given, also returns the rows of the solver
+    of examples/flow_fortran."""
     cells = (1, 2, 3)
     law = "integral of K over the band"
     rows = [row("closed_plane", "closed", "drop of a plate across a channel over (R/ε) u", 1.0, law,
@@ -250,8 +250,8 @@ def jet_tasks(variant):
 
 
 def slope_row(rim, n, thick, thin):
-    """Returns the row with c of a slit. c is the difference between the effective half widths of eps and eps/2, divided by eps/2.
-    Both are computed on the same cells, so the error of the grid cancels."""
+    """Returns the row with c of a slit. c is the difference between the effective half widths for eps and for eps/2, divided by
+    eps/2. Both half widths are computed on the same cells, so the grid's errors cancel."""
     if [g["n"] for g in thick["grids"]] != [g["n"] for g in thin["grids"]]:
         raise ValueError(f"the rows {thick['id']} and {thin['id']} are not on the same grids")
     values = [(b["value"] - a["value"]) * 2 * n for a, b in zip(thick["grids"], thin["grids"])]

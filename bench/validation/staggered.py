@@ -3,10 +3,10 @@
 
   rho div(u u) = -grad p + div(mu grad u) - K u,  div u = 0
 
-x runs along the axis or the stream. y is the radius or the direction across the stream. u lies on faces normal to x, v on faces
-normal to y, and p at cell centres. Diffusion uses central differences. Convection extrapolates linearly from two points
-upstream. Newton's method solves for all unknowns at once. Its Jacobian is exact unless the flow through some face changes its
-direction. Stokes flow takes one solution of linear equations."""
+x runs along the axis or the stream. y is the radius or the direction across the stream. u lies on faces normal to x, and v on
+faces normal to y. p lies at cell centres. Diffusion uses central differences. Convection extrapolates linearly from two points
+upstream. Newton's method solves for all unknowns at once. The Jacobian is exact if the flow keeps its direction through each
+face. Stokes flow needs only one solution of linear equations."""
 
 import numpy as np
 import scipy.sparse as sp
@@ -14,7 +14,7 @@ import scipy.sparse.linalg as sla
 
 
 class Diverged(Exception):
-    """Newton's method did not converge."""
+    """Raised if Newton's method did not converge."""
 
 
 class Flow:
@@ -47,7 +47,7 @@ class Flow:
         free_u[-1] = self.channel
         self.free = np.concatenate([free_u.ravel(), free_v.ravel()])
 
-    # u_points and v_points return the places of the unknown velocities, at which the library computes K.
+    # u_points and v_points return the places of the unknown velocities. The library computes K at these places.
     def u_points(self):
         return np.stack(np.meshgrid(self.x, self.yc, indexing="ij"), -1).reshape(-1, 2)
 
@@ -70,8 +70,8 @@ class Flow:
     def viscous(self, mu, edge_u=None, edge_v=None):
         """Returns the matrix and the right-hand side of -div(mu grad u), times volumes. mu is a number or has shape (nx, ny).
 
-        edge_u holds u on the lower and on the upper side, each of shape (nx + 1). None stands for a side without friction.
-        edge_v holds v on the left and on the right side, each of shape (ny + 1)."""
+        edge_u has two arrays of shape (nx + 1): u on the lower and on the upper side. None stands for a side without friction.
+        edge_v has two arrays of shape (ny + 1): v on the left and on the right side."""
         mu = np.broadcast_to(np.asarray(mu, float), (self.nx, self.ny))
         padded = np.pad(mu, 1, mode="edge")
         corner = (padded[1:, 1:] + padded[:-1, 1:] + padded[1:, :-1] + padded[:-1, :-1]) / 4
@@ -104,9 +104,9 @@ class Flow:
         return sp.csr_matrix((np.concatenate(values), (np.concatenate(rows), np.concatenate(columns))), (n, n)), rhs
 
     def _convection(self):
-        """Returns four matrices for the inner faces of the control volumes. M gives the mass flow through each face. B subtracts
-        the flux of a face from one volume and adds it to the other. The last two extrapolate a value to each face, for flow in
-        the positive and in the negative direction."""
+        """Returns four matrices for the inner faces of the control volumes. M computes the mass flow through each face. B
+        subtracts the flux of a face from one volume and adds it to the other volume. The last two matrices extrapolate a value to
+        each face, for flow in the positive and in the negative direction."""
         if hasattr(self, "_faces"):
             return self._faces
         n = self.n_u + self.n_v
@@ -128,7 +128,7 @@ class Flow:
             count += stencil[1].size
 
         def beyond(a, axis):
-            # Returns `a` shifted by one along the axis, once in each direction. The value at the end is repeated.
+            # Returns `a` shifted by one along the axis, in each of both directions. The value at the end is repeated.
             low = np.concatenate([a.take([0], axis), a.take(range(a.shape[axis] - 1), axis)], axis)
             high = np.concatenate([a.take(range(1, a.shape[axis]), axis), a.take([-1], axis)], axis)
             return low, high
@@ -141,8 +141,8 @@ class Flow:
         area = self.wc * self.dy / 2
         X, Y = np.meshgrid(self.x, self.yc, indexing="ij")
         add(((u[:-1], area), (u[1:], area)), stencil_of(u, 0), stencil_of(X, 0), self.xc[:, None])
-        # Faces between two volumes of u that are neighbours in y come second. The flow through a face is half of v in the cell on
-        # the left plus half of v in the cell on the right. At both ends of the grid a face has only one of these halves.
+        # The second faces lie between two volumes of u that are neighbours in y. The flow through such a face is half of v in the
+        # cell on the left plus half of v in the cell on the right. At both ends of the grid a face has only one of these halves.
         left, right = np.concatenate([self.dx[:1] * 0, self.dx / 2]), np.concatenate([self.dx / 2, self.dx[:1] * 0])
         to_left = np.concatenate([v[:1], v])[:, 1:-1]
         to_right = np.concatenate([v, v[-1:]])[:, 1:-1]
@@ -188,8 +188,8 @@ class Flow:
         return residual, jacobian
 
     def solve_linear(self, mu, K, q, edge_u=None, edge_v=None):
-        """Solves for Stokes flow, which has rho = 0. Later calls reuse the matrix factors of the first call, and with them its mu
-        and K."""
+        """Solves for Stokes flow, in which rho is 0. Later calls reuse the factors of the first call's matrix, and therefore also
+        the first call's mu and K."""
         if not hasattr(self, "_stokes"):
             A, _ = self.viscous(mu, edge_u, edge_v)
             A = A + sp.diags(K * np.concatenate([self.u_volume.ravel(), self.v_volume.ravel()]))
@@ -209,8 +209,9 @@ class Flow:
     def solve(self, rho, mu, K, q, tolerance=1e-6, most=40, say=None):
         """Solves for steady flow in a channel. Returns u (nx + 1, ny), v (nx, ny + 1) and p (nx, ny).
 
-        q holds the first guess of the velocities, and the given velocities at the inlet. K holds the values at u_points, then at
-        v_points. mu is a list of descending viscosities. The solution for each viscosity is the first guess for the next."""
+        q holds the first guess of the velocities, and the given velocities at the inlet. K holds the values at u_points, followed
+        by those at v_points. mu is a list of descending viscosities. The solution for each viscosity is the first guess for the
+        next viscosity."""
         free = self.free
         volume = np.concatenate([self.u_volume.ravel(), self.v_volume.ravel()])
         q, p = np.array(q, float), np.zeros(self.n_p)
@@ -246,8 +247,8 @@ def _factor(matrix):
 
 
 def graded(h, fine, ends, growth=1.1, largest=None):
-    """Returns the edges of cells from ends[0] to ends[1]. Cells from fine[0] to fine[1] have the size h. Outside this range,
-    each cell is larger than the cell before it by the factor growth."""
+    """Returns the edges of cells from ends[0] to ends[1]. Cells from fine[0] to fine[1] have the size h. Outside this range, each
+    cell is `growth` times as large as its inner neighbour."""
     if fine[0] < ends[0] - 1e-9 * h or fine[1] > ends[1] + 1e-9 * h:
         raise ValueError(f"cells of {h} from {fine[0]} to {fine[1]} do not fit between {ends[0]} and {ends[1]}")
     n = max(1, round((fine[1] - fine[0]) / h))

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Computes the effective radius of a hole in a plate, and of a disc, in axisymmetric Stokes flow.
 
-Lengths are in radii a. K / mu is (R / mu) delta / eps with R / mu = 1e4 / 3.5e-3 = 2.9e6. R / mu has no unit, so blood's value
-holds at any size. With the effective radius, the closed form gives the boundary values. The effective radius is therefore
+Lengths are in radii a. K / mu is (R / mu) delta / eps with R / mu = 1e4 / 3.5e-3 = 2.9e6. R / mu has no unit, so the value for
+blood holds at any size. The closed form for the effective radius gives the boundary values. The effective radius is therefore
 found by iteration."""
 
 import numpy as np
@@ -15,8 +15,8 @@ BOX = 6.0  # radii, half the box's length and its radius
 
 
 def grid_of(eps, per_eps, along, across):
-    """Returns the edges of the cells along the axis and along the radius. The distance of the plate from a face is `along`
-    cells. The distance of the rim from a face is `across` cells."""
+    """Returns the edges of the cells along the axis and along the radius. The plate is `along` cells from a face. The rim is
+    `across` cells from a face."""
     h = eps / per_eps
     n, m = round(1.5 * per_eps + 1), round(2.5 * per_eps + 1)
     z = graded(h, ((-n - along) * h, (n - along) * h), (-BOX, BOX), 1.12)
@@ -26,8 +26,8 @@ def grid_of(eps, per_eps, along, across):
 
 
 def effective_radius(library, kind, eps, per_eps, rim, place=(0.0, 0.0), solid=False, R_over_mu=marking.R / marking.MU):
-    """Returns a_eff and the number of cells. kind is hole or disc. place holds the arguments along and across of grid_of. If
-    solid is true, no flow enters the band."""
+    """Returns a_eff and the number of cells. `kind` is hole or disc. `place` holds the arguments along and across of grid_of. If
+    `solid` is true, no flow enters the band."""
     z, r = grid_of(eps, per_eps, *place)
     flow = Flow(z, r, axial=True)
     surface = marking.disc(1.0) if kind == "disc" else marking.plate_with_hole(1.0, BOX + 4 * eps)
@@ -58,7 +58,7 @@ def effective_radius(library, kind, eps, per_eps, rim, place=(0.0, 0.0), solid=F
         if kind == "disc":
             force = 2 * np.pi * np.sum(K[: flow.n_u].reshape(u.shape) * u * flow.u_volume)
             return force / 16
-        # The loop finds the hole's radius for which the closed form has the same drop between the two ends of ring j.
+        # Finds the radius at which the closed form of a hole has the computed drop between the two ends of ring j.
         j = flow.ny // 2
         drop = p[0, j] - p[-1, j]
         ends = np.array([flow.xc[0], flow.xc[-1]])
@@ -73,8 +73,8 @@ def effective_radius(library, kind, eps, per_eps, rim, place=(0.0, 0.0), solid=F
 
 
 def solid_radius(library, kind, eps, per_eps, rim):
-    """Returns a_eff and the number of cells, as effective_radius does, for a solid plate with the shape of the band. Plane sides
-    of the plate lie on faces of the grid. The library is not called."""
+    """Returns a_eff and the number of cells, like effective_radius, for a solid plate with the shape of the band. Plane sides of
+    the plate lie on faces of the grid. The library is not called."""
     return effective_radius(library, kind, eps, per_eps, rim, solid=True)
 
 
@@ -87,7 +87,7 @@ def _in_band(kind, eps, rim, z, r):
 
 
 def consistent(computed):
-    """Returns the radius a with computed(a) = a, where a sets the boundary values. The secant method converges quickly, because
+    """Returns the radius a with computed(a) = a. The boundary values depend on a. The secant method converges quickly, because
     computed(a) is nearly linear in a."""
     given = [1.0, computed(1.0)]
     found = [given[1], computed(given[1])]

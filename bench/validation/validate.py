@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""The program of ./run validate: it computes the rows, draws the plots, and writes their
-numbers into docs/validation.md. rows.py describes a row.
+"""The program of ./run validate: it computes the rows, draws the plots, and writes the rows' numbers into docs/validation.md.
+rows.py describes a row.
 
 validate.py --marks PROGRAM --flow PROGRAM --out FOLDER [--short] [--page FILE] [--reuse]
 The status is 1 if a row misses its bar. With --reuse the program computes nothing and reads FOLDER/rows.json."""
@@ -29,7 +29,7 @@ FIELDS = ("id", "group", "quantity", "reference", "source", "solver", "grids", "
 
 
 def compute(library, variant, n_processes, say):
-    """Returns {name: result} for all tasks. The longest tasks start first, so that the processes end at about the same time."""
+    """Returns {name: result} for all tasks. The longest tasks start first, so the processes end at about the same time."""
     import rows
 
     tasks = rows.jet_tasks(variant)[::-1] + rows.stokes_tasks(variant)[::-1]
@@ -49,7 +49,7 @@ def _call(job):
 
 
 def check_rows(rows, where):
-    """Refuses rows that the page cannot show. The rows of all.json need this check, because another program writes them."""
+    """Refuses rows that the page cannot show. Another program writes the rows of all.json, so they need this check."""
     for number, row in enumerate(rows):
         for field in FIELDS:
             if field not in row:
@@ -104,7 +104,7 @@ def letters_of(rows):
 
 
 def solvers_of(rows):
-    """Returns the names of the solvers, with the letters that the table has for several solvers."""
+    """Returns the names of the solvers. If there are several, each name has the letter that the table uses."""
     letters = letters_of(rows)
     return "; ".join(f"({letters[name]}) {name}" for name in letters) or "".join({row["solver"] for row in rows})
 
@@ -126,8 +126,8 @@ def table_of(rows):
 
 
 def offsets_of(rows):
-    """Returns the short table of the rows of bands beside the leaflets: deviations of area and drop for each opening, half
-    thickness and offset."""
+    """Returns the short table of the rows of bands with an offset. The table has the deviations of area and drop for each
+    opening, half thickness and offset."""
     import report_text
 
     offsets = sorted({row["offset"] for row in rows})

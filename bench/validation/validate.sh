@@ -1,6 +1,6 @@
 # shellcheck shell=bash
 # SPDX-License-Identifier: Apache-2.0
-# The steps of ./run validate: compile, compute, draw, write the page. `run` sources this file after
+# The steps of ./run validate compile, compute, draw and write the page. `run` reads this file after
 # examples/flow_fortran/flow.sh. The steps use the build folder of flow.sh, and the functions install_missing, is_on_offer,
 # python_of_packages, say and step of `run`.
 
@@ -15,13 +15,13 @@ validate_compile() {
 }
 
 # ./run validate [--short | --page | --all]
-#   Compares flows computed with K with known solutions: Stokes flow through a hole and past a disc, plates that close a channel
-#   or move in it, plane jets. It leaves the rows in out/validate, and writes them into docs/validation.md, in less than 20
-#   minutes. It fails if a row misses its bar, and is skipped if the distribution lacks libhypre-dev. --short takes coarse grids,
-#   in less than five minutes, and leaves everything in out/validate_short. --page computes nothing, and writes the page again
-#   from out/validate/rows.json. --all first computes open leaflets in OpenFOAM, as walls in body-fitted meshes and as obstacles
-#   of riis, in hours, and adds their rows to bench/validation/all.json. It keeps rows that are there and cases that are complete,
-#   so it goes on after a stop.
+#   Compares flows that K determines with known solutions: Stokes flow through a hole and past a disc, plates that close a
+#   channel or move in it, plane jets. In less than 20 minutes, the rows go to out/validate and into docs/validation.md. The
+#   command fails if a row misses its bar, and is skipped if the distribution lacks libhypre-dev. --short uses coarse grids, takes
+#   less than five minutes, and leaves everything in out/validate_short. --page computes nothing, and writes the page again from
+#   out/validate/rows.json. --all first computes open leaflets in OpenFOAM, as walls in body-fitted meshes and as obstacles of
+#   riis. This takes hours, and adds rows to bench/validation/all.json. Existing rows and complete cases stay, so --all can go on
+#   after a stop.
 run_validate() {
   local out=out/validate words=(--page docs/validation.md) python status=0
   case $* in

@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_complete.sh TEST_SOURCE HEADER...
-# Every function, enum constant, struct and field of the headers must appear in the test, even if it was appended
-# after a release. Headers that a header includes by name are also checked.
+# Every function, enum constant, struct and field of the headers must appear in the test, even if it was appended after a release.
+# Headers that these headers include by name are also checked.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 test_source=$1

@@ -1,7 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_layouts.sh compare DUMP DESCRIBED [LIBRARY]
-#   DESCRIBED is the library built with debug information. It must fit callers that were compiled with the dump's release.
+#   DESCRIBED is the library built with debug information. Callers that were compiled with the dump's release must be able to use
+#   it.
 #   Every difference that abidiff reports is therefore an error, except new functions and fields at the end of structs.
 #   LIBRARY is the library without debug information. If it is given, DESCRIBED must export the same functions.
 # check_layouts.sh write DUMP DESCRIBED
@@ -19,9 +20,8 @@ describe() {
 }
 
 # without_appended_fields DUMP: prints the newer dump on the standard input, without the fields that were appended to the older
-# dump's structs. Callers pass the size of the struct for which they were compiled, so later fields do not concern them.
-# (abidiff's own suppression, has_data_member_inserted_at = end, is not suitable, because it also hides fields whose type
-# changed.)
+# dump's structs. Callers pass the size of the struct for which they were compiled, so later fields do not affect them. (abidiff's
+# suppression, has_data_member_inserted_at = end, is not suitable, because it also hides fields whose type changed.)
 without_appended_fields() {
   awk '
     function value_of(attribute) {
@@ -67,11 +67,11 @@ case $verb in
     status=0
     new=$(mktemp)
     trap 'rm -f "$new"' EXIT
-    # Struct layouts and sizes are the same on every 64-bit processor that this project knows, and only the dump's first line
-    # names one.
+    # All 64-bit processors that this project knows have the same struct layouts and sizes. Only the dump's first line names a
+    # processor.
     processor=$(head -n 1 "$dump" | grep -o "architecture='[^']*'")
-    # Two dumps are compared, not two libraries. abidiff would count all types as private if it compared a library with
-    # --headers-dir with a dump without locations.
+    # The script compares two dumps instead of two libraries. With --headers-dir, abidiff would count all types as private if the
+    # other side were a dump without locations.
     describe "$described" | sed "1s/architecture='[^']*'/$processor/" | without_appended_fields "$dump" >"$new"
     report=$(abidiff --no-added-syms "$dump" "$new" 2>&1) || status=$?
     printf '%s\n' "$report"

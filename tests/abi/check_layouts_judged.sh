@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_layouts_judged.sh CC SCRATCH
-# Runs check_layouts.sh on a tiny library and on changed copies of it. The check must accept changes that compiled callers do not
-# notice, and refuse all others.
+# Runs check_layouts.sh on a tiny library and on changed copies of it. The check must accept changes that do not affect compiled
+# callers, and refuse all other changes.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 cc=$1 scratch=$2

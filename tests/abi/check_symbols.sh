@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # The list has a line "NAME VERSION" for every released function, and a line "NAME = VALUE VERSION" for every constant. VERSION is
 # the release that introduced the name. Compiled callers contain these names and values. The list must therefore equal the names
-# of the library and of the header, including the headers that it includes by name.
+# of the library. The list must also equal the names of the header and of the headers that it includes by name.
 set -euo pipefail
 list=$1 header=$2 library=$3
 mapfile -t headers < <("$(dirname "$0")/headers.sh" "$header")
@@ -17,7 +17,7 @@ if [ "$(printf '%s\n' "$newest" "$version" | sort -V | tail -n 1)" != "$version"
   failed=1
 fi
 
-# Each symbol carries the symbol version RIIS_1. With another version, the loader would see another symbol.
+# Each symbol carries the symbol version RIIS_1. With another version, the loader would treat it as another symbol.
 soname=$(readelf -d "$library" | sed -n -E 's/.*soname: \[lib(riis|riis_vtk)\.so\.([0-9]+)\].*/\1_\2/p')
 others=$(nm -D --defined-only "$library" | awk -v node="${soname^^}" '$2 != "A" && $3 !~ "@@" node "$" { print $3 }')
 if [ -n "$others" ]; then

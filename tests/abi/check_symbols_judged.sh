@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_symbols_judged.sh LIBRARY SCRATCH
-# check_symbols.sh must refuse a function or constant that was removed, renamed or given another value, in the library or in the
-# header. It must also refuse a name that the list lacks.
+# check_symbols.sh must refuse a function or constant that was removed, renamed or given another value, in the library or the
+# header. The script must also refuse a name that the list lacks.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 root=$here/../.. library=$1 scratch=$2
@@ -38,7 +38,7 @@ cp "$(dirname "$header")"/*.h "$scratch"
 sed -i 's/RIIS_SEARCH_PAPER = 3/RIIS_SEARCH_PAPER = 4/' "$scratch/marks.h"
 refused 'gone or changed: RIIS_SEARCH_PAPER = 3' "$list" "$scratch/riis.h"
 
-# The last header that riis.h includes is also read, so a value and a function that are planted there are refused.
+# The check also reads the last header that riis.h includes, so it refuses a value and a function that are planted there.
 last=$("$here/headers.sh" "$header" | tail -n 1)
 plant() { sed "s|^/\* The phases of a switch|$1\n&|" "$last" >"$scratch/$(basename "$last")"; }
 cp "$(dirname "$header")"/*.h "$scratch"

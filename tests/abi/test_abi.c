@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Tests the layouts and values that compiled programs rely on. The numbers are literals, written when the interface was
- * released. Changing one breaks programs, so append instead. Appended fields, functions and values get new lines. The sizes
- * of structs that grew are the only old lines that may change. */
+ * Tests the layouts and values that compiled programs rely on. The numbers are literals, written when the interface was released.
+ * A changed number breaks programs, so append instead. Appended fields, functions and values get new lines. Of the old lines,
+ * only the size of a struct that grew may change. */
 #include <riis/riis.h>
 #include <riis/riis_vtk.h>
 
@@ -14,8 +14,8 @@
     assert_int_equal(offsetof(type, field), offset);    \
     assert_int_equal(sizeof(((type *)0)->field), size); \
   } while (0)
-/* Checks the type of a function, including its arguments. Callers in other languages do not see the header, but rely on these
- * types. */
+/* Checks the type of a function, including its arguments. Callers in other languages rely on these types, although they do not
+ * see the header. */
 #define SIGNATURE(function, result, arguments) assert_true(_Generic(&function, result(*) arguments : 1, default : 0))
 
 TEST(test_structs) {

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs bench/validation/body_fitted.sh with stand-ins for gmsh and OpenFOAM. It must keep the rows of all.json, go on if a case
-fails, run only that case the next time, and run nothing if all rows are there."""
+"""Runs bench/validation/body_fitted.sh with stand-ins for gmsh and OpenFOAM. The script must keep the rows of all.json. If a case
+fails, it must go on, and run only this case the next time. If all rows exist, it must run nothing."""
 
 import importlib.util
 import json
@@ -23,7 +23,7 @@ STAND_INS = {
     "gmsh": 'while [[ $1 != -o ]]; do shift; done; touch "$2"',
     "gmshToFoam": """mkdir -p "$2/constant/polyMesh"; touch "$2/constant/polyMesh/boundary"
         echo 'note "nCells:1";' >"$2/constant/polyMesh/owner" """,
-    # A flow of the tube's whole area, 0.5 m/s through a sixth of a circle of 1.22 cm.
+    # The flow fills the whole tube: 0.5 m/s through a sixth of a circle of 1.22 cm.
     "simpleFoam": """echo "${2##*/}" >>"$RAN"
         [[ ! $FAILS || $2 != *$FAILS* ]] || exit 3
         mkdir -p "$2"/{400,postProcessing/{inlet,outlet}/0,postProcessing/valve/1}
@@ -51,7 +51,7 @@ class Resumed(unittest.TestCase):
             path = self.root / "bin" / name
             path.write_text(f"#!/usr/bin/env bash\n{text}\n")
             path.chmod(0o755)
-        # The triangles of the leaflets are not of interest here.
+        # This test does not need the triangles of the leaflets.
         script = self.root / "bench/validation/body_fitted.py"
         script.write_text(script.read_text().replace("\n    same_leaflets(folder)\n", "\n"))
         self.all = self.root / "bench/validation/all.json"
@@ -60,7 +60,7 @@ class Resumed(unittest.TestCase):
         self.folder.cleanup()
 
     def run_script(self, out, fails=""):
-        """Returns the status and the names of the cases that simpleFoam ran."""
+        """Returns the status, and the names of the cases that simpleFoam ran."""
         ran = self.root / "ran"
         ran.write_text("")
         words = ["bash", self.root / "bench/validation/body_fitted.sh", self.root / out]

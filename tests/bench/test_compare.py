@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tests which times bench/report/compare.py calls slower, on invented files."""
+"""Tests which invented times bench/report/compare.py calls slower."""
 
 import contextlib
 import io
@@ -33,8 +33,7 @@ class Compare(unittest.TestCase):
         return path
 
     def judge(self, now, base=None, *words):
-        """Returns the exit status and the output. `now` and `base` are dictionaries of times by name, or the text of whole
-        files."""
+        """Returns the exit status and the output. `now` and `base` map names to times, or are the text of whole files."""
         paths = []
         for name, times in (("base.json", base or BASE), ("now.json", now)):
             whole = isinstance(times, str) or "benchmarks" in times

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tests that the pages of bench/report/report.py agree with the JSON files, on invented files."""
+"""Tests that the pages of bench/report/report.py agree with invented JSON files."""
 
 import contextlib
 import io
@@ -23,7 +23,7 @@ SEARCHES = {
 
 
 def searches(threads, speed):
-    """Returns runs with one million nodes around the aortic valve. The plain exhaustive search takes 8 s."""
+    """Returns runs with one million nodes around the aortic valve. The exhaustive search without a limit takes 8 s."""
     runs = []
     for name, ms in SEARCHES.items():
         runs.append(
@@ -145,7 +145,7 @@ class Page(unittest.TestCase):
         self.folder = folder.name
 
     def page(self, names=tuple(FILES)):
-        """Writes the JSON and both pages, and returns the page with the text of docs/performance.md."""
+        """Writes the JSON and both pages. Returns the page with the text of docs/performance.md."""
         for name in names:
             with open(os.path.join(self.folder, name + ".json"), "w", encoding="utf-8") as file:
                 json.dump(FILES[name], file)
@@ -157,7 +157,7 @@ class Page(unittest.TestCase):
             return report_text.without_marks(file.read())
 
     def details(self, names=tuple(FILES)):
-        """Writes the JSON and both pages, and returns out/bench/details.md."""
+        """Writes the JSON and both pages. Returns out/bench/details.md."""
         self.page(names)
         with open(os.path.join(self.folder, "details.md"), encoding="utf-8") as file:
             return file.read()
@@ -229,8 +229,8 @@ class Page(unittest.TestCase):
 
     def test_rooflines(self):
         text = self.details()
-        # Filter: 40,000 operations at 20 a nanosecond take longer than 1000 bytes at 5 a nanosecond. Decisions are compared with
-        # the double-precision limit.
+        # For the filter, 40,000 operations at 20 per nanosecond take longer than 1000 bytes at 5 per nanosecond. Decisions are
+        # compared with the double-precision limit.
         self.assertEqual(text.count("| filter | 40.0 | 400 | 10.0 | 20.0 | 50 % |"), 2)
         self.assertIn("| decision | 10.0 | 50.0 | 10.0 | 5.00 | 50 % |", text)
         # 500 bytes take longer than 100 operations.
@@ -254,7 +254,7 @@ class Page(unittest.TestCase):
         self.assertNotIn("for a bar only", text)
 
     def test_the_whole_templates_have_values(self):
-        """If every part was measured, no placeholder is left in the templates."""
+        """If every part was measured, the templates have no placeholder left."""
         whole = {**FILES, "stages": {"benchmarks": stages()}, "accuracy": accuracy(), "peers_python": FILES["peers"]}
         with unittest.mock.patch.dict(FILES, whole):
             text = self.details(tuple(whole)) + self.page(tuple(whole))
@@ -270,7 +270,7 @@ class Page(unittest.TestCase):
             self.assertIn(part, " ".join(text.split()))
 
     def test_figures_of_the_plots(self):
-        """Tests the drawings and texts for the page of figures. The drawing function is replaced, since matplotlib may be
+        """Tests the drawings and texts for the page of figures. The drawing function is replaced, because matplotlib may be
         missing."""
         self.page()
         drawn = {}
@@ -327,7 +327,7 @@ class Page(unittest.TestCase):
                     times = [row[column] for row in block["rows"]]
                     self.assertEqual(times, sorted(times, reverse=True))
                 _, exhaustive, neighbor = block["rows"][0]
-                # The paper says "18 to 24 times faster" (4.2.3); the last row exceeds this.
+                # The paper says "18 to 24 times faster" (4.2.3). The last row exceeds this.
                 self.assertTrue(18 <= exhaustive / neighbor <= 28)
 
     def test_prose_is_wrapped(self):
@@ -337,7 +337,7 @@ class Page(unittest.TestCase):
 
 
 class Study(unittest.TestCase):
-    """Tests how bench/report/study.py measures for the figures. The programs are replaced by fakes."""
+    """Tests how bench/report/study.py measures for the figures. Fakes replace the programs."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -389,7 +389,7 @@ class Text(unittest.TestCase):
         self.assertEqual(report_text.without_marks(text), "a 1, 2\n\n| old |\n\nend\n")
 
     def test_no_mark_begins_a_line_of_prose(self):
-        """Markdown takes such a line for HTML, so its words in stars or backticks would not be set."""
+        """Markdown takes such a line for HTML, so words in stars or backticks would not be formatted."""
         for name in ("performance.md", "validation.md"):
             with open(os.path.join(os.path.dirname(report.PAGE), name), encoding="utf-8") as file:
                 text = file.read()

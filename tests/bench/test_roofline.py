@@ -31,7 +31,7 @@ class Roofline(unittest.TestCase):
             self.assertGreaterEqual(case["filtered_pairs"], case["decided_pairs"])
             self.assertGreaterEqual(case["near_groups"], case["leaves"])
             self.assertGreaterEqual(case["leaves"] * 32, case["marked"])
-            # A filtered pair takes a difference and three products of vectors. A decided pair takes three clamped segments.
+            # A filtered pair needs a difference and three products of vectors. A decided pair needs three clamped segments.
             self.assertGreater(case["operations"]["filter"], 12 * case["filtered_pairs"])
             self.assertGreater(case["operations"]["decide"], 50 * case["decided_pairs"])
             self.assertEqual(set(case["bytes"]), STAGES)

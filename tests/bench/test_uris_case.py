@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tests the cases of svMultiPhysics by bench/peers/uris_case.py, and its readings of invented results."""
+"""Tests the cases of svMultiPhysics by bench/peers/uris_case.py. Also tests how this script reads invented results."""
 
 import contextlib
 import io
@@ -62,7 +62,7 @@ class UrisCase(unittest.TestCase):
         return self.folder / "case"
 
     def write_results(self, case, pressures, last_step=uris_case.STEPS):
-        """Writes the inlet's pressures of the last steps. The outlet has the pressure 10 and a flow of 4."""
+        """Writes the inlet's pressures of the last steps. The outlet's pressure is 10, and its flow is 4."""
         (case / "2-procs").mkdir()
         rows = list(enumerate(pressures, last_step + 1 - len(pressures)))
         for name, row in (("Pressure_average", "{0} {0}e-3 7 {1} 10\n"), ("Velocity_flux", "{0} {0}e-3 0 -4 4\n")):

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs a tiny ./run validate. Its rows must meet their bars, and planted errors must make rows miss them. argv[1] is the program
+"""Runs a tiny ./run validate. Rows must meet their bars, and planted errors must make rows miss the bars. argv[1] is the program
 of marks.c.
 
-The order of a series, the reading of committed rows and the page are tried on made-up rows."""
+Invented rows also test the order of a series, the reading of committed rows and the page."""
 
 import contextlib
 import copy
@@ -42,7 +42,7 @@ def results_of(tasks, library):
 
 
 def stokes_row(scale_eps=1.0, scale_K=1.0):
-    """Compares the c of a hole in a band with a round rim with the c of a hole in a solid plate. An edge acts as if it
+    """Compares the c of a hole in a band with that of a hole in a solid plate. The band has a round rim. An edge acts as if it
     lay c half thicknesses farther out."""
     library, n, cells = marking.Library(PROGRAM, scale_K, scale_eps), 4, (1.5, 2, 3)
     values = [(1 - stokes.effective_radius(library, "hole", 1 / n, c, "round")[0]) * n for c in cells]
@@ -89,7 +89,7 @@ class Computed(unittest.TestCase):
         self.assertEqual(len(rows.missed(rows.closed_rows(marking.Library(PROGRAM, scale_eps=2.0)))), 1)
 
     def test_jet(self):
-        # On a coarse grid the contraction is 10 to 30 % above the limit, and the Borda-Carnot formula holds within 15 %.
+        # On a coarse grid the contraction is 10 to 30 % above the limit. The Borda-Carnot formula holds within 15 %.
         library, rho = marking.Library(PROGRAM), marking.RHO
         flow = jets.jet(library, 0.5, jets.B / 3, 2, "cut", reynolds=300.0)
         self.assertAlmostEqual(flow["by_core"] / exact.contraction(0.5), 1.15, delta=0.15)
@@ -137,7 +137,7 @@ class Judged(unittest.TestCase):
                 validate.read_committed(path)
         self.assertIn("| effective area |", validate.table_of([made]))
         self.assertIn("**missed**", validate.table_of([{**made, "bar": 0.01}]))
-        # Each row names its solver if there are several.
+        # If there are several solvers, each row names its solver.
         two = [{**made, "solver": "second"}, {**made, "solver": "first", "quantity": "drop"}]
         table = validate.table_of(two)
         self.assertRegex(table, r"\| effective area \|.*\| b \|")
@@ -169,7 +169,7 @@ class Judged(unittest.TestCase):
                     self.assertEqual("**missed**" in file.read(), bool(status))
 
     def test_offsets(self):
-        # A case of each kind, from files as simpleFoam leaves them.
+        # There is a case of each kind, from files as simpleFoam writes them.
         def case(folder, name, mesh, pressures, words):
             at = pathlib.Path(folder)
             owner, log = at / "meshes" / mesh / "constant/polyMesh/owner", at / "cases" / name / "log.simpleFoam"
@@ -190,7 +190,7 @@ class Judged(unittest.TestCase):
             case(folder, f"riis-{valve}-0.1-0.05-cut-1e3-0", f"wide-{valve}-0.1-0.05", moving, "")
             runs = cases.read_runs(pathlib.Path(folder))
             made = beside.beside("trileaflet", 0.5, runs, {})
-            # Without the case, the walls are those of a row that is kept.
+            # If the case is missing, the walls are those of a row that is kept.
             again = beside.beside("trileaflet", 0.5, runs[1:], {made[0]["id"]: made[0]})
             none = beside.beside("trileaflet", 0.5, runs[1:], {})
         self.assertIn(f"left out: riis-{valve}-0.1-0.05-cut-1e3-0: simpleFoam did not converge in 400 steps", told.getvalue())
@@ -219,7 +219,7 @@ class Judged(unittest.TestCase):
             staggered.graded(0.5, (-1, 2), (0, 6))
 
     def test_points(self):
-        # docs/theory/trileaflet.md: x of the free edge is linear in y if the valve is closed, and quadratic if it is open.
+        # docs/theory/trileaflet.md: on the free edge, x is linear in y if the valve is closed, and quadratic if it is open.
         program = os.path.join(os.path.dirname(PROGRAM), "validation_points")
         text = subprocess.run([program, "trileaflet", "0.5"], capture_output=True, text=True, check=True).stdout
         numbers = [float(word) for word in text.split("{")[1].split("}")[0].split(",")]

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Boxes of cells of one type, and the Gauss points of svMultiPhysics in them. The volumes of nodes are in closed form, and no
- * shape functions are evaluated. */
+ * Makes boxes of cells of one type, and the Gauss points that svMultiPhysics has in them. The volumes of nodes are in closed
+ * form, so no shape functions are evaluated. */
 #ifndef RIIS_TESTS_BRICK_MESHES_H
 #define RIIS_TESTS_BRICK_MESHES_H
 
@@ -32,7 +32,7 @@ typedef struct {
   double cell_volume;
 } mesh;
 
-/* Places in a brick, in half sides, in VTK's order. */
+/* Places in a brick in VTK's order. The unit is half a side. */
 static const int hexahedron_places[27][3] = {
     {0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {0, 0, 2}, {2, 0, 2}, {2, 2, 2}, {0, 2, 2}, {1, 0, 0},
     {2, 1, 0}, {1, 2, 0}, {0, 1, 0}, {1, 0, 2}, {2, 1, 2}, {1, 2, 2}, {0, 1, 2}, {0, 0, 1}, {2, 0, 1},
@@ -41,7 +41,7 @@ static const int wedge_places[2][3][2] = {{{0, 0}, {2, 0}, {0, 2}}, {{2, 2}, {0,
 static const int orders[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
 static const int tetrahedron_edges[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}};
 
-/* The place of node a of element i of a brick. Half of the tetrahedra are inside out, and the solver turns them. */
+/* The place of node a of element i of a brick. Half of the tetrahedra are inside out, and the solver reverses them. */
 static inline void place_in_brick(const element *type, int i, int a, int at[3]) {
   if (type->n_in_brick == 1) {
     memcpy(at, hexahedron_places[a], 3 * sizeof *at);
@@ -74,7 +74,7 @@ static inline double share_of_node(const element *type, int a) {
   }
 }
 
-/* Makes a box of n bricks along its sides, whose sides are the columns of `side`. */
+/* Makes a box of n bricks in each direction. The columns of `side` are the sides of the box. */
 static inline mesh make_mesh(const element *type, const int n[3], const double corner[3], double side[3][3]) {
   mesh made = {type, 0, 0, NULL, NULL, NULL, 0};
   const int n_bricks = n[0] * n[1] * n[2], lines[3] = {2 * n[0] + 1, 2 * n[1] + 1, 2 * n[2] + 1};
@@ -147,7 +147,7 @@ static inline void add_point(rule *to, double x, double y, double z, double weig
   to->weight[to->n++] = weight;
 }
 
-/* All points whose four barycentric coordinates are a, a, b, b or a, b, b, b in any order. */
+/* All points whose four barycentric coordinates are a, a, b, b or a, b, b, b, in any order. */
 static inline void add_barycentric(rule *to, double a, double b, int n_a, double weight) {
   for (int set = 0; set < 16; ++set) {
     double l[4];

@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_placed_lines.sh RIIS FOLDER INCLUDE LIBRARY CC [FC MODULES FORTRAN_LIBRARY]
-# The lines of C and Fortran that riis place writes must compile, run, and make the surface that its JSON makes. LIBRARY is the
-# file libriis.so. Without FC only C is checked.
+# The lines of C and Fortran that riis place writes must compile and run. The lines must make the surface that the command's JSON
+# makes. LIBRARY is the file libriis.so. Without FC only C is checked.
 set -euo pipefail
 riis=$1 folder=$2 include=$3 library=$4 cc=$5 fc=${6-} modules=${7-} fortran_library=${8-}
 rm -rf "$folder"
@@ -30,7 +30,7 @@ for warp in none smoothed; do
   echo "C: $(< by_c.txt)"
   read -r n_triangles area lower upper < by_c.txt
   areas+=("$area")
-  # The area equals the area of the JSON's surface, and the surface is at the landmarks.
+  # The area equals the area of the JSON's surface, and the surface passes through the landmarks.
   awk -v n="$n_triangles" -v m="$n_json" -v a="$area" -v b="$area_json" -v l="$lower" -v u="$upper" 'BEGIN {
     if (n != m || (a - b) ^ 2 > 1e-10 * a * a) { print "the JSON has " m " triangles, area " b; exit 1 }
     if (l > -8 || l < -14 || u < 114 || u > 118) { print "the surface is elsewhere: " l " " u; exit 1 }

@@ -23,7 +23,7 @@ Vector3 draw_direction(random_source &random) {
   }
 }
 
-// Returns the new vertices on edges, and remembers them.
+// Returns the new vertices on edges, and remembers them for later cubes.
 class CutPoints {
  public:
   CutPoints(std::vector<Vector3> &points, const std::function<Vector3(std::int64_t, std::int64_t)> &place)
@@ -142,7 +142,7 @@ CutEnd cut(Triangles &triangles, const Vector3 &point, const Vector3 &outward, d
     end.area += area;
     end.centre = end.centre + area / 3 * (p + q + r);
   };
-  // Rings of points lead from the rim to the middle. They are shaken within the plane.
+  // Rings of points lead from the rim to the middle. Each point is shifted at random within the plane.
   std::vector<std::int64_t> ring = rim;
   const int n_rings = cap == Cap::rings ? 4 : 1;
   for (int i = 1; i < n_rings; ++i) {
@@ -193,7 +193,7 @@ CutVessels draw_vessels(random_source &random, int n_ends, double waves, Cap cap
   };
   constexpr double reach = length + 2.5;
   CutVessels made;
-  // The grid must not be symmetric to the vessels.
+  // The grid must not share a symmetry with the vessels.
   made.triangles = surface_of(function, {-reach - 0.031, -reach - 0.017, -reach - 0.023}, 2 * reach + 0.05, 56);
   for (std::size_t i = 0; i < directions.size(); ++i) {
     const Vector3 tilted = unit_vector(directions[i] + random_between(&random, 0, 0.8) *

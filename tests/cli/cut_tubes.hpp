@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random vessels whose ends are cut by planes, as an oracle for flat ends: what was cut is known. The wall is where a function
-// that adds up tubes is 0. It is made of triangles by marching through tetrahedra, cut by planes, and closed there.
+// Makes random vessels and cuts their ends by planes, which is an oracle for flat ends. A function adds up tubes, and the wall is
+// the surface on which this function is 0. Marching through tetrahedra makes the wall's triangles. Planes cut the wall, and caps
+// close the cuts.
 #pragma once
 
 #include <array>
@@ -35,17 +36,17 @@ struct CutVessels {
   Vector3 middle{};
 };
 
-// Returns the triangles of the surface on which a function of places is 0. It is below 0 inside.
+// Returns the triangles of the surface on which a function of places is 0. The function is below 0 inside.
 Triangles surface_of(const std::function<double(const Vector3 &)> &function, const Vector3 &lower, double side,
                      int n_cells);
 
-// Cuts off what lies beyond a plane within a ball around a point of the plane. Closes the cut with a cap. Returns the end, which
+// Cuts off the part beyond a plane, within a ball around a point of the plane. Closes the cut with a cap. Returns the end, which
 // is measured even if it stays open.
 CutEnd cut(Triangles &triangles, const Vector3 &point, const Vector3 &outward, double radius, Cap cap,
            random_source &random);
 
-// Draws vessels that meet in the middle, with radii of about 1 and ends that lean by up to 40 degrees. The height of the waves of
-// the wall is a share of the radius.
+// Makes random vessels that meet in the middle, with radii of about 1. The vessels' ends lean by up to 40 degrees. The height of
+// the wall's waves is a share of the radius.
 CutVessels draw_vessels(random_source &random, int n_ends, double waves, Cap cap);
 
 // Turns, scales and moves points.
@@ -58,13 +59,13 @@ struct Placement {
 };
 Placement draw_placement(random_source &random, double scale, double far);
 
-// How the triangles of a file are turned.
+// The ways to orient the triangles of a file.
 enum class Turned { none, all, some };
-// Writes a binary .stl file with its triangles in random order. Points have single precision there.
+// Writes a binary .stl file with its triangles in random order. Points have single precision in the file.
 void write_stl(const std::string &path, const Triangles &triangles, const Placement &placement, Turned turned,
                random_source &random);
 
-// The trial that runs, which expectations print, and the number of those that failed.
+// The number of the current trial, which failures print, and the number of failures.
 inline std::string here;
 inline int n_faults = 0;
 void expect(bool is_right, const std::string &what);

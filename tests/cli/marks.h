@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Compares riis's marks with the C interface's marks on the same mesh, which is in.vtu of the scratch folder. */
+ * Compares riis's marks with the marks of the C interface on the mesh in.vtu of the scratch folder. */
 #ifndef RIIS_TESTS_MARKS_H
 #define RIIS_TESTS_MARKS_H
 
@@ -22,7 +22,7 @@ extern expected_marks by_c;
 void mark_by_c(const riis_valve *valve, const riis_surface_options *surface_options, double distance_limit,
                double far_distance);
 
-/* Checks that out.vtu is in.vtu with its points as doubles and the expected marks. More than 20 nodes must be marked. */
+/* Checks that out.vtu is in.vtu with points as doubles and with the expected marks. More than 20 nodes must be marked. */
 void expect_marked_mesh(void);
 /* Checks that out.vtp is the expected surface. */
 void expect_surface_output(void);

@@ -25,7 +25,7 @@ static void give_up(const char *what) {
   exit(1);
 }
 
-/* Both streams go to files, because a pipe that nobody reads could fill up. */
+/* Both streams go to files, because an unread pipe could fill up. */
 static int temporary_file(void) {
   char name[] = "output-XXXXXX";
   const int file = mkstemp(name);
@@ -41,16 +41,16 @@ static void take_text(int file, char text[longest_output]) {
   close(file);
 }
 
-/* Returns whether the line tells what the program is doing, which it does on slow machines. test_progress tests these lines. A
- * message that is cut off also ends in dots, but is longer. */
+/* Returns whether the line is a line of progress, which the program prints on slow machines (test_progress). A message that is
+ * cut off also ends in dots, but is longer. */
 static int is_progress(const char *line, const char *next) {
   enum { longest_progress = 200 };
   return next - line > 5 && next - line < longest_progress &&
          (strncmp(next - 5, " ...\n", 5) == 0 || (strncmp(next - 5, "left\n", 5) == 0 && strstr(line, ": step ")));
 }
 
-/* Removes the lines of progress from program_err, and moves the warnings about leaks, crossings and leaflets outside the mesh to
- * buffers of their own. Most meshes of the tests are so coarse that the valve leaks, some are smaller than the valve, and
+/* Removes the lines of progress from program_err. Moves the warnings about leaks, crossings and leaflets outside the mesh to
+ * separate buffers. Most meshes of the tests are so coarse that the valve leaks. Some meshes are smaller than the valve, and
  * leaflets of unusual sizes cross. */
 static void take_common_warnings(void) {
   program_leaks[0] = program_crossings[0] = program_outside[0] = 0;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Random meshes of tetrahedra, hexahedra and wedges, cut into pieces at random, as files of the scratch folder. The files are
- * written without VTK. */
+ * Makes random meshes of tetrahedra, hexahedra and wedges, and cuts them into pieces at random. Writes the pieces as files of the
+ * scratch folder. The files are written without VTK. */
 #ifndef RIIS_TESTS_RANDOM_PIECES_H
 #define RIIS_TESTS_RANDOM_PIECES_H
 
@@ -26,7 +26,7 @@ typedef struct whole_mesh {
 
 static whole_mesh whole;
 static int n_pieces, has_ids, has_attribute, has_ghosts;
-/* The nodes of each piece in the whole mesh. */
+/* The ids that each piece's nodes have in the whole mesh. */
 static int *nodes_of[most_pieces], n_nodes_of[most_pieces];
 
 static void add_cell(int type, int n, const int *corners, const int *positions) {
@@ -35,7 +35,7 @@ static void add_cell(int type, int n, const int *corners, const int *positions) 
   whole.type[whole.n_cells++] = type;
 }
 
-/* Makes a box of n x n x n nodes that are moved at random. Each small box is a hexahedron, two wedges or six tetrahedra. */
+/* Makes a box of n x n x n randomly shifted nodes. Each small box is a hexahedron, two wedges or six tetrahedra. */
 static void make_whole(int n, int mode) {
   static const int all[8] = {0, 1, 2, 3, 4, 5, 6, 7}, wedges[2][6] = {{0, 1, 2, 4, 5, 6}, {0, 2, 3, 4, 6, 7}};
   static const int ring[7] = {1, 2, 3, 7, 4, 5, 1};
@@ -64,8 +64,8 @@ static void make_whole(int n, int mode) {
   }
 }
 
-/* Keeps the cells inside a tube around the valve, so that the valve may close it. Some of the nodes outside stay without a cell,
- * and the others are removed. */
+/* Keeps the cells inside a tube around the valve, so that the valve can close the tube. Some nodes outside remain without a cell,
+ * and all other nodes outside are removed. */
 static void keep_tube(double radius) {
   int n_cells = 0, n_nodes = 0, *new_id = malloc(sizeof(int) * (size_t)whole.n_nodes);
   for (int i = 0; i < whole.n_nodes; ++i) new_id[i] = below(20) == 0;
@@ -117,7 +117,7 @@ static void cut(void) {
     for (int i = 0; i < whole.n_cells; ++i) whole.piece[i] += whole.piece[i] == 1;
 }
 
-/* Writes an array as text. `format` has one %. */
+/* Writes an array as text. `format` contains one %. */
 #define WRITE_ARRAY(type, name, n, value)                                                \
   do {                                                                                   \
     fprintf(file, "<DataArray type=\"%s\" Name=\"%s\" format=\"ascii\">\n", type, name); \
@@ -168,7 +168,7 @@ static const char *piece_name(int piece) {
   return name;
 }
 
-/* Writes a piece. Its nodes are in a random order. Ghosts are cells of other pieces that share a node with it. */
+/* Writes a piece, with its nodes in a random order. Ghosts are cells of other pieces that share a node with this piece. */
 static void write_piece(int piece) {
   char *has_node = calloc((size_t)whole.n_nodes, 1);
   int *cells = malloc(sizeof(int) * (size_t)whole.n_cells), *ghosts = calloc((size_t)whole.n_cells, sizeof(int)), n = 0;
@@ -179,7 +179,7 @@ static void write_piece(int piece) {
   }
   char *has_ghost_node = malloc((size_t)whole.n_nodes);
   memcpy(has_ghost_node, has_node, (size_t)whole.n_nodes);
-  /* A node without cells is in the first piece, and perhaps in others. */
+  /* A node without cells is in the first piece, and may be in other pieces. */
   char *is_used = calloc((size_t)whole.n_nodes, 1);
   for (int i = 0; i < whole.n_cells; ++i)
     for (int c = 0; c < whole.n_corners[i]; ++c) is_used[whole.corners[i][c]] = 1;
@@ -226,7 +226,7 @@ static void write_list(const char *name, int n, const char *const *sources) {
   fclose(file);
 }
 
-/* Lists the pieces by relative and absolute paths. */
+/* Writes the list of the pieces, by relative and absolute paths. */
 static void write_pieces(void) {
   static char names[most_pieces][4096];
   const char *sources[most_pieces];

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""test_advice.py PROGRAM: follows the advice of messages. Each command or option that a message tells to write is run as printed.
+"""test_advice.py PROGRAM: follows the advice of messages. Each command or option that a message recommends is run as printed.
 
-tests/docs/messages.txt lists the commands of all messages. Those of other tools are run by test_cli_conversions.c.
+tests/docs/messages.txt lists the commands of all messages. test_cli_conversions.c runs the commands of other tools.
 """
 import json
 import os
@@ -39,7 +39,7 @@ class Advice(unittest.TestCase):
         self.folder = pathlib.Path(folder.name)
 
     def run_words(self, *words, **environment):
-        """Runs a command in the folder. The program is riis on the PATH."""
+        """Runs a command in the folder. `riis` on the PATH is the tested program."""
         path = f"{pathlib.Path(PROGRAM).parent}:{os.environ['PATH']}"
         return subprocess.run(words, cwd=self.folder, capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL,
                               env={**os.environ, "PATH": path, **environment})
@@ -126,7 +126,7 @@ class Advice(unittest.TestCase):
             options = self.advised(done, r": write (--unit \w+)$")
             self.assertEqual(options, ["--unit", unit])
             self.assertNotIn("write --unit", self.riis("mark", "mesh.vtk", *options, "--output", "marked.vtu").stderr)
-        # A surface from a file in another unit: --unit and --surface-unit together.
+        # A surface comes from a file in another unit, so --unit and --surface-unit are needed together.
         self.riis("surface", "--output", "valve.vtp")
         done = self.run_words("riis", "mark", "mesh.vtk", "--surface", "valve.vtp", "--output", "marked.vtu")
         options = self.advised(done, r": write (--unit \w+ --surface-unit \w+)$")
@@ -148,7 +148,7 @@ class Advice(unittest.TestCase):
         self.riis(*command, *self.advised(refused, r": give (--unit m)$"))
 
     def test_the_package_of_the_view(self):
-        """The advised commands need the network. So only their words are checked: the sources have the extra `view`."""
+        """The advised commands need the network, so the test only checks their words. The sources have the extra `view`."""
         refused = self.riis("view", status=1, RIIS_PYTHON="/bin/false")
         self.assertIn("'python3 -m venv ~/venv' and '~/venv/bin/pip install \".[view]\"' in the sources of riis", refused.stderr)
         sources = pathlib.Path(__file__).resolve().parents[2]
@@ -156,7 +156,8 @@ class Advice(unittest.TestCase):
         self.assertEqual(self.advised(refused, r"set RIIS_PYTHON=(\S+)"), ["~/venv/bin/python"])
 
     def test_packages_of_python(self):
-        """`pip install` in Python's messages names packages that pyproject.toml names, and all that the extra `view` has."""
+        """A message of Python advises `pip install`. The message names packages that pyproject.toml names, and all packages of
+        the extra `view`."""
         sources = pathlib.Path(__file__).resolve().parents[2]
         extras = tomllib.loads((sources / "pyproject.toml").read_text(encoding="utf-8"))["project"]["optional-dependencies"]
         known = {name: {re.split("[>=]", package)[0] for package in packages} for name, packages in extras.items()}

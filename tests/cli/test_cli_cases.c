@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * --case reads several valves from a file. The example's output has the arrays of single runs with the same options, and their
+ * --case reads several valves from a file. The output of the example has the arrays of single runs with equal options, and their
  * sums over the valves. */
 #include <math.h>
 #include <riis/riis.h>
@@ -28,7 +28,7 @@ static int has_array(const char *path, const char *name) {
   return shim_read_array(path, 'p', name, NULL, NULL, NULL, NULL);
 }
 
-/* Compares an array of the written part of the mesh with the array of a single run, at the nodes of this part. */
+/* Compares an array of the written part of the mesh with the array of a single run, at the part's nodes. */
 static void expect_same_array(const char *part, const char *single, const char *name) {
   static double ids[n_nodes], values[3 * n_nodes], whole[3 * n_nodes];
   const int64_t n = read_array(part, "riis_node_id", ids);
@@ -39,7 +39,7 @@ static void expect_same_array(const char *part, const char *single, const char *
                         (size_t)n_components * sizeof *values);
 }
 
-/* The mitral valve of the example has the openings of the library's law of times. */
+/* The mitral valve of the example opens as the library's law says. */
 TEST(test_ramps) {
   riis_opening_times ramps;
   double opening = 0, time = 0, found = 0;
@@ -85,7 +85,7 @@ TEST(test_example) {
                    8);
   assert_true(row[1] == 0 && row[3] == 0 && fabs(row[4] - 0.5) < 1e-12 && row[5] > 20 && row[6] > 1);
   free(table);
-  /* Marks the valves of the case one by one, by options instead of the file. */
+  /* Marks the valves of the case one by one, with options instead of the file. */
   scratch_write_text("open.json", "{\"leaflet_radius_in\": 1, \"bending_radius_in\": 1.1}");
   RUN_FINE("mark", mesh, "--unit", "cm", "--half-thickness", "0.1", "--valve", "mitral", "--opening", "0",
            "--resistance", "10000", "--prefix", "mitral", "--output", scratch_path("m.vtu"), "--quiet");
@@ -110,7 +110,7 @@ TEST(test_example) {
   int n_resisting = 0, n_moving = 0;
   for (int64_t i = 0; i < n; ++i) {
     const int64_t node = (int64_t)ids[i];
-    /* The cubic table gives 0.5 only up to rounding. */
+    /* The cubic table gives 0.5 up to rounding. */
     assert_true(fabs(K[i] - (of_mitral[node] + of_aortic[node])) <= 1e-9 * K[i]);
     n_resisting += K[i] > 0;
     for (int k = 0; k < 3; ++k) {
@@ -132,7 +132,7 @@ static void write_case(const char *valves, const char *rest) {
   scratch_write_text("case.json", text);
 }
 
-/* Without times, the output is one mesh with the arrays of all valves. The mesh is found in the case's folder. */
+/* Without times, the output is one mesh with the arrays of all valves. The program finds the mesh in the folder of the case. */
 TEST(test_one_time) {
   static double K[n_nodes], one[n_nodes], two[n_nodes];
   const char *out = scratch_path("one.vtu");
@@ -168,7 +168,7 @@ TEST(test_one_time) {
   assert_false(has_array(out, "riis_K_u_surface"));
 }
 
-/* A case has an offset, and a valve may have another. Turned normals turn the offset. */
+/* A case has an offset, and a valve may have a different offset. Reversed normals reverse the offset. */
 TEST(test_offsets) {
   static double K[n_nodes], one[n_nodes], two[n_nodes], plain[n_nodes];
   const char *out = scratch_path("offsets.vtu");
@@ -179,7 +179,7 @@ TEST(test_offsets) {
   RUN_FINE("mark", "--case", scratch_path("case.json"), "--output", out);
   RUN_FINE("mark", scratch_path("in.vtu"), "--valve", "mitral", "--half-thickness", "0.3", "--opening", "0.25",
            "--resistance", "3", "--offset", "-0.4", "--prefix", "a", "--output", scratch_path("a2.vtu"), "--quiet");
-  /* The normals of this valve are not turned, so the offset is. */
+  /* The normals of this valve are not reversed, so the test reverses the offset. */
   RUN_FINE("mark", scratch_path("a2.vtu"), "--valve", "aortic", "--half-thickness", "0.3", "--translate", "0,0,1",
            "--resistance", "3", "--offset", "-0.6", "--prefix", "b", "--output", scratch_path("b2.vtu"), "--quiet");
   RUN_FINE("mark", scratch_path("in.vtu"), "--valve", "aortic", "--half-thickness", "0.3", "--translate", "0,0,1",
@@ -203,7 +203,7 @@ TEST(test_offsets) {
 
 static const char *text_of(const char *name) { return scratch_read(scratch_path(name), NULL); }
 
-/* Removes the values of the seconds, which differ from run to run. */
+/* Removes the seconds, which differ from run to run. */
 static char *without_seconds(const char *name) {
   char *text = scratch_read(scratch_path(name), NULL), *const begin = strstr(text, "\"seconds\"");
   assert_non_null(begin);
@@ -212,7 +212,7 @@ static char *without_seconds(const char *name) {
   return text;
 }
 
-/* A surface from a file is at rest beside moving valves. */
+/* A surface from a file rests beside moving valves. */
 TEST(test_surface_at_rest) {
   static double velocity[3 * n_box], marked[n_box];
   RUN_FINE("surface", "--output", scratch_path("stent.vtp"), "--quiet");
@@ -236,7 +236,7 @@ TEST(test_surface_at_rest) {
 
 #define LANDMARKS "[[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]]"
 
-/* A warp that shifts all landmarks by 0.5 along x gives the same valve as a placement with this shift. */
+/* A warp that shifts all landmarks by 0.5 along x acts like a placement with this shift. */
 TEST(test_warp) {
   static double one[n_box], two[n_box], velocity[3 * n_box];
   static const char *const shifted =
@@ -258,7 +258,7 @@ TEST(test_warp) {
     assert_int_equal(read_array(scratch_path("w1.vtu"), "riis_distance", two), n_box);
     for (int i = 0; i < n_box; ++i) assert_true(fabs(one[i] - two[i]) < 0.02);
   }
-  /* In the valve's own coordinates the shift is turned with the valve, so the valve moves along y. */
+  /* With "coordinates" set to "valve", the shift turns with the valve. The valve therefore moves along y. */
   snprintf(valve, sizeof valve,
            "{\"valve\": \"trileaflet\", \"opening\": 0.4, \"rotate\": [0, 0, 1, 90], \"warp\": {\"sources\": " LANDMARKS
            ", \"targets\": [%s, %s, %s], \"times\": [0, 0.2, 0.4], \"period\": 0.4, \"coordinates\": \"valve\"}}",
@@ -269,7 +269,7 @@ TEST(test_warp) {
     int n_moving = 0;
     read_array(scratch_path(step == 1 ? "w/w_0001.vtu" : "w/w_0002.vtu"), "riis_marked", one);
     read_array(scratch_path(step == 1 ? "w/w_0001.vtu" : "w/w_0002.vtu"), "riis_velocity", velocity);
-    /* The last step is from 0.15 to 0.7, which is 0.3 in the period. So the shift goes from 0.375 to 0.25. */
+    /* The last step is from 0.15 to 0.7, which is 0.3 in the period. The shift therefore goes from 0.375 to 0.25. */
     const double speed = step == 1 ? 2.5 : (0.25 - 0.375) / 0.55;
     for (int i = 0; i < n_box; ++i) {
       if (one[i] == 0) continue;
@@ -381,8 +381,8 @@ TEST(test_refused_options) {
   RUN_REFUSED(2, "is also the file of --case", "mark", "--case", file, "--surface-output", scratch_path("case.json"));
 }
 
-/* In a case of one valve, the statistics equal those of this valve on the command line. In other cases, each valve has the same
- * numbers as alone. */
+/* In a case of one valve, the statistics equal those of this valve on the command line. With several valves, each valve has the
+ * numbers that it has alone. */
 TEST(test_statistics) {
   const char *mesh = scratch_path("in.vtu");
   write_case("{\"valve\": \"mitral\", \"opening\": 0.25}", "");
@@ -440,7 +440,7 @@ TEST(test_statistics_of_series) {
   free(out);
 }
 
-/* A series may have one time. The mesh of this time has the marks of that opening, and no velocities. */
+/* A series may have only one time. The mesh of such a series has the marks of the opening at this time, and no velocities. */
 TEST(test_one_time_of_series) {
   static double one[n_box], two[n_box];
   scratch_write_text("beat.csv", "0,0\n0.2,1\n");
@@ -456,7 +456,7 @@ TEST(test_one_time_of_series) {
   assert_false(has_array(scratch_path("single/single_0000.vtu"), "riis_velocity"));
 }
 
-/* riis check takes a case. Each valve of the case has its own lines. */
+/* riis check accepts a case. The output has separate lines for each valve of the case. */
 TEST(test_checks) {
   write_case(
       "{\"name\": \"a\", \"valve\": \"mitral\"}, {\"name\": \"b\", \"valve\": \"trileaflet\", \"translate\": [0, 0, "

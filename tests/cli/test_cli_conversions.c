@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * A mesh file of an unsupported format is refused with a command that converts it, with the user's own file names. If that
- * command's program is installed, the test runs the command and reads the converted file. */
+ * If a mesh file has an unsupported format, the refusal gives a command that converts the file, with the user's file names. If
+ * the command's program is installed, the test runs the command and reads the converted file. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -54,7 +54,7 @@ TEST(test_texts) {
                      "SPACING 1 1 1\n");
   RUN_REFUSED(1, "grid.vtk: holds structured_points, not unstructured_grid\n", "surface", "--surface",
               scratch_path("grid.vtk"), "--output", scratch_path("no.vtp"));
-  /* The pointers of Git LFS have the names of the files that they stand for. */
+  /* A pointer of Git LFS has the name of the file that it stands for. */
   const char *const pointers[] = {"p.vtu", "p.vtk", "p.msh", "p.vtm", "p.xdmf", "p.exo"};
   const char *const surfaces[] = {"p.stl", "p.vtp", "p.obj", "p.ply", "p.vtu", "p.vtk"};
   for (int i = 0; i < 12; ++i) {
@@ -108,7 +108,8 @@ TEST(test_texts) {
 }
 
 #if defined(RIIS_GMSH) || defined(RIIS_MESHIO)
-/* Runs the command that the last refusal suggests, by its program's full path. Returns the file that the command makes. */
+/* Runs the command that the last refusal suggests, with the full path of its program. Returns the file that the command
+ * writes. */
 static const char *meshed_by(const char *tool, const char *path, const char *verb) {
   static char command[2048], made[256];
   char marker[64];
@@ -127,7 +128,7 @@ static const char *convert(const char *tool, const char *path) { return meshed_b
 #endif
 
 #ifdef RIIS_GMSH
-/* Lets gmsh make a cube of tetrahedra, or its skin, in one of gmsh's formats. */
+/* Lets gmsh make a cube of tetrahedra, or the cube's surface, in one of gmsh's formats. */
 static void make_by_gmsh(int dimension, const char *format, const char *path) {
   char command[1024];
   scratch_write_text(
@@ -152,7 +153,7 @@ TEST(test_meshes_by_gmsh) {
   }
 }
 
-/* Elements of order 3 are refused with a line for the shell. */
+/* Elements of order 3 are refused with a command for the shell. */
 TEST(test_orders_by_gmsh) {
   static char command[2048];
   char path[256];
@@ -169,7 +170,7 @@ TEST(test_orders_by_gmsh) {
   assert_true(json_number(program_out, "n_nodes") > 100 && json_number(program_out, "n_marked") > 5);
 }
 
-/* gmsh writes a cube as CAD, and the advised commands fill it and cover it. */
+/* gmsh writes a cube as CAD. The advised commands mesh its volume and its surface. */
 TEST(test_cad_by_gmsh) {
   char path[256];
   snprintf(path, sizeof path, "%s", scratch_path("cube.brep"));
@@ -212,7 +213,7 @@ TEST(test_meshio) {
   scratch_write_text(
       "tet.su2", "NDIME= 3\nNELEM= 1\n10 0 1 2 3 0\nNPOIN= 4\n-1 -1 -1 0\n1 -1 -1 1\n0 1 -1 2\n0 0 1 3\nNMARK= 0\n");
   scratch_write_text("skin.off", "OFF\n3 1 0\n-1 -1 -1\n1 -1 -1\n0 1 -1\n3 0 1 2\n");
-  /* meshio writes MED if it has h5py, and the format of Ansys. */
+  /* meshio writes the format of Ansys, and also MED if it has h5py. */
   const char *meshes[] = {"tet.inp", "tet.su2", "tet.msh", "tet.med", "tet.mesh", "tet.avs", "tet.dat", "tet.vol"};
   const char *to[] = {"--output-format ansys", "", "", "", "", ""};
   for (int i = 0; i < 8; ++i) {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Tests `riis check crossings` with a known crossing, against the C interface, and on the library's own valves. */
+ * Tests `riis check crossings` with a known crossing. The command is also compared with the C interface, and run on the library's
+ * own valves. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,8 +11,8 @@
 #include "program.h"
 #include "scratch.h"
 
-/* A unit square lies at z = 0. A second square stands upright at x = 0.5, with its lower side at z = 0.245 when closed and
- * -0.755 when open. */
+/* A unit square lies at z = 0. A second square stands upright at x = 0.5. This square's lower side is at z = 0.245 when closed
+ * and at z = -0.755 when open. */
 static const char squares[] =
     "{\"curves\": {\"a\": [[0,0,0],[1,0,0]], \"b\": [[0,1,0],[1,1,0]], \"c\": [[0,0,0],[0,1,0]], \"d\": "
     "[[1,0,0],[1,1,0]],\n"
@@ -28,7 +29,7 @@ static const char *write_squares(void) {
   return scratch_path("squares.json");
 }
 
-/* Checks the exit code, and that the program prints one line on stderr that begins with this text. */
+/* Checks the exit code, and that stderr has one line that begins with this text. */
 static void expect_warning(int exit_code, const char *begins) {
   assert_int_equal(program_exit_code, exit_code);
   assert_string_equal(program_err, "");
@@ -59,7 +60,7 @@ TEST(a_given_opening_is_the_only_one) {
   RUN_FINE("check", "crossings", "--valve", file, "--set", "opening=0.2");
   run_program("check", "crossings", "--valve", file, "--opening", "0.5", NULL);
   expect_warning(4, "riis: leaflets 0 and 1 cross at opening 0.5: ");
-  /* `riis surface` warns as `riis check crossings --opening 0.5` does, at any opening that it writes. */
+  /* `riis surface` gives the warning of `riis check crossings --opening 0.5`, at any opening that it writes. */
   run_program("surface", "--valve", file, "--opening", "0.5", "--output", scratch_path("crossed.vtp"), NULL);
   expect_warning(0, "riis: leaflets 0 and 1 cross at opening 0.5: ");
   run_program("surface", "--valve", file, "--opening", "0.1", "--output", scratch_path("sound.vtp"), NULL);
@@ -119,7 +120,7 @@ TEST(the_library_s_valves_do_not_cross) {
     RUN_FINE("check", "crossings", "--valve", "trileaflet", "--params", parameters[file]);
     assert_non_null(strstr(program_out, all));
   }
-  /* The valve opens between the two states that README.md shows. */
+  /* The valve opens between two states, as README.md shows. */
   scratch_write_text("open.json", "{\"leaflet_radius_in\": 1, \"bending_radius_in\": 1.1}");
   RUN_FINE("check", "crossings", "--params-open", scratch_path("open.json"));
   assert_non_null(strstr(program_out, all));
@@ -127,7 +128,7 @@ TEST(the_library_s_valves_do_not_cross) {
 
 /* ---- Shapes that the user chose ---- */
 
-/* The bending curve stays where it is, so the cusps cross. */
+/* The bending curve keeps its place, so the cusps cross. */
 #define TALL "--valve", "trileaflet", "--set", "leaflet_height=1.3", "--set", "bending_height=0.6"
 
 static const char tall_crosses[] = "riis: leaflets right and non-coronary cross at opening 0: ";
@@ -145,7 +146,7 @@ TEST(what_has_no_effect_is_refused) {
   RUN_REFUSED(2, "--times is not an option", "check", "crossings", "--valve", "mitral", "--times", "0,1");
 }
 
-/* The numbers equal those of the C interface. They do not depend on the valve's present opening. */
+/* The numbers equal those of the C interface. The numbers do not depend on the valve's present opening. */
 TEST(a_chosen_shape_is_looked_at) {
   riis_valve *valve = NULL;
   riis_surface *surface = NULL;
@@ -173,13 +174,13 @@ TEST(a_chosen_shape_is_looked_at) {
   }
   run_program("mark", scratch_path("in.vtu"), TALL, "--strict", NULL);
   assert_int_equal(program_exit_code, 4);
-  /* The warning of `riis check crossings` does not recommend this command itself. */
+  /* The warning of `riis check crossings` does not recommend the command itself. */
   run_program("check", "crossings", TALL, NULL);
   expect_warning(4, tall_crosses);
   assert_null(strstr(program_crossings, advice));
 }
 
-/* The warning appears for every way to choose a shape, and for every kind of run. */
+/* The warning appears for every way to choose a shape, in every kind of run. */
 TEST(every_run_looks) {
   const char *in = scratch_path("in.vtu");
   scratch_write_text("tall.json", "{\"leaflet_height\": 1.3, \"bending_height\": 0.6}");
@@ -209,8 +210,7 @@ TEST(every_run_looks) {
   expect_tall("riis: a: leaflets right and non-coronary cross at opening 0: ");
 }
 
-/* A chosen placement or opening does not count as a chosen shape. A bileaflet valve's hinges reach into its housing, which is no
- * fault. */
+/* A placement or an opening does not change the shape. A bileaflet valve's hinges reach into its housing, which is no fault. */
 TEST(sound_shapes_are_not_named) {
   static const char *const kinds[] = {"aortic", "trileaflet", "mitral", "bileaflet", "coapting"};
   const char *in = scratch_path("in.vtu");

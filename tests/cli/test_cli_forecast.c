@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
  * `riis export FOLDER MESH` forecasts what svMultiPhysics will do. The test reads the exported files as the solver does, and
- * repeats each number of the forecast. Distances come from a loop over all triangles, and shape functions from VTK. Volumes of
- * nodes have a closed form, and the drop comes from a dense matrix and elimination. */
+ * computes each number of the forecast again. Distances come from a loop over all triangles, and shape functions from VTK.
+ * Volumes of nodes have a closed form. The drop comes from a dense matrix and elimination. */
 /* clang-format off: test_support.h checks statuses if riis.h comes before it */
 #include <riis/riis.h>
 
@@ -62,7 +62,7 @@ static double area_of(const mesh *of, const double *distance, double eps) {
   return eps * integral;
 }
 
-/* The velocity of a leaflet's node. */
+/* Computes the velocity of a leaflet's node. */
 static void velocity_of(const uris_face *face, const double *motion, int frame, int node, double v[3]) {
   for (int k = 0; k < 3; ++k)
     v[k] = (uris_frame(face, motion, frame)[3 * node + k] - uris_frame(face, motion, frame - 1)[3 * node + k]) / 0.01;
@@ -70,7 +70,7 @@ static void velocity_of(const uris_face *face, const double *motion, int frame, 
 
 static double length_of(const double v[3]) { return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
-/* The velocity in the plane of triangle t of a face is the linear function with the velocities of the corners. */
+/* In the plane of triangle t, the velocity is the linear function that has the velocities of the corners. */
 static double speed_at(const uris_face *face, const double *motion, int frame, int t, const double p[3]) {
   const int *corner = face->corner + 3 * t;
   const double *xyz = uris_frame(face, motion, frame);
@@ -81,7 +81,7 @@ static double speed_at(const uris_face *face, const double *motion, int frame, i
     const int i = (k + 1) % 3, j = (k + 2) % 3;
     normal[k] = (c[1][i] - c[0][i]) * (c[2][j] - c[0][j]) - (c[1][j] - c[0][j]) * (c[2][i] - c[0][i]);
   }
-  /* The weight of a corner is the area between p and the opposite side, with a sign. */
+  /* The weight of a corner is the signed area between p and the opposite side. */
   for (int k = 0; k < 3; ++k) {
     const double *q = c[(k + 1) % 3], *r = c[(k + 2) % 3];
     for (int d = 0; d < 3; ++d) {
@@ -184,7 +184,7 @@ static void check_table(const mesh *of, const char *folder) {
 #define RAMPS "--time-step", "0.01", "--opening-seconds", "0.02", "--closing-seconds", "0.01", "--resistance", "1e4"
 
 static void turn(double side[3][3]) {
-  /* Rotates the sides of a box about two axes at random. */
+  /* Rotates a box's sides at random about two axes. */
   for (int axis = 0; axis < 2; ++axis) {
     const double angle = random_between(&rng, -3, 3), c = cos(angle), s = sin(angle);
     for (int i = 0; i < 3; ++i) {
@@ -196,7 +196,8 @@ static void turn(double side[3][3]) {
   }
 }
 
-/* Every kind of valve, every type of element, in boxes that are turned at random. Such a box leaves gaps around the valve. */
+/* Tests every kind of valve and every type of element in boxes that are turned at random. Such a box leaves gaps around the
+ * valve. */
 TEST(test_frames) {
   char flap[64];
   snprintf(flap, sizeof flap, "%s", scratch_path("flap.json"));
@@ -225,7 +226,7 @@ TEST(test_frames) {
 
 /* ---- The drop ---- */
 
-/* Solves a dense system by elimination with the largest pivots. The solution replaces the right side. */
+/* Solves a dense system by elimination with the largest pivots. The solution replaces the right-hand side. */
 static void eliminate(int n, double *a, double *b) {
   for (int k = 0; k < n; ++k) {
     int pivot = k;
@@ -256,10 +257,9 @@ typedef struct {
   double R, rho, mu, dt;
 } fluid;
 
-/* The slow steady flow through a flat plate at z = 0 that fills a tube along z, by the solver's equations. The pressure is 1 at
- * z = -length and 0 at z = length, and the walls hold the flow. Returns the flow times R / eps. In a tetrahedron and a wedge,
- * some coordinates run along a triangle. The solver's elements count these from the triangle's last node, and VTK's
- * elements from the first. */
+/* Computes a slow steady flow along z by the solver's equations. A flat plate at z = 0 fills the tube. The pressure is 1 at z =
+ * -length and 0 at z = length, and the walls hold the flow. Returns the flow times R / eps. In a tetrahedron and a wedge, some
+ * coordinates run along a triangle. The solver counts these coordinates from the triangle's last node, and VTK from the first. */
 static double flow_through_plate(const mesh *of, const double *distance, double width, double length, double eps,
                                  const fluid *by) {
   static int local[most_nodes];
@@ -298,10 +298,10 @@ static double flow_through_plate(const mesh *of, const double *distance, double 
           outward[3 * node[i] + k] += points.weight[g] * of->cell_volume * gradient[i][k];
         }
       }
-      /* The coordinates of the solver's reference elements, from VTK's between 0 and 1. */
+      /* Converts VTK's coordinates, which are between 0 and 1, to those of the solver's reference elements. */
       double axis[3][3];
       for (int k = 0; k < 3; ++k) {
-        /* The solver swaps nodes 0 and 1 of half of the tetrahedra and wedges, which changes no sum here. */
+        /* The solver swaps nodes 0 and 1 of half of the tetrahedra and wedges. The exchange does not change the sums below. */
         for (int c = 0; c < 3; ++c)
           axis[k][c] = of->type->vtk == 10            ? gradient[k][c]
                        : of->type->vtk == 13 && k < 2 ? gradient[k][c] + gradient[k + 3][c]
@@ -370,7 +370,7 @@ static void need_scipy(void) {
   skip();
 }
 
-/* A plate that fills a square tube. The fluids differ in the strength of the solver's stabilisation. */
+/* A plate fills a square tube. The fluids differ in the strength of the solver's stabilisation. */
 TEST(test_drop) {
   need_scipy();
   static double distance[most_nodes];
@@ -378,7 +378,7 @@ TEST(test_drop) {
   for (int i = 0; i < 4; ++i) {
     const element *type = &elements[i % 3];
     const fluid *by = &fluids[i / 2];
-    /* The area has more than three digits, and the printed area must have them too. */
+    /* The tube's area has more than three digits, and the program must print more than three. */
     const double z = 3, half = 0.9968, area = 4 * half * half;
     double side[3][3] = {{2 * half, 0, 0}, {0, 2 * half, 0}, {0, 0, 2 * z}}, corner[3] = {-half, -half, -z};
     const int n[3] = {4, 4, 13};
@@ -398,8 +398,8 @@ TEST(test_drop) {
     uris_state closed = uris_state_of(&exported, exported.n_faces, 1, exported.face[0].n_close - 1);
     distances_of(&tube, &closed, 1, distance);
     uris_state_free(&closed);
-    /* The region consists of all elements with a node within 2.5 half thicknesses, or within one half thickness and two median
-     * edges. */
+    /* The region consists of the elements with a node near the surface. A node is near if its distance is below 2.5 half
+     * thicknesses, or below one half thickness plus two median edges. */
     const double reach = fmax(2.5 * eps, eps + 2 * number_after(program_out, "median edge "));
     double length = step / 2;
     while (length <= reach) length += step;
@@ -475,7 +475,8 @@ TEST(test_refusals) {
   expect_no_folder();
 }
 
-/* Shorter edges are advised beside a thicker band. In a uniform mesh both have the same ratio, and the nodes follow the edges. */
+/* Beside a thicker band, the message advises shorter edges. In a uniform mesh, the number of nodes follows from the edge
+ * length. */
 TEST(test_finer_edges) {
   need_scipy();
   double side[3][3] = {{2, 0, 0}, {0, 2, 0}, {0, 0, 4.8}}, corner[3] = {-1, -1, -2.5};
@@ -493,13 +494,13 @@ TEST(test_finer_edges) {
   assert_true(fabs(number_after(program_err, " in the band, ") * edge / shorter - 1) < 0.01);
   assert_non_null(strstr(program_err, " times as long as now, in about "));
   const double n_nodes = number_after(program_err, ", in about "), expected = tube.n_nodes * pow(thicker / eps, 3);
-  /* Two digits are printed, with commas. */
+  /* The number has two significant digits, and commas. */
   const char *comma = strstr(strstr(program_err, ", in about ") + 11, ",");
   assert_true(fabs((comma ? n_nodes * 1000 + strtod(comma + 1, NULL) : n_nodes) / expected - 1) < 0.08);
   free_mesh(&tube);
 }
 
-/* A valve that leaves a gap in its mesh, and a valve whose drop is too small. Both are exported, with a warning. */
+/* One valve leaves a gap in its mesh, and one has a drop that is too small. Both valves are exported with a warning. */
 TEST(test_warnings) {
   need_scipy();
   write_tube("coarse.vtk", -3.1, 2.9);
@@ -513,7 +514,7 @@ TEST(test_warnings) {
   run_program("export", scratch_path("metres"), scratch_path("coarse.vtk"), RAMPS, "--valve", scratch_path("flap.json"),
               "--half-thickness", "0.6", "--density", "1060", "--largest-edge", "0.2", NULL);
   assert_int_equal(program_exit_code, 0);
-  /* A drop above (R/eps) u is no forecast. No number is printed. */
+  /* A drop above (R/eps) u is not a valid forecast, so no number is printed. */
   assert_non_null(strstr(program_err,
                          "riis: the drop across the closed valve was not found, because the solver's equations "
                          "give none between 0 and 1/0.95 of (R/eps) u; its stabilisation needs a density of "
@@ -543,7 +544,7 @@ static const char *write_python(const char *name, const char *text) {
   return path;
 }
 
-/* Exports with the given Python, or with the test's Python. Returns the table. */
+/* Exports with the given Python, or with the Python of the test. Returns the table. */
 static char *exported_with(const char *python, const char *folder) {
   char *old = getenv("RIIS_PYTHON") ? strdup(getenv("RIIS_PYTHON")) : NULL;
   char table[64];
@@ -558,7 +559,7 @@ static char *exported_with(const char *python, const char *folder) {
   return scratch_read(scratch_path(table), NULL);
 }
 
-/* Copies the lines of the block that neither tell the drop nor name the folder. */
+/* Copies the lines of the block without the drop and the folder's name. */
 static void other_lines(char *to) {
   for (char *line = strtok(program_out, "\n"); line; line = strtok(NULL, "\n"))
     if (!strstr(line, "drop") && !strstr(line, "u is the flow") && !strstr(line, "_file_path") &&
@@ -566,7 +567,7 @@ static void other_lines(char *to) {
       to += sprintf(to, "%s\n", line);
 }
 
-/* Without SciPy only the drop is missing, and the export says so. Other faults of Python are also reported. */
+/* Without SciPy only the drop is missing, and the export reports this. Other faults of Python are also reported. */
 TEST(test_without_scipy) {
   static char with_lines[1 << 14], without_lines[1 << 14], python[256];
   write_tube("coarse.vtk", -3.1, 2.9);
@@ -605,7 +606,7 @@ TEST(test_without_scipy) {
   free(with);
 }
 
-/* The flap fills the tube from -1 to 1 when closed, and turns about the side y = -1. The other flap jumps far away. */
+/* The closed flap fills the tube from -1 to 1. The flap turns about the side y = -1. A second flap jumps far away. */
 static int make_files(void **state) {
   const char *const flap =
       "{\"curves\": {\"a\": [[-1,-1,0],[1,-1,0]], \"b\": [[-1,1,0],[1,1,0]], \"c\": [[-1,-1,0],[-1,1,0]],"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The program with meshes of other programs: a note on single precision; damaged files, which a child process reads; .xdmf
- * as output; and fields of OpenFOAM for one time and for a series. */
+ * Runs the program with meshes of other programs. The cases are: a note on single precision, damaged files (which a child process
+ * reads), .xdmf as output, and fields of OpenFOAM for one time and for a series. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -30,7 +30,7 @@ TEST(test_notes) {
   RUN_FINE("mark", scratch_path("single.vtu"), "--half-thickness", "0.3", "--quiet", "--output", scratch_path("o.vtu"));
 }
 
-/* A mesh that went through .xdmf has the same marks, and the .xdmf is read by a child process. */
+/* A mesh that went through .xdmf has unchanged marks. A child process reads the .xdmf. */
 TEST(test_xdmf) {
   RUN_FINE("mark", scratch_path("in.vtu"), "--half-thickness", "0.3", "--resistance", "2", "--output",
            scratch_path("marked.xdmf"));
@@ -53,7 +53,7 @@ TEST(test_xdmf) {
   RUN_REFUSED(2, "o.doc must end in .vtu", "mark", scratch_path("in.vtu"), "--output", scratch_path("o.doc"));
 }
 
-/* The .h5 file of an .xdmf is an output, and also an input of each .xdmf that names it. */
+/* The .h5 file of an .xdmf is an output. The .h5 file is also an input of each .xdmf that names it. */
 TEST(test_numbers_of_xdmf) {
   RUN_REFUSED(2, "o.h5 is also the file of --output", "mark", scratch_path("in.vtu"), "--half-thickness", "0.3",
               "--output", scratch_path("o.xdmf"), "--stats", scratch_path("o.h5"));
@@ -75,7 +75,7 @@ TEST(test_numbers_of_xdmf) {
   assert_null(strstr(program_err, "signal"));
 }
 
-/* Damages bytes of a file. The program refuses the file in one line, or reads it, and no signal ends it. */
+/* Damages bytes of a file. The program must read the file or refuse it in one line, and no signal may end the program. */
 static void damage(const char *name, const char *mesh, int n_trials) {
   size_t n = 0;
   char *whole = scratch_read(scratch_path(name), &n);
@@ -133,7 +133,7 @@ static void write_list(const char *name, const char *kind, const char *text) {
   free(all);
 }
 
-/* Writes the case, and the centres of its cells as a mesh without cells. */
+/* Writes the case, and also the centres of its cells as a mesh without cells. */
 static void write_case(void) {
   enum { room = 1 << 20 };
   char *points = malloc(room), *centers = malloc(room), *faces = malloc(room), *owner = malloc(room),
@@ -220,7 +220,7 @@ TEST(test_foam) {
   static double K[n_foam_cells], expected[n_foam_cells], Ku[3 * n_foam_cells];
   char type[32];
   int64_t n_components = 0, n = 0;
-  /* The same positions as nodes of a mesh without cells. */
+  /* These positions also form a mesh of nodes without cells. */
   RUN_WITHOUT_CELLS("mark", scratch_path("centers.vtk"), "--half-thickness", "0.3", "--resistance", "2", "--output",
                     scratch_path("centers.vtu"));
   assert_true(shim_read_array(scratch_path("centers.vtu"), 'p', "riis_K", type, &n_components, &n, expected));

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * `riis from-area`: openings and sizes are checked by riis_surface_get_orifice, and cycles are used by riis mark. */
+ * Tests `riis from-area`. riis_surface_get_orifice checks the openings and sizes, and riis mark uses the cycles. */
 /* clang-format off: test_support.h checks statuses if riis.h comes before it */
 #include <riis/riis.h>
 
@@ -11,7 +11,7 @@
 #include "program.h"
 #include "scratch.h"
 
-/* Returns the orifice of a valve at an opening, with the triangles of riis states. */
+/* Returns the orifice of a valve at an opening. The triangles are those of riis states. */
 static riis_orifice orifice_of(const char *kind, double opening, const char *name, double value, double scale) {
   riis_valve *valve = NULL;
   riis_surface *surface = NULL;
@@ -34,7 +34,7 @@ static void expect_said(const char *text) {
   if (!strstr(program_out, text)) fail_msg("no '%s' in:\n%s", text, program_out);
 }
 
-/* Returns the number behind a label at the beginning of a line. */
+/* Returns the number after a label that begins a line. */
 static double said(const char *label) {
   for (const char *line = program_out; line && *line; line = strchr(line, '\n') ? strchr(line, '\n') + 1 : NULL)
     if (strncmp(line, label, strlen(label)) == 0) return strtod(line + strlen(label), NULL);
@@ -58,7 +58,7 @@ TEST(test_openings) {
   CHECK_NEAR(orifice_of("bileaflet", said("opening"), NULL, 0, 1).effective_area, 1.8, 1e-3);
 }
 
-/* Sizes are those of the open valve, unless it has another opening. */
+/* Sizes are those of the open valve if no other opening is given. */
 TEST(test_sizes) {
   RUN_FINE("from-area", "--area", "7", "--valve", "bileaflet", "--solve", "scale");
   expect_said("valve     bileaflet, at opening 1\n");
@@ -71,7 +71,7 @@ TEST(test_sizes) {
   CHECK_NEAR(orifice_of("bileaflet", 0.4, "annulus", said("annulus"), 1).area, 1.5, 1e-3);
 }
 
-/* Returns the orifice after two parameters, given as "NAME=VALUE", and a third one. */
+/* Returns the orifice with three changed parameters. Two of these parameters are given as "NAME=VALUE". */
 static double area_with(const char *kind, double opening, const char *const *settings, const char *name, double value) {
   riis_valve *valve = NULL;
   riis_surface *surface = NULL;
@@ -92,7 +92,7 @@ static double area_with(const char *kind, double opening, const char *const *set
   return orifice.area;
 }
 
-/* Diseases have the orifice, or the gap of the closed valve, that the user wants. A share that is 0 needs no range. */
+/* A disease has the wanted orifice, or the wanted gap of the closed valve. A share that is 0 needs no range. */
 TEST(test_diseases) {
   static const struct {
     const char *kind, *area, *solve, *opening, *settings[2], *range[4];
@@ -121,7 +121,7 @@ TEST(test_diseases) {
               "--tolerance", "0.1", "--set", "bump_0.leaflet=0", "--solve", "bump_0.closed");
 }
 
-/* A gap that the band closes is told, if the user gives the band. */
+/* If the user gives the band, the program reports a gap that the band closes. */
 TEST(test_gap_in_band) {
 #define GAP(...)                                                                                                      \
   run_program("from-area", "--area", "0.12", "--valve", "coapting", "--opening", "0", "--set", "bump_0.commissure=0", \
@@ -143,7 +143,7 @@ TEST(test_gap_in_band) {
 #undef GAP
 }
 
-/* The areas of a known motion give the motion again. riis mark moves the valve by it, with velocities. */
+/* The areas of a known motion lead back to this motion. riis mark moves the valve by this motion, and writes velocities. */
 TEST(test_cycle) {
   enum { n = 9 };
   static const double openings[n] = {0, 0.2, 0.7, 1, 1, 0.8, 0.4, 0, 0};
@@ -244,7 +244,8 @@ TEST(test_refused_areas) {
   REFUSED(2, "--output", "--areas", scratch_path("bad.csv"), "--output", scratch_path("bad.csv"));
 }
 
-/* A line on stderr tells where the area turns. With --strict this changes the exit status. */
+/* A line on stderr reports the value at which the area stops growing and begins to fall. With --strict this line changes the exit
+ * status. */
 TEST(test_turns) {
   run_program("from-area", "--area", "10.7", "--valve", "mitral", "--solve", "leaflet_inward_angle", "--from", "100",
               "--to", "176", "--tolerance", "0.3", "--strict", NULL);

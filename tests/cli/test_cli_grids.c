@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The program on structured grids. It reports and writes what it reports and writes for a .vtu with the same nodes and cells. */
+ * Runs the program on structured grids. The program's reports and files equal those for a .vtu with the grid's nodes and
+ * cells. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -21,7 +22,7 @@ static shim_grid image_with(double spacing) {
   return grid;
 }
 
-/* Returns the statistics without the seconds. The caller frees them. */
+/* Returns the statistics without their seconds. The caller frees them. */
 static char *stats_of(const char *name) {
   char *text = scratch_read(scratch_path(name), NULL), *seconds = strstr(text, "\"seconds\"");
   assert_non_null(seconds);
@@ -30,7 +31,7 @@ static char *stats_of(const char *name) {
   return text;
 }
 
-/* Returns the lines of a report, from the line `from` to the line of seconds. The caller frees them. */
+/* Returns the lines of a report, from the line `from` to the line with the seconds. The caller frees them. */
 static char *report_from(const char *from) {
   char *text = strdup(strstr(program_out, from));
   *strstr(text, "\nseconds ") = 0;
@@ -52,7 +53,7 @@ static void expect_same_array(char where, const char *name) {
 
 static char mark_leaks[longest_output]; /* the warning of the last mark */
 
-/* Writes a grid and its cells, marks both, and compares everything. */
+/* Writes a grid and a .vtu of its cells, marks both, and compares everything. */
 static void expect_same(const char *name, const shim_grid *grid, const char *option, const char *value) {
   const char *const files[2] = {name, "cells.vtu"}, *const stats[2] = {"grid.json", "cells.json"};
   const char *const outputs[2] = {"grid_out.vtu", "cells_out.vtu"};
@@ -107,7 +108,7 @@ TEST(test_marks) {
   expect_same("grid.vti", &grid, "--search", "neighbor");
 }
 
-/* Cells, a series and a part of the cells need points. They give the files of the .vtu. */
+/* Runs by cells, series and parts of the mesh need points. The files of these runs equal those of the .vtu. */
 TEST(test_cells_and_series) {
   const shim_grid grid = image_with(0.21);
   assert_int_equal(shim_write_grid(scratch_path("grid.vti"), SHIM_RAW, &grid), 1);
@@ -127,7 +128,7 @@ TEST(test_cells_and_series) {
               "--cells-where", "sample=7");
 }
 
-/* The marks of axes go to a .vti or a .vtr, which the program reads again. */
+/* For a grid of axes, the marks go to a .vti or a .vtr. The program can read this file again. */
 TEST(test_output) {
   shim_grid grid = image_with(0.21);
   assert_int_equal(shim_write_grid(scratch_path("grid.vti"), SHIM_RAW, &grid), 1);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * --leaflets takes a surface file's leaflets from its connected pieces or from one of its arrays. --prefix and --replace put
- * the marks of a second valve beside those of the first, or in their place. */
+ * --leaflets takes a surface file's leaflets from its connected pieces or from one of its arrays. --prefix adds the marks of a
+ * second valve to those of the first. --replace removes the first valve's marks. */
 #include <math.h>
 #include <riis/riis_vtk.h>
 #include <stdio.h>
@@ -13,7 +13,7 @@
 #include "scratch.h"
 #include "vtk_shim.h"
 
-/* Three squares of two triangles each, one above the other. The file lists a triangle of each square in turn. */
+/* Three squares lie above each other, with two triangles each. The file lists a triangle of each square in turn. */
 static const double heights[3] = {-0.2, 0, -1};
 static void write_squares(void) {
   static char text[4096];
@@ -33,7 +33,7 @@ static int make_files(void **state) {
   return 0;
 }
 
-/* Checks that every node within the limit has the leaflet of the square nearest to its height. */
+/* Checks the leaflet of every node within the limit. The leaflet must be that of the square nearest to the node's height. */
 static void expect_leaflets(const char *path, const int leaflets[3]) {
   static double xyz[3 * n_box], leaflet[n_box];
   int n_of[3] = {0, 0, 0};
@@ -63,7 +63,7 @@ TEST(test_leaflets) {
   assert_non_null(strstr(program_out, "squares.stl: 6 triangles, 3 leaflets, area 12\n"));
   RUN_LEAFLETS("squares.stl", "--leaflets", "connected", "--stats", "-");
   assert_true(json_number(program_out, "n_leaflets") == 3);
-  /* The written surface keeps the leaflets. In its array riis_triangle, every triangle has a different number. */
+  /* The written surface keeps the leaflets. The array riis_triangle of a surface gives every triangle a different number. */
   RUN_FINE("surface", "--surface", scratch_path("squares.stl"), "--leaflets", "connected", "--output",
            scratch_path("squares.vtp"));
   RUN_LEAFLETS("squares.vtp", "--quiet");
@@ -97,7 +97,7 @@ TEST(test_leaflet_refusals) {
   RUN_REFUSED(2, "--leaflets: the value is empty", "mark", mesh, "--surface", scratch_path("s.vtp"), "--leaflets", "");
 }
 
-/* Several files are one valve, and each file is a leaflet with the name of the file. */
+/* Several files form one valve. Each file is a leaflet with the file's name. */
 TEST(test_files_of_leaflets) {
   const char *names[3] = {"low.obj", "middle.ply", "deep.vtk"};
   static char mesh[256], paths[3][256];
@@ -148,7 +148,7 @@ TEST(test_files_of_leaflets) {
   RUN_REFUSED(1, "surface: 3 is not a path", "mark", "--case", scratch_path("bad.json"));
 }
 
-/* riis export writes the motion of each leaflet, and the program reads it as a series. */
+/* riis export writes a motion of each leaflet, and the program reads these files as a series. */
 TEST(test_exported_motion) {
   static char paths[3][256];
   const char *leaflets[3] = {"right", "left", "non_coronary"};
@@ -181,7 +181,7 @@ TEST(test_exported_motion) {
               scratch_path("squares.stl"), "--time-step", "0.02");
 }
 
-/* One line each reports faces whose sides or areas are not as expected. */
+/* If the sides or areas of faces are not as expected, one line reports each fault. */
 TEST(test_face_warnings) {
   static const struct {
     const char *faces, *line;

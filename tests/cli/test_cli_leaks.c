@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Tests the warning about edges that cross the valve between unmarked nodes. The C interface gives the expected leaks,
- * for all edges of the mesh. */
+ * Tests the warning about leaks, which are edges that cross the valve between unmarked nodes. The C interface finds the expected
+ * leaks among all edges of the mesh. */
 #include <math.h>
 #include <riis/riis_vtk.h>
 #include <stdlib.h>
@@ -14,7 +14,7 @@
 #include "scratch.h"
 #include "vtk_shim.h"
 
-/* Writes a box around the valve. The cells' longest edges, the diagonals of cubes, have the length `longest`. */
+/* Writes a box around the valve. The longest edges are the diagonals of cubes. These diagonals have the length `longest`. */
 static void write_mesh(const char *name, const riis_surface *surface, double longest) {
   riis_surface_info info;
   double lower[3], upper[3], extent = 0;
@@ -41,7 +41,7 @@ static riis_surface *make_surface(const char *kind, double half_thickness) {
   return surface;
 }
 
-/* Finds leaks by the C interface, with every edge of the mesh. */
+/* Finds leaks by the C interface, which gets every edge of the mesh. */
 static riis_leak_list leaks_by_c(const char *name, const riis_surface *surface) {
   riis_vtk_mesh *file = NULL;
   riis_adjacency *adjacency = NULL;
@@ -67,7 +67,7 @@ static riis_leak_list leaks_by_c(const char *name, const riis_surface *surface) 
   return leaks;
 }
 
-/* Checks that the program reports the same leaks as the C interface, and that the advised command works as printed. */
+/* Checks that the program reports the leaks of the C interface, and that the advised command works as printed. */
 static void expect_advice(const char *name, const char *kind) {
   riis_surface *surface = make_surface(kind, 0.1);
   const riis_leak_list leaks = leaks_by_c(name, surface);
@@ -81,8 +81,8 @@ static void expect_advice(const char *name, const char *kind) {
            "riis: the surface leaks: %d edges cross it between two unmarked nodes, the longest (%.3g) at ",
            (int)leaks.n_edges, leaks.longest_length);
   assert_int_equal(strncmp(program_leaks, expected, strlen(expected)), 0);
-  /* In the coarsest meshes, the half thickness is far too small for the edges. The warning about this comes first, and
-   * no other warning contains advice. */
+  /* In the coarsest meshes, the half thickness is far too small for the edges. The warning about the half thickness comes first.
+   * No other warning contains advice. */
   const char *const earlier = strstr(program_err, "the median edge of the mesh ");
   expect_place(program_leaks + strlen(expected), leaks.longest_middle, leaks.longest_length,
                earlier ? "\n" : "; --half-thickness ");
@@ -132,7 +132,7 @@ TEST(test_fine_meshes_do_not) {
   }
 }
 
-/* Triangles from a file do not depend on the half thickness, so the program advises the library's number, rounded to three
+/* Triangles from a file do not depend on the half thickness. The program therefore advises the library's number, rounded to three
  * digits. */
 TEST(test_surface_from_file) {
   riis_surface *surface = make_surface("mitral", 0.1);
@@ -153,8 +153,8 @@ TEST(test_surface_from_file) {
   assert_non_null(strstr(program_leaks, " edge"));
 }
 
-/* The table of statistics also reports leaks. The first three searches report the same leaks. The paper's search and the
- * other distances also report leaks. */
+/* The table of statistics also reports leaks. The first three searches report equal leaks. The paper's search and the other ways
+ * to measure distances also report leaks. */
 TEST(test_searches_and_distances) {
   riis_surface *surface = make_surface("mitral", 0.1);
   write_mesh("coarse.vtu", surface, 0.5);
@@ -197,7 +197,7 @@ TEST(test_one_edge) {
       strstr(program_out, "leaks     1 edge between unmarked nodes across the surface, length up to 0.75\n"));
 }
 
-/* Returns a box around the closed mitral valve, so coarse that its edges leak. */
+/* Returns a box around the closed mitral valve. The box is so coarse that its edges leak. */
 static plain_mesh box_of_mitral(int n) {
   riis_surface *surface = make_surface("mitral", 0.1);
   riis_surface_info info;
@@ -215,15 +215,14 @@ static riis_leak_list leaks_of_mitral(const char *name) {
   return leaks;
 }
 
-/* Copies 300 bytes of the run's output from this key on, and the run's warning about leaks. */
+/* Copies 300 bytes of the output, from this key on, and the warning about leaks. */
 static void keep(const char *key, char said[1000]) {
   const char *const found = strstr(program_out, key);
   assert_non_null(found);
   snprintf(said, 1000, "%.600s %.300s", program_leaks, found);
 }
 
-/* Runs the program with this mesh, far from the valve or around it. Expects that the program reports leaks as unknown for this
- * reason. */
+/* Runs the program with this mesh, far from the valve or around it. Expects that the leaks are unknown for the given reason. */
 static void expect_unknown(const char *name, const char *place, int exit_code, const char *reason) {
   char text[512];
   run_program("mark", scratch_path(name), "--translate", place, "--quiet", "--stats", scratch_path("stats.json"), NULL);
@@ -242,7 +241,7 @@ static void expect_unknown(const char *name, const char *place, int exit_code, c
   assert_non_null(strstr(program_out, text));
 }
 
-/* riis knows the edges of all cells in this zoo of cell types. */
+/* The mesh has cells of many types, and riis knows the edges of each type. */
 TEST(test_other_cells) {
   assert_int_equal(shim_write_zoo(scratch_path("zoo.vtu")), 1);
   RUN_FINE("mark", scratch_path("zoo.vtu"), "--translate", "50,0,0", "--allow-none", "--quiet", "--stats",
@@ -255,8 +254,8 @@ TEST(test_other_cells) {
   assert_non_null(strstr(program_out, "\nleaks     unknown: no node is marked\n"));
 }
 
-/* Tests the coordinates of a leak in a small mesh far from the origin, in two units. The number of digits depends on the
- * edge length, and the unit follows the coordinates. */
+/* Tests the coordinates of a leak in a small mesh far from the origin, in two units. The coordinates have the digits that the
+ * edge length needs, and the unit of the coordinates. */
 TEST(test_places) {
   const struct {
     double origin, edge;
@@ -303,7 +302,7 @@ static void expect_warned(int exit_code) {
     expect_warned(4);                           \
   } while (0)
 
-/* Tests warnings of every kind, with and without --quiet. All outputs are written in every case. */
+/* Tests warnings of every kind, with and without --quiet. The program always writes all outputs. */
 TEST(test_strict) {
   char fine[256], coarse[256];
   riis_surface *surface = make_surface("mitral", 0.1);
@@ -333,7 +332,7 @@ TEST(test_strict) {
     expect_warned(strict ? 4 : 0);
     assert_true(scratch_exists(strict ? "strict/normal.dat" : "lenient/normal.dat"));
   }
-  /* Without a warning the status is 0. A run without marks keeps its own status, even with --strict. */
+  /* Without a warning the status is 0. A run without marks keeps its status, even with --strict. */
   RUN_FINE("mark", fine, CLOSED, "--strict");
   assert_string_equal(program_leaks, "");
   RUN_FINE("params", "--strict");
@@ -347,7 +346,8 @@ static void expect_demanded(int exit_code, const char *mesh) {
   expect_warned(exit_code);
 }
 
-/* A mesh without leaking edges meets the demand. Leaking edges, unknown leaks and a mesh far from the valve do not. */
+/* A mesh without leaking edges passes the check. A mesh with leaking edges, with unknown leaks or far from the valve fails the
+ * check. */
 TEST(test_demanded_seal) {
   riis_surface *surface = make_surface("mitral", 0.1);
   write_mesh("fine.vtu", surface, 0.2);
@@ -366,8 +366,8 @@ TEST(test_demanded_seal) {
   RUN_REFUSED(2, "--demand-sealed is not an option", "mark", scratch_path("fine.vtu"), "--demand-sealed");
 }
 
-/* Quadratic cells leak like the linear cells into which their nodes cut them. Each quadratic cell has one more inner edge than
- * the linear cells share. */
+/* The nodes of a quadratic cell divide the cell into linear cells, which have equal leaks. Each quadratic cell has one inner edge
+ * that the linear cells lack. */
 TEST(test_quadratic_cells) {
   plain_mesh hexahedra = box_of_mitral(9), quadratic = plain_quadratic_tetrahedra(&hexahedra),
              cut = plain_cut(&quadratic, 8), corners = plain_cut(&quadratic, 4);
@@ -391,7 +391,7 @@ TEST(test_quadratic_cells) {
   plain_free(&corners);
 }
 
-/* Hexahedra that are stored as polyhedra, in either layout, have the leaks and the passage of plain hexahedra. */
+/* Hexahedra may be stored as polyhedra in two layouts. The leaks and the passage equal those of plain hexahedra. */
 TEST(test_polyhedra) {
   static const char *const names[3] = {"cells.vtu", "streams.vtu", "lists.vtu"};
   static char said[3][2][1000];
@@ -431,8 +431,8 @@ TEST(test_unknown) {
       RUN_REFUSED(2, reasons[i], "check", "leaks", scratch_path("other.vtk"), "--translate", "50,0,0", "--allow-none",
                   "--between", "0.1,0,0.6", "0,0.1,0.6");
   }
-  /* The tetrahedron joins its own nodes, even if the edges of another cell are unknown. It does not join nodes of another
-   * tetrahedron. */
+  /* A tetrahedron joins its nodes, even if the edges of another cell are unknown. A tetrahedron does not join nodes of other
+   * cells. */
   run_program("check", "leaks", scratch_path("other.vtk"), "--translate", "50,0,0", "--allow-none", "--between",
               "0.1,0,0.6", "0,0.1,0.6", NULL);
   assert_non_null(strstr(program_out, "\npassage   open: at "));

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Compares the files that riis writes with the C interface on the same mesh. */
+ * Compares the files that riis writes with results of the C interface on the same mesh. */
 #include <math.h>
 #include <riis/riis_vtk.h>
 #include <stdlib.h>
@@ -84,7 +84,7 @@ TEST(test_stats_on_stdout) {
   assert_true(json_number(program_out, "n_nodes") == n_box);
 }
 
-/* The written surface, read again by --surface, gives the same marks, triangles and leaflets. */
+/* A run with --surface reads the written surface, and finds the marks, triangles and leaflets of the first run. */
 TEST(test_surface_from_file) {
   riis_valve *valve = NULL;
   riis_surface_options options;
@@ -93,7 +93,7 @@ TEST(test_surface_from_file) {
   options.half_thickness = 0.2;
   mark_by_c(valve, &options, 0.3, RIIS_FAR_DISTANCE);
   riis_valve_destroy(&valve);
-  /* The triangles depend on the half thickness through the tolerance. */
+  /* The half thickness changes the triangles through the tolerance. */
   RUN_FINE("surface", "--half-thickness", "0.2", "--output", scratch_path("out.vtp"));
   RUN_FINE("mark", scratch_path("in.vtu"), "--surface", scratch_path("out.vtp"), "--half-thickness", "0.2",
            "--distance-limit", "0.3", "--output", scratch_path("out.vtu"));
@@ -115,7 +115,7 @@ TEST(test_one_of_each) {
   assert_non_null(strstr(program_out, "1 thread\n"));
 }
 
-/* A run without marks has its own exit code, unless the user allows it. All requested files are written. */
+/* A run without marks has a special exit code, which the user can turn into 0. All requested files are written. */
 TEST(test_no_marks) {
   run_program("mark", scratch_path("in.vtu"), "--translate", "9,9,9", "--stats", scratch_path("none.json"), "--output",
               scratch_path("none.vtu"), NULL);
@@ -129,7 +129,7 @@ TEST(test_no_marks) {
   free(json);
   assert_int_equal(shim_read_array(scratch_path("none.vtu"), 'p', "riis_marked", NULL, NULL, NULL, NULL), 1);
   RUN_FINE("mark", scratch_path("in.vtu"), "--translate", "9,9,9", "--allow-none");
-  /* The paper's search may miss nodes, and in this case finds none. The program reports both facts. */
+  /* The paper's search may miss nodes, and finds none here. The program reports both facts. */
   run_program("mark", scratch_path("in.vtu"), "--translate", "9,9,9", "--search", "paper", NULL);
   assert_int_equal(program_exit_code, 3);
   assert_non_null(strstr(program_err, "riis: the marks may be incomplete"));
@@ -180,7 +180,7 @@ TEST(test_refused_resistances) {
   RUN_REFUSED(2, "--resistance is nan", "mark", scratch_path("in.vtu"), "--valve", "aortic", "--resistance", "nan");
   RUN_REFUSED(2, "--resistance", "mark", scratch_path("in.vtu"), "--valve", "aortic", "--resistance", "ten");
   RUN_REFUSED(2, "--resistance is not an option", "surface", "--valve", "aortic", "--resistance", "1");
-  /* The K of another valve is not replaced by accident. */
+  /* If the mesh already has the K of a valve, a second run does not replace this K by accident. */
   RUN_FINE("mark", scratch_path("in.vtu"), "--valve", "aortic", "--half-thickness", "0.3", "--resistance", "1",
            "--prefix", "a", "--output", scratch_path("a.vtu"));
   RUN_REFUSED(2, "a_marked", "mark", scratch_path("a.vtu"), "--valve", "aortic", "--half-thickness", "0.3",

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * --surface FILE.pvd --time T reads a moving surface, given by frames, at one time. */
+ * --surface FILE.pvd --time T reads a moving surface at one time. The .pvd lists its frames. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -30,8 +30,8 @@ static int make_frames(void **state) {
   return 0;
 }
 
-/* Compares the vertices and velocities in a file with the moving sheet at a time. The sheet's size is multiplied by `scale`, and
- * its velocity also by `speed`. */
+/* Compares the vertices and velocities in a file with the moving sheet at a time. `scale` multiplies the sheet's size and
+ * velocity, and `speed` multiplies only the velocity. */
 static void expect_sheet(const char *path, double time, double speed, double scale) {
   double xyz[3 * sheet_n_vertices], velocity[3 * sheet_n_vertices];
   int64_t n = 0;
@@ -65,7 +65,7 @@ TEST(test_times) {
   expect_sheet(moved, 0.25, -1, 1);
 }
 
-/* The marks equal the marks for a file with the surface at this time. */
+/* The marks equal those of a file that has the surface at this time. */
 TEST(test_marks) {
   static double by_motion[n_box], by_file[n_box];
   sheet_write("now.vtp", 0.25, NULL);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * --movie makes one frame for each time, all with one camera. ffmpeg reads the frames back. Other tests use a small program
- * with the same name, which counts the frames. */
+ * --movie makes one frame for each time. All frames share one camera. ffmpeg reads the frames again. Other tests use a small
+ * program named ffmpeg, which counts the frames. */
 #include <dirent.h>
 #include <signal.h>
 #include <stdio.h>
@@ -24,7 +24,7 @@ enum { n_frames = 4 };
             scratch_path("cycle.csv"), "--movie", scratch_path(movie), "--frame-rate", "5", "--movie-view", "side", \
             "--quiet", __VA_ARGS__))
 
-/* Expects that no frame is left in TMPDIR, which is the scratch folder. */
+/* Checks that TMPDIR, which is the scratch folder, has no frame. */
 static void expect_no_frames(void) {
   const char *place = getenv("TMPDIR");
   DIR *folder = opendir(place);
@@ -66,7 +66,7 @@ static void expect_whole_picture(const char *name) {
   assert_true(n_coloured[0] > 20000 && n_coloured[1] > 20000);
 }
 
-/* Uses a fake encoder that copies the frames it gets. */
+/* Uses a fake encoder that copies its frames. */
 TEST(test_frames) {
   static const char *const names[n_frames] = {"f/frame_000000.png", "f/frame_000001.png", "f/frame_000002.png",
                                               "f/frame_000003.png"};
@@ -95,7 +95,7 @@ TEST(test_frames) {
   free(first);
 }
 
-/* If the encoder fails, the refusal quotes its last lines. Neither a movie nor frames are left. */
+/* If the encoder fails, the refusal quotes its last lines. The movie and the frames are removed. */
 TEST(test_failing_encoder) {
   use_scratch_for_frames();
   scratch_write_text("kept.gif", "before");

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Tests valves that open: the program's marks are compared with the C interface's. The mitral valve has an open state of
- * its own; other valves open between two files. */
+ * Tests valves that open. The program's marks are compared with those of the C interface. The mitral valve needs no second file,
+ * because its kind has an open state. Other valves open between two files. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -79,7 +79,7 @@ TEST(test_bileaflet) {
     assert_true(json_has_text(program_out, "valve", "\"bileaflet\""));
     assert_true(json_number(program_out, "opening") == openings[i]);
   }
-  /* The bileaflet valve is closed by default. Its ring counts as a third leaflet. */
+  /* The bileaflet valve is closed by default. The program counts its ring as a third leaflet. */
   mark_at(valve, 0);
   RUN_ON_BOX("--valve", "bileaflet");
   expect_outputs();
@@ -106,7 +106,7 @@ TEST(test_own_open_states) {
   }
 }
 
-/* Two parameter files define the closed and the open state. */
+/* One parameter file defines the closed state, and another the open state. */
 TEST(test_aortic) {
   riis_valve *closed = make_valve("aortic"), *open = make_valve("aortic");
   expect_fine(riis_valve_set_scalar(closed, "leaflet_angle", 68));
@@ -132,7 +132,7 @@ TEST(test_aortic) {
   riis_valve_destroy(&open);
 }
 
-/* Half way between two states, the area lies between the states' areas. */
+/* Half way between two states, the surface's area lies between the areas of the states. */
 TEST(test_between) {
   scratch_write_text("open.json", "{\"leaflet_angle\": 50}");
   double area[3];
@@ -145,7 +145,7 @@ TEST(test_between) {
   assert_true((area[0] < area[1] && area[1] < area[2]) || (area[0] > area[1] && area[1] > area[2]));
 }
 
-/* With two files, the closed curves come from the first and the open curves from the second. */
+/* With two files, the closed curves come from the first file, and the open curves from the second. */
 TEST(test_mitral_states) {
   riis_valve *valve = make_valve("mitral"), *open = make_valve("mitral");
   expect_fine(riis_valve_set_scalar(valve, "anterior_horn_height", 0.5));
@@ -182,7 +182,7 @@ TEST(test_refusals) {
   RUN_REFUSED(1, "missing.json: cannot be read", "mark", mesh, "--params-open", scratch_path("missing.json"),
               "--opening", "0");
   RUN_REFUSED(1, "missing.json: cannot be read", "mark", mesh, "--params-closed", scratch_path("missing.json"));
-  /* A file may only contain parameters of its valve. */
+  /* A file may only contain parameters of its kind of valve. */
   RUN_REFUSED(1, "p.json: 'root_radius' is not a parameter of the mitral valve", "mark", mesh, "--valve", "mitral",
               "--params-open", file, "--opening", "0");
   RUN_REFUSED(1, "'left.leaflet_angle' is not a parameter of the mitral valve", "mark", mesh, "--valve", "mitral",

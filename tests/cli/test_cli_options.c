@@ -29,7 +29,7 @@ static int lines_of(const char *text) {
   return n;
 }
 
-/* Each command has its own options and examples, which fit on about one screen. */
+/* Each command has separate options and examples, which fit on about one screen. */
 TEST(test_help) {
   static const struct {
     const char *command, *option[10];
@@ -58,7 +58,7 @@ TEST(test_help) {
   expect_printed("--between X,Y,Z X,Y,Z");
 }
 
-/* The list names every topic, and each topic is explained. */
+/* The list names every topic, and each topic has an explanation. */
 TEST(test_topics) {
   RUN_FINE("help");
   char *list = strdup(program_out), *next = NULL;
@@ -83,7 +83,7 @@ TEST(test_topics) {
   expect_printed("\"patches\"");
 }
 
-/* An option takes one value. The argument after the value is the mesh. */
+/* An option takes one value. The next argument is the mesh. */
 TEST(test_order) {
   RUN_FINE("mark", "--set", "root_radius=1.29", scratch_path("in.vtu"), "--stats", "-");
   assert_true(json_number(program_out, "n_nodes") == n_box);
@@ -117,7 +117,7 @@ TEST(test_skip_zero_area) {
   assert_true(json_number(program_out, "area") == 0.5);
 }
 
-/* Numbers are read and written with a decimal point, whatever the locale. */
+/* Numbers have a decimal point in input and output, whatever the locale. */
 TEST(test_locale) {
   setenv("LC_ALL", "de_DE.UTF-8", 1);
   RUN_FINE("mark", scratch_path("in.vtu"), "--half-thickness", "0.25", "--stats", "-");
@@ -125,7 +125,7 @@ TEST(test_locale) {
   assert_true(json_number(program_out, "half_thickness") == 0.25);
 }
 
-/* The program's name alone prints a few commands to type, and no error message. */
+/* Without arguments, the program prints a few commands to type, and no error message. */
 TEST(test_no_arguments) {
   run_program(NULL);
   assert_int_equal(program_exit_code, 2);
@@ -136,8 +136,8 @@ TEST(test_no_arguments) {
   for (size_t i = 0; i < sizeof parts / sizeof parts[0]; ++i) assert_non_null(strstr(program_err, parts[i]));
 }
 
-/* riis view passes its arguments to Python's riis. If Python lacks this package, the program says how to install it.
- * The Python here is a script. */
+/* riis view passes its arguments to Python's riis. If Python lacks this package, the program says how to install it. A script
+ * stands for Python here. */
 TEST(test_view) {
   const char *python = scratch_path("python");
   FILE *file = fopen(python, "w");

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Tests which part of a valve is outside the mesh. In a box, the distance of a point from the mesh is in closed form. */
+ * Tests which part of a valve is outside the mesh. If the mesh is a box, the distance of a point from it has a closed form. */
 #include <math.h>
 #include <riis/riis_vtk.h>
 
@@ -12,7 +12,7 @@
 
 enum { n_asked = 3000 };
 
-/* The distance of a point from the box from 0 to `size`. */
+/* The distance of a point from the box, which extends from 0 to `size`. */
 static double distance_from_box(const double p[3], const double size[3]) {
   double square = 0;
   for (int k = 0; k < 3; ++k) {
@@ -92,7 +92,7 @@ TEST(test_arguments) {
   riis_vtk_mesh_destroy(&file);
 }
 
-/* Writes two triangles, the square from `from` to `to` along x and from -1 to 1 along y. */
+/* Writes a square of two triangles, from `from` to `to` along x and from -1 to 1 along y. */
 static void write_sheet(const char *name, double from, double to) {
   FILE *file = fopen(scratch_path(name), "w");
   assert_non_null(file);
@@ -110,7 +110,7 @@ TEST(test_share_of_two_sheets) {
   assert_int_equal(shim_write_box(scratch_path("box.vtu"), SHIM_RAW, 17, lower, upper, 0), 1);
   write_sheet("in.obj", 0, 1.95);
   write_sheet("out.obj", -4, 0);
-  /* Of `out`, 2 - 0.15 of 4 lengths is farther than 0.15 outside. */
+  /* The leaflet `out` is 4 long. A part of 2 - 0.15 lies farther than 0.15 outside. */
   char *json =
       MARK_BOX("--half-thickness", "0.15", "--surface", scratch_path("in.obj"), "--surface", scratch_path("out.obj"));
   assert_int_equal(program_exit_code, 0);
@@ -128,7 +128,7 @@ TEST(test_share_of_two_sheets) {
               "--half-thickness", "0.15", "--surface", scratch_path("out.obj"), NULL);
   assert_int_equal(program_exit_code, 4);
 
-  /* Up to 2 % is said, but is no warning. */
+  /* A part of up to 2 % is reported without a warning. */
   write_sheet("out.obj", -2.21, 1);
   json = MARK_BOX("--half-thickness", "0.15", "--surface", scratch_path("out.obj"));
   assert_string_equal(program_outside, "");
@@ -137,7 +137,8 @@ TEST(test_share_of_two_sheets) {
   free(json);
 }
 
-/* Estimates the share of the area of leaflets below n_leaflets that is outside a box, from random points. */
+/* Uses random points to estimate which share of the leaflets' area lies outside a box. The leaflets are those below
+ * n_leaflets. */
 static double random_share(const char *kind, const char *skirt, int n_leaflets, const double lower[3],
                            const double size[3]) {
   random_source random = random_start("share");
@@ -174,7 +175,7 @@ static double random_share(const char *kind, const char *skirt, int n_leaflets, 
 }
 
 TEST(test_skirts_and_housings_do_not_count) {
-  /* The leaflets end at x = 0.9, and skirt and housing reach beyond the box everywhere. */
+  /* The leaflets end at x = 0.9. The skirt and the housing reach beyond the box everywhere. */
   const double lower[3] = {-3, -1.2, -3}, upper[3] = {0.9, 3, 3}, size[3] = {3.9, 4.2, 6};
   assert_int_equal(shim_write_box(scratch_path("box.vtu"), SHIM_RAW, 31, lower, upper, 0), 1);
   static const char *const kinds[] = {"coapting", "quadricuspid", "mitral", "bileaflet"};
@@ -191,14 +192,15 @@ TEST(test_skirts_and_housings_do_not_count) {
   }
 }
 
-/* A valve stands wrongly if its closed leaflets are outside. Open leaflets may reach into the wall: these reach higher. */
+/* A valve is in a wrong place if its closed leaflets are outside. Open leaflets may reach into the wall, and these leaflets reach
+ * higher when open. */
 TEST(test_the_closed_valve_decides) {
   const double lower[3] = {-3, -3, -3}, upper[3] = {3, 3, 1.4};
   assert_int_equal(shim_write_box(scratch_path("box.vtu"), SHIM_RAW, 31, lower, upper, 0), 1);
   static const char *const stands = "riis: the surface stands through the wall: ",
                            *const reaches = "riis: the surface reaches through the wall where it is open: ";
   const struct {
-    const char *place, *opening, *text; /* the text begins the line, and "" is none */
+    const char *place, *opening, *text; /* the text that begins the line; "" for no line */
   } cases[] = {{"0,0,-0.6", "1", ""},
                {"0,0,0", "0", ""},
                {"0,0,0", "1", reaches},
@@ -215,7 +217,7 @@ TEST(test_the_closed_valve_decides) {
     assert_int_equal(strstr(program_outside, "The closed valve stands inside the mesh") != NULL, text == reaches);
     free(json);
   }
-  /* A valve that never closes in a series is judged alike. */
+  /* A valve that never closes in a series is judged in the same way. */
   scratch_write_text("cycle.csv", "0,0.9\n0.5,1\n1,0.9\n");
   for (int is_high = 0; is_high < 2; ++is_high) {
     free(MARK_BOX("--valve", "coapting", "--cycle", scratch_path("cycle.csv"), "--times", "0,0.25,0.5", "--translate",
@@ -226,7 +228,7 @@ TEST(test_the_closed_valve_decides) {
 }
 
 TEST(test_a_series_tells_of_the_open_valve) {
-  /* The closed leaflets end below z = 1.2, and the open ones reach higher. */
+  /* The closed leaflets end below z = 1.2. The open leaflets reach higher. */
   const double lower[3] = {-3, -3, -3}, upper[3] = {3, 3, 1};
   assert_int_equal(shim_write_box(scratch_path("box.vtu"), SHIM_RAW, 31, lower, upper, 0), 1);
   scratch_write_text("cycle.csv", "0,0\n0.5,1\n1,0\n");
@@ -251,7 +253,7 @@ TEST(test_what_is_unknown) {
   assert_non_null(strstr(json, "\"n_leaking_edges\": null"));
   CHECK_NEAR(json_number(strstr(json, "\"outside\""), "share"), 1, 0);
   free(json);
-  /* Without volume cells, there is no inside. */
+  /* A mesh without volume cells has no inside. */
   scratch_write_text("box.vtk",
                      "# vtk DataFile Version 3.0\nmesh\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 3 double\n"
                      "0 0 0\n1 0 0\n0 1 0\nCELLS 1 4\n3 0 1 2\nCELL_TYPES 1\n5\n");

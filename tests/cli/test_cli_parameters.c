@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Tests valve parameters from JSON and from --set, by `riis params` and by the surface's area. */
+ * Tests valve parameters from JSON and from --set. The parameters are checked by `riis params` and by the surface's area. */
 #include <math.h>
 #include <riis/riis.h>
 #include <stdio.h>
@@ -9,7 +9,7 @@
 #include "program.h"
 #include "scratch.h"
 
-/* Returns the number that follows the key inside a cusp's object. */
+/* Returns the number that follows the key inside the object of a cusp. */
 static double in_cusp(const char *json, const char *cusp, const char *key) {
   char quoted[64];
   snprintf(quoted, sizeof quoted, "\"%s\": {", cusp);
@@ -18,7 +18,7 @@ static double in_cusp(const char *json, const char *cusp, const char *key) {
   return json_number(object, key);
 }
 
-/* Returns the first number of the array that follows the key inside a cusp's object. */
+/* Returns the first number of the array that follows the key inside the object of a cusp. */
 static double first_in_cusp(const char *json, const char *cusp, const char *key) {
   char quoted[64];
   snprintf(quoted, sizeof quoted, "\"%s\": {", cusp);
@@ -31,7 +31,7 @@ static double first_in_cusp(const char *json, const char *cusp, const char *key)
   return value;
 }
 
-/* Every parameter of the library is in the template. Reading the template back gives the same values. */
+/* The template has every parameter of the library. When the program reads the template, the values stay the same. */
 static void expect_template(const char *kind) {
   static char defaults[longest_output];
   RUN_FINE("params", "--valve", kind);
@@ -81,7 +81,7 @@ TEST(test_json_forms) {
   assert_true(in_cusp(program_out, "non_coronary", "leaflet_angle") == 60.5);
 }
 
-/* A value given for one cusp overrides the value for all cusps, in any order in the file. */
+/* A value for one cusp overrides the value for all cusps, in any order of the two values in the file. */
 TEST(test_json_order) {
   const char *files[3] = {"{\"right.translation\": [1, 2, 3], \"translation\": [7, 8, 9]}",
                           "{\"translation\": [7, 8, 9], \"right.translation\": [1, 2, 3]}",
@@ -95,7 +95,7 @@ TEST(test_json_order) {
   }
 }
 
-/* --set is applied after the file, strictly from left to right. */
+/* Options --set are applied after the file, strictly from left to right. */
 TEST(test_set_order) {
   scratch_write_text("p.json", "{\"right.translation\": [1, 2, 3]}");
   RUN_FINE("params", "--set", "translation=4,5,6", "--params", scratch_path("p.json"));
@@ -107,7 +107,7 @@ TEST(test_set_order) {
   assert_true(first_in_cusp(program_out, "left", "translation") == 4);
 }
 
-/* A disease is a kind with parameters, which --params and then --set change. */
+/* A disease is a kind with parameters. First --params, and then --set, may change its parameters. */
 TEST(test_diseases) {
   RUN_FINE("params", "--valve", "mitral_clip");
   assert_non_null(strstr(program_out, "\"anterior_length\""));
@@ -173,7 +173,7 @@ TEST(test_json_refusals) {
   RUN_REFUSED(1, ": cannot be read", "mark", scratch_path("in.vtu"), "--params", scratch_path("."));
 }
 
-/* A file with deep nesting or very long strings is refused with one line. */
+/* A file with deep nesting or very long strings is refused in one line. */
 TEST(test_json_sizes) {
   enum { depth = 1000000, length = 100000 };
   static char text[2 * depth + 64];
@@ -213,7 +213,7 @@ TEST(test_set_refusals) {
   RUN_REFUSED(1, "right.leaflet_power", "params", "--set", "right.leaflet_power=0.5");
 }
 
-/* The table has a line for every parameter, with its current value, unit, range and description. */
+/* The table has a line for every parameter, with its value, unit, range and description. */
 static void expect_table(const char *kind) {
   RUN_FINE("params", "--describe", "--valve", kind);
   riis_valve *valve = NULL;
@@ -221,7 +221,7 @@ static void expect_table(const char *kind) {
   assert_int_equal(riis_valve_create(kind, &valve), RIIS_OK);
   assert_int_equal(riis_valve_get_n_parameters(valve, &n), RIIS_OK);
   for (const char *c = program_out; *c; ++c) n_lines += *c == '\n';
-  /* After an empty line, advice on the band follows. */
+  /* After an empty line, the table gives advice on the band. */
   const int n_of_advice = strcmp(kind, "bileaflet") == 0 ? 1 : strcmp(kind, "coapting") == 0 ? 4 : 3;
   assert_int_equal(n_lines, n + 2 + n_of_advice);
   assert_non_null(strstr(program_out, n_of_advice == 1 ? "\n\nband: leave --offset at 0" : "\n\nband: with a cut rim"));
@@ -270,7 +270,7 @@ TEST(test_table) {
   assert_non_null(strstr(program_out, " 0.5 "));
 }
 
-/* One line stands for the parts that are like the part before them. */
+/* If parts equal the part before them, one line stands for these parts. */
 TEST(test_table_of_parts) {
   RUN_FINE("params", "--describe", "--valve", "quadricuspid");
   assert_non_null(strstr(program_out, "\ncommissure_0.fusion "));
@@ -287,7 +287,7 @@ TEST(test_table_of_parts) {
   assert_non_null(strstr(program_out, "\ncusp_1.sector "));
 }
 
-/* A file has parts as objects, and so has the template. Bumps at no place but the first are left out. */
+/* In a file and in the template, the parts are objects. The template leaves out bumps without a place, except the first. */
 TEST(test_parts_in_files) {
   scratch_write_text("p.json",
                      "{\"cusp_0\": {\"sector\": 140}, \"commissure_1.fusion\": 0.2, \"effective_height\": 0.95,"
@@ -316,7 +316,7 @@ TEST(test_parts_in_files) {
   RUN_FINE("mark", "--case", scratch_path("case.json"), "--output", scratch_path("case.vtu"));
 }
 
-/* A run with the closed valve tells of a gap that the band closes. An open valve and a wide gap need no line. */
+/* If the band closes a gap of the closed valve, a run reports this gap. An open valve and a wide gap need no line. */
 TEST(test_gap_of_bumps) {
 #define MARK(...)                                                                                             \
   run_program("mark", scratch_path("in.vtu"), "--valve", "coapting", "--set", "bump_0.commissure=0", "--set", \
@@ -349,8 +349,7 @@ TEST(test_near_names) {
   RUN_REFUSED(1, "did you mean 'root_radius'?", "params", "--params", scratch_path("p.json"));
 }
 
-/* Sizes by a surgeon's names, from options and files. Rules give the sizes that are not set, and the template file lists these
- * values. */
+/* Options and files set sizes by a surgeon's names. Rules give the other sizes, and the template file lists these sizes. */
 TEST(test_named_sizes) {
   static char by_options[longest_output];
   RUN_FINE("params", "--valve", "trileaflet", "--set", "effective_height=1", "--set", "stj=2.6", "--set",
@@ -370,7 +369,7 @@ TEST(test_named_sizes) {
   assert_string_equal(program_out, by_options);
   RUN_FINE("params", "--valve", "trileaflet", "--params", scratch_path("p.json"), "--set", "leaflet_height=1.4");
   assert_true(json_number(program_out, "bending_height") == 0.7);
-  /* A template sets all values. After it is read, no value follows from others by a rule. */
+  /* A template sets all values. After the program has read this template, no value follows from others by a rule. */
   scratch_write_text("p.json", by_options);
   RUN_FINE("params", "--valve", "trileaflet", "--params", scratch_path("p.json"), "--set", "leaflet_height=1.4");
   assert_true(json_number(program_out, "leaflet_height") == 1.4 && json_number(program_out, "bending_height") == 0.5);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Compares `riis check leaks` with two points with the C interface's passage. The mesh is a box inside the valve's annulus,
- * so no path goes round the valve. */
+ * Compares `riis check leaks` with two points with the passage of the C interface. The mesh is a box inside the valve's annulus,
+ * so no path leads round the valve. */
 #include <math.h>
 #include <riis/riis_vtk.h>
 #include <stdlib.h>
@@ -63,7 +63,7 @@ static riis_passage passage_by_c(void) {
   return passage;
 }
 
-/* The advised command works when it is typed as printed. */
+/* The advised command works as printed. */
 TEST(test_open_valve) {
   const riis_passage passage = passage_by_c();
   RUN_FINE("check", "leaks", scratch_path("box.vtu"), "--between", ENDS, "--stats", "-");
@@ -82,7 +82,8 @@ TEST(test_open_valve) {
   assert_non_null(strstr(program_out, "\npassage   closed: at "));
 }
 
-/* The nodes are the centres of the cells, as in riis mark --cells: the same leaks, and a way through the open valve only. */
+/* As in riis mark --cells, the nodes are the centres of the cells. The leaks are the same, and only the open valve has a
+ * passage. */
 TEST(test_centres) {
   const char *const openings[] = {"0", "1"};
   for (int i = 0; i < 2; ++i) {
@@ -99,7 +100,7 @@ TEST(test_centres) {
   }
 }
 
-/* The measures of valve and mesh for the flow equal the results of the library's calls. */
+/* The measures of valve and mesh equal results of the library's calls. */
 TEST(test_flow) {
   RUN_FINE("check", "leaks", scratch_path("box.vtu"), "--between", ENDS, "--valve", "trileaflet", "--opening", "0",
            "--first-passage", "--resistance", "500", "--drop", "20", "--stats", "-");
@@ -122,7 +123,7 @@ TEST(test_flow) {
   riis_valve_destroy(&valve);
   assert_true(fabs(json_number(orifice, "area") - expected.area) <= 1e-12);
   assert_true(fabs(json_number(orifice, "effective_area") - expected.effective_area) <= 1e-12);
-  /* The leak passes the closed area, and the box has only the middle of the leaflets. */
+  /* The leak flows through the closed area. The box contains only the middle of the leaflets. */
   const double closed_area = json_number(program_out, "closed_area"), area = flow * 500 / 0.1;
   assert_true(closed_area > 0.2 * area && closed_area < area);
   assert_true(fabs(json_number(program_out, "leak") - 20 * 0.1 / 500 * closed_area) <= 1e-12);
@@ -158,7 +159,7 @@ TEST(test_closed_valve) {
   assert_null(strstr(program_out, "passage"));
 }
 
-/* An open valve has a passage, which no half thickness should close. */
+/* An open valve has a passage. No half thickness should close it. */
 TEST(test_passage_through_an_open_valve) {
   RUN_FINE("check", "leaks", scratch_path("box.vtu"), "--between", ENDS, "--valve", "trileaflet", "--opening", "1");
   assert_int_equal(
@@ -169,7 +170,7 @@ TEST(test_passage_through_an_open_valve) {
   assert_int_equal(program_exit_code, 4);
 }
 
-/* An end of the path is nearer to the surface than any other point of the passage. */
+/* An end of the path is nearer to the surface than the rest of the passage. */
 TEST(test_end_is_the_narrowest_place) {
   RUN_FINE("check", "leaks", scratch_path("box.vtu"), "--between", "0,0,-1.2", "0.5,0,-0.1");
   assert_non_null(strstr(program_leaks,
@@ -196,7 +197,7 @@ TEST(test_what_is_refused) {
   RUN_REFUSED(2, "MESH is required", "check", "leaks");
 }
 
-/* The mesh has two pieces. A point between them is in the bounding box, but far from every node. */
+/* The mesh has two pieces. A point between the pieces is in the mesh's bounding box, but far from every node. */
 TEST(test_pieces) {
   scratch_write_text("pieces.vtk",
                      "# vtk DataFile Version 3.0\ntwo\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 8 double\n"
@@ -215,7 +216,7 @@ TEST(test_pieces) {
               "0,0,8.5");
 }
 
-/* Reads area, effective area, half thicknesses and perimeter from the line "orifice WORDS", and compares them. */
+/* Reads area, effective area, half thicknesses and perimeter from the line "orifice WORDS". Compares the numbers. */
 static void expect_orifice(const char *words, const riis_orifice *expected) {
   char line[80];
   snprintf(line, sizeof line, "\norifice   %s", words);
@@ -250,7 +251,7 @@ static riis_orifice orifice_by_c(const char *kind, double opening, double half_t
   return orifice;
 }
 
-/* Returns the mean number of mesh edges across the band of a valve, from the line that begins with the words. */
+/* Reads the mean number of mesh edges across the band of a valve. The line begins with the given words. */
 static double across_of(const char *words) {
   char line[80];
   double mean = -1;
@@ -261,7 +262,7 @@ static double across_of(const char *words) {
   return mean;
 }
 
-/* Two valves stand in a row. Either valve alone closes the passage. */
+/* Two valves stand in a row. Each valve alone closes the passage. */
 TEST(test_cases) {
   scratch_write_text("one.json",
                      "{\"mesh\": \"box.vtu\", \"check_leaks\": [0.01,0,-1.2, 0,0.02,0.9],\n"
@@ -303,7 +304,7 @@ TEST(test_series) {
   assert_non_null(strstr(program_out, "\npassage   closed: at "));
 }
 
-/* Each valve of a case with two points has lines of its own. A valve alone has the same numbers. */
+/* With two points, each valve of a case has separate lines. The numbers are those of the valve alone. */
 TEST(test_flow_of_several_valves) {
 #define TWO_POINTS "{\"mesh\": \"box.vtu\", \"check_leaks\": [0.01,0,-1.2, 0,0.02,0.9], \"half_thickness\": 0.09,\n"
   scratch_write_text("flows.json", TWO_POINTS
@@ -321,7 +322,7 @@ TEST(test_flow_of_several_valves) {
     assert_true(across_of("") == across[i]);
     expect_orifice("", i ? &right : &left);
   }
-  /* In a series, the band is measured when the valve is least open, and the orifice when it is most open. */
+  /* In a series, the band is measured at the least opening, and the orifice at the largest. */
   scratch_write_text("rises.csv", "0,0.5\n1,0\n2,0.75\n");
   scratch_write_text("falls.csv", "0,0.25\n1,0.125\n2,0\n");
   scratch_write_text(
@@ -338,7 +339,7 @@ TEST(test_flow_of_several_valves) {
              "0.09");
     assert_true(across_of("") == closed[i]);
   }
-  /* A case with one valve has the lines of that valve alone. Without points nothing is measured. */
+  /* The lines of a case with one valve are those of the valve alone. Without points nothing is measured. */
   scratch_write_text("flow_one.json", TWO_POINTS " \"valves\": [{\"valve\": \"trileaflet\", \"opening\": 0.75}]}\n");
   RUN_FINE("mark", "--case", scratch_path("flow_one.json"));
   expect_orifice("", &left);
@@ -349,7 +350,7 @@ TEST(test_flow_of_several_valves) {
   assert_null(strstr(program_out, "across"));
 }
 
-/* Returns the closed area of plates at these heights in the box. They reach beyond the box, whose section has 1.6 x 1.6. */
+/* Returns the closed area of plates at these heights in the box. The plates reach beyond the box, whose section is 1.6 x 1.6. */
 static double closed_area_of_plates(int n, const double *heights, const char *half_thickness) {
   char text[1024] = "";
   for (int i = 0; i < n; ++i) {
@@ -365,8 +366,9 @@ static double closed_area_of_plates(int n, const double *heights, const char *ha
   return json_number(program_out, "closed_area");
 }
 
-/* A plate has its own area in the mesh. Two plates that touch have the area of one. The second plate counts more with its
- * distance, by the integral of K between the plates, and fully from a distance of two half thicknesses on. */
+/* A plate closes its own area of the mesh. Two plates in one place close the area of one. The second plate counts more as its
+ * distance grows, by the integral of K between the plates. From a distance of two half thicknesses on, the second plate counts
+ * fully. */
 TEST(test_closed_area_of_plates) {
   const double one = 1.6 * 1.6, eps = 0.15, pi = acos(-1.0);
   for (int i = 0; i < 5; ++i) {
@@ -378,8 +380,9 @@ TEST(test_closed_area_of_plates) {
   }
 }
 
-/* Two leaflets that touch count once: half of their coaptation within half a half thickness does not count. Half a
- * tube around the free edges also counts, 0.467 half thicknesses for each length: the integral of K there over R / eps. */
+/* Where two leaflets touch, only one of them counts. Half of their coaptation within half a half thickness therefore does not
+ * count. The half tube around the free edges also counts. The tube's width is 0.467 half thicknesses, which is the integral of K
+ * across the tube over R / eps. */
 TEST(test_closed_area_of_a_coaptation) {
   const double lower[3] = {-1.7, -1.7, -1.3}, upper[3] = {1.7, 1.7, 2.3};
   assert_int_equal(shim_write_box(scratch_path("wide.vtu"), SHIM_RAW, 32, lower, upper, 0), 1);

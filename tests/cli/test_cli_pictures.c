@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * --picture without a display, and without a program that makes one, ends with one line and exit code 1. With a display, each
- * --picture writes one file with its own view. */
+ * If there is no display and no program that makes one, --picture ends with one line and exit code 1. With a display, each
+ * --picture writes one file, and each may have a different view. */
 #include <riis/riis_vtk.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,7 +13,7 @@
 #include "virtual_display.h"
 #include "vtk_shim.h"
 
-/* test_virtual_display.py covers displays that the program makes. Here the PATH has no program for that. */
+/* test_virtual_display.py covers displays that the program makes. In this test, no program in PATH can make a display. */
 TEST(test_without_display) {
   const char *const before[2] = {getenv("DISPLAY"), getenv("PATH")};
   char kept[2][4096] = {"", ""};
@@ -27,10 +27,10 @@ TEST(test_without_display) {
       "xvfb has it",
       "mark", scratch_path("in.vtu"), "--picture", scratch_path("none.png"));
   assert_int_equal(scratch_exists("none.png"), 0);
-  /* The refusal comes before any work. The mesh is also missing, but the message does not name it. */
+  /* The refusal comes before any work. The mesh is also missing, but the message names only the fault of the picture. */
   RUN_REFUSED(1, "DISPLAY is not set", "mark", scratch_path("missing.vtu"), "--picture", scratch_path("none.png"));
   setenv("DISPLAY", ":7654", 1);
-  /* The run has marked nodes before it fails, so the other requested files are written. */
+  /* The run has marked nodes before it fails, so it writes the other requested files. */
   RUN_REFUSED(1, "DISPLAY :7654 cannot be used, and Xvfb", "mark", scratch_path("in.vtu"), "--picture",
               scratch_path("none.png"), "--output", scratch_path("out.vtu"), "--stats", scratch_path("stats.json"));
   assert_int_equal(scratch_exists("none.png"), 0);
@@ -65,13 +65,13 @@ TEST(test_pictures) {
   assert_false(scratch_is_same("1.png", "2.png"));
   assert_false(scratch_is_same("1.png", "3.png"));
   assert_false(scratch_is_same("2.png", "3.png"));
-  /* Marks are drawn in the same way if their array has another name. */
+  /* The name of the array does not change how marks are drawn. */
   RUN_FINE("mark", "--half-thickness", "0.3", "--picture", scratch_path("5.png"), scratch_path("in.vtu"), "--prefix",
            "left", "--output", scratch_path("left.vtu"));
   assert_true(scratch_is_same("3.png", "5.png"));
 }
 
-/* Returns the title with the orifice and the half thickness of a surface in centimetres, as captions give them. */
+/* Returns the title that a caption has: the orifice and the half thickness of a surface in centimetres. */
 static const char *with_sizes(const char *title, const riis_surface *surface) {
   static char text[256];
   riis_orifice orifice;
@@ -83,7 +83,8 @@ static const char *with_sizes(const char *title, const riis_surface *surface) {
   return text;
 }
 
-/* Compares a picture that the program draws of a valve with a picture that the C interface draws with the expected title. */
+/* Compares two pictures of a valve. The program draws one picture, and the C interface draws the other with the expected
+ * title. */
 static void expect_title(const char *title, const char *valve_name, const char *kind, const char *setting,
                          const char *value) {
   riis_valve *valve = NULL;
@@ -93,7 +94,7 @@ static void expect_title(const char *title, const char *valve_name, const char *
   const int is_bicuspid = strcmp(kind, "bicuspid") == 0;
   RUN_FINE("surface", "--valve", valve_name, "--picture", scratch_path("by_program.png"), setting, value);
   expect_fine(riis_valve_create(kind, &valve));
-  /* The title contains the value, and the valve in the picture has the same value. */
+  /* The title contains the value that the valve in the picture has. */
   const char *const number = strchr(value, '=') + 1;
   char name[64];
   snprintf(name, sizeof name, "%.*s", (int)(number - 1 - value), value);
@@ -110,7 +111,7 @@ static void expect_title(const char *title, const char *valve_name, const char *
   riis_valve_destroy(&valve);
 }
 
-/* Draws a placed mitral valve. The unit of its mesh may be NULL, and `scale` leads to it from centimetres. */
+/* Draws a placed mitral valve. The unit of the valve's mesh may be NULL. `scale` converts centimetres to this unit. */
 static void draw_by_c(const riis_surface_options *placement, const char *unit, int32_t view) {
   riis_valve *valve = NULL;
   riis_surface *surface = NULL;
@@ -140,8 +141,8 @@ static void draw_by_c(const riis_surface_options *placement, const char *unit, i
   riis_valve_destroy(&valve);
 }
 
-/* Views by the valve's axes get the axes from --rotate. Without --unit, the scale tells the unit of the mesh, if it is a
- * usual factor from centimetres. */
+/* Views by the valve's axes get these axes from --rotate. If --unit is missing, a usual factor from centimetres in the scale
+ * shows the unit of the mesh. */
 TEST(test_valve_views) {
   static const char *const names[4] = {"valve-side", "valve-top", "valve-oblique", "valve-three"};
   riis_surface_options placement;
@@ -158,7 +159,7 @@ TEST(test_valve_views) {
   }
 }
 
-/* The title must say that the paper's aortic valve is not closed. A disease has its name in place of the kind. */
+/* The title must say that the paper's aortic valve is not closed. For a disease, the title has its name instead of the kind. */
 TEST(test_titles) {
   expect_title("Aortic valve, opening 0 (the paper's, not closed)", "aortic", "aortic", "--set", "opening=0");
   expect_title("Aortic valve, opening 0 (the paper's, not closed)", "aortic", "aortic", "--set",
@@ -179,7 +180,7 @@ TEST(test_unit) {
   assert_true(scratch_is_same("by_program.png", "by_c.png"));
 }
 
-/* Each option changes the picture as the same field of the C interface does. */
+/* Each option changes the picture in the way of its field in the C interface. */
 TEST(test_looks) {
   riis_valve *valve = NULL;
   riis_surface *surface = NULL;
@@ -238,7 +239,7 @@ TEST(test_refused_looks) {
   assert_int_equal(scratch_exists("no.png"), 0);
 }
 
-/* Returns whether two pictures are the same in a part of 800 pixels to the right of x0, and 40 pixels upwards from y0. */
+/* Returns whether two pictures are equal in a part that extends 800 pixels to the right of x0 and 40 pixels upwards from y0. */
 static int have_same_part(const char *a, const char *b, int x0, int y0) {
   int size[2];
   unsigned char *rgb[2] = {shim_read_pixels(scratch_path(a), &size[0], &size[1]),
@@ -292,7 +293,7 @@ static void draw_case_by_c(const char *title, const char *unit) {
   riis_vtk_surface_destroy(&file);
 }
 
-/* Writes two.json with these valves, and draws it with the program, which may warn of sizes. */
+/* Writes two.json with these valves. The program draws them, and may warn about sizes. */
 static void draw_case(const char *first, const char *second) {
   char text[512];
   snprintf(text, sizeof text, "{\"mesh\": \"in.vtu\", \"half_thickness\": 0.3, \"valves\": [\n%s,\n%s]}\n", first,
@@ -303,8 +304,8 @@ static void draw_case(const char *first, const char *second) {
   assert_int_equal(program_exit_code, 0);
 }
 
-/* A surface from a file has no opening, so neither the picture's title nor the summary shows one. Movies have the same title.
- * The unit of the scale bar may come from any of the valves, but two valves must not contradict each other. */
+/* A surface from a file has no opening, so the title and the summary show none. Movies also have this title. Any valve may give
+ * the unit of the scale bar. Two valves must not contradict each other. */
 TEST(test_cases) {
   static const char aortic[] = "{\"name\": \"aortic\", \"valve\": \"aortic\", \"opening\": 0.5}",
                     small[] = "{\"name\": \"small\", \"valve\": \"aortic\", \"scale\": 0.1}",

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Meshes in pieces. Random meshes are cut into pieces at random, with and without global ids and ghost cells. The program marks
- * the pieces and the joined mesh, and both must give the same marks, counts, leaks, regions and passages. Broken lists and
- * pieces are refused by name. */
+ * Tests meshes in pieces. Random meshes are cut at random, with and without global ids and ghost cells. The program marks the
+ * pieces and the joined mesh. Pieces and joined mesh must give the same marks, counts, leaks, regions and passages. A refusal
+ * names the broken list or piece. */
 #include <ctype.h>
 #include <math.h>
 #include <riis/riis_vtk.h>
@@ -81,7 +81,7 @@ static void expect_same_array(const char *name) {
 
 #ifdef RIIS_MPIEXEC
 
-/* Settings for Open MPI, as in tests/install/check_mpi_example.sh. */
+/* Sets Open MPI as tests/install/check_mpi_example.sh does. */
 static void use_mpi(void) {
   static const char *const settings[][2] = {{"OMPI_ALLOW_RUN_AS_ROOT", "1"},
                                             {"OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1"},
@@ -102,7 +102,7 @@ static void use_mpi(void) {
 #define RUN_RANKS(n, ...) \
   (use_mpi(), run_program("-n", n, RIIS_MPI_PROGRAM, __VA_ARGS__, NULL), (void)(program_file = NULL))
 
-/* Checks that several ranks give the same files, numbers and exit code as one process gave just before. */
+/* Checks that several ranks give the files, numbers and exit code that one process has just given. */
 static void expect_same_by_ranks(const char *n_ranks, const char *valve, const char *opening,
                                  const char *half_thickness, const char *from, const char *to) {
   const int code = program_exit_code;
@@ -233,7 +233,7 @@ static void make_random_mesh(int mode) {
   write_pieces();
 }
 
-/* With an offset, nodes are ordered by the half thickness that marks each. */
+/* With an offset, the check orders the nodes by the half thickness that marks each node. */
 TEST(passages_with_an_offset_are_those_of_the_joined_mesh) {
   static const char *const valves[] = {"coapting", "trileaflet", "mitral", "bileaflet", "aortic"};
   static const char *const offsets[] = {"0.5", "-0.3"};
@@ -261,7 +261,7 @@ TEST(passages_with_an_offset_are_those_of_the_joined_mesh) {
     }
     if (code[0] != code[1]) fail_msg("%d: %s and %d: %s", code[0], refusal, code[1], program_err);
     if (!text[0]) {
-      /* Both refuse an end in the band, and name the half thickness that marks it. */
+      /* Both runs refuse an end in the band, and name the half thickness that marks it. */
       assert_non_null(strstr(refusal, "in the band: the half thickness that marks it, "));
       assert_non_null(strstr(program_err, "in the band: the half thickness that marks it, "));
       forget_whole();
@@ -280,7 +280,7 @@ TEST(passages_with_an_offset_are_those_of_the_joined_mesh) {
     const int is_open = json_has_text(text[0], "state", "\"open");
     assert_int_equal(is_open, json_has_text(text[1], "state", "\"open"));
     n_open += is_open, n_closed += !is_open;
-    /* The passage differs from the one without an offset. */
+    /* The passage differs from the passage without an offset. */
     run_program("check", "leaks", scratch_path("mesh.pvtu"), "--between", "0.1,0.1,-1.75", "0.1,0.1,1.1", "--valve",
                 valve, "--opening", opening, "--half-thickness", eps, "--stats", scratch_path("plain.json"), "--quiet",
                 NULL);
@@ -297,7 +297,7 @@ TEST(passages_with_an_offset_are_those_of_the_joined_mesh) {
   assert_true(n_moved > 0);
 }
 
-/* Checks that the written parts of the pieces have the same values as the written part of the joined mesh. */
+/* Checks that the written parts of the pieces have the values of the joined mesh's written part. */
 static void expect_same_parts(int step, const char *const *names, int n_names) {
   char path[64], type[32];
   int64_t n_components = 0, n = 0, n_part = 0;
@@ -348,7 +348,7 @@ static void expect_same_parts(int step, const char *const *names, int n_names) {
   free(at);
 }
 
-/* Checks that two tables are the same except for their last column, the seconds. */
+/* Checks that two tables differ only in their last column, the seconds. */
 static void expect_same_table(const char *a, const char *b) {
   char *const first = read_text(a), *const second = read_text(b);
   const char *p = first, *q = second;
@@ -400,7 +400,7 @@ TEST(series_are_those_of_the_joined_mesh) {
   }
 }
 
-/* Several valves at one time print the same numbers, and set the same arrays. */
+/* Several valves at one time give equal numbers and arrays for the pieces and the joined mesh. */
 TEST(cases_are_those_of_the_joined_mesh) {
   rng = random_start("cases_are_those_of_the_joined_mesh");
   make_random_mesh(2);
@@ -424,8 +424,8 @@ TEST(cases_are_those_of_the_joined_mesh) {
   forget_whole();
 }
 
-/* VTK's parallel writer and reader agree with riis: VTK writes the same pieces of the whole mesh, and reads the marked
- * pieces. */
+/* VTK's parallel writer and reader agree with riis. The writer makes equal pieces of the whole mesh, and the reader reads the
+ * marked pieces. */
 TEST(vtk_reads_and_writes_pieces) {
   rng = random_start("vtk_reads_and_writes_pieces");
   make_random_mesh(1);
@@ -456,7 +456,7 @@ TEST(vtk_reads_and_writes_pieces) {
   free(joined);
   free(pieces);
   forget_whole();
-  /* Each of these pieces has the points of all pieces, so every point would count several times. */
+  /* Each piece here has the points of all pieces, so every point would count several times. */
   plain_mesh box = plain_hexahedra(5, (double[3]){-1.7, -1.6, -1.3}, (double[3]){1.5, 1.6, 0.5});
   plain_write("parts.vtu", &box, PLAIN_CELLS, 2);
   assert_int_equal(shim_write_pieces(scratch_path("parts.vtu"), scratch_path("full.pvtu"), 2), 1);
@@ -474,7 +474,7 @@ static const char *const good_arrays =
     "<PPointData><PDataArray type=\"Float64\" Name=\"pressure\"/></PPointData><PPoints><PDataArray type=\"Float64\" "
     "NumberOfComponents=\"3\"/></PPoints>";
 
-/* Writes bad.pvtu with this text instead of its arrays and pieces. */
+/* Writes bad.pvtu, with this text in place of its arrays and pieces. */
 static void write_bad(const char *content) {
   char text[2048];
   snprintf(text, sizeof text,
@@ -491,7 +491,7 @@ static void expect_bad(const char *pieces, const char *part_of_text) {
   assert_false(scratch_exists("bad_out.pvtu"));
 }
 
-/* A piece as dolfinx writes it for a function: a tetrahedron, whose nodes have the numbers of all ranks. */
+/* Writes a piece of a function as dolfinx does: a tetrahedron whose nodes have the numbers of all ranks. */
 static void write_piece_of_dolfinx(const char *name, const char *points, const char *ids) {
   char text[2048];
   snprintf(text, sizeof text,
@@ -507,8 +507,8 @@ static void write_piece_of_dolfinx(const char *name, const char *points, const c
   scratch_write_text(name, text);
 }
 
-/* The nodes that two ranks share differ in their last bits, so the function's list is refused, with the writer of the mesh. VTK's
- * writer states the order of bytes, and the same array may then have other numbers. */
+/* Nodes that two ranks share differ in their last bits. The function's list is therefore refused, and the refusal names the
+ * writer of the mesh. VTK's writer states the order of bytes, so the array may then have other numbers. */
 TEST(functions_of_dolfinx_are_refused) {
   write_piece_of_dolfinx("u_p0_000000.vtu", "0 0 0 1 0 0 0 1 0 0 0 0.1", "0 1 2 3");
   write_piece_of_dolfinx("u_p1_000000.vtu", "1 1 1 1 1e-17 0 0 1 0 0 0 0.10000000000000002", "4 1 2 3");
@@ -559,7 +559,7 @@ TEST(broken_pieces_are_refused) {
   scratch_write_text("bad.pvtu", "<VTKFile type=\"UnstructuredGrid\"></VTKFile>");
   RUN_REFUSED(1, "holds UnstructuredGrid, not PUnstructuredGrid", "mark", scratch_path("bad.pvtu"));
   RUN_REFUSED(1, "gone.pvtu", "mark", scratch_path("gone.pvtu"));
-  /* These pieces are refused: a file that is no grid, a truncated file, and a piece that lacks an array of the others. */
+  /* Three pieces are refused: a file that is no grid, a truncated file, and a piece without an array that the others have. */
   scratch_write_text("text.vtu", "no grid");
   expect_bad("<Piece Source=\"piece0.vtu\"/><Piece Source=\"text.vtu\"/>", "text.vtu: is not a VTK XML file");
   size_t n = 0;
@@ -583,7 +583,7 @@ TEST(broken_pieces_are_refused) {
   RUN_REFUSED(1, "pressure has 1 components; ", "mark", scratch_path("bad.pvtu"));
   write_grid(scratch_path("empty.vtu"), 0, nodes, 0, cells, NULL, "");
   expect_bad("<Piece Source=\"empty.vtu\"/>", "bad.pvtu: no piece holds points");
-  /* One global id occurs at two positions. */
+  /* One global id occurs at two places. */
   has_ids = 1;
   write_grid(scratch_path("one.vtu"), 8, nodes, 1, cells, NULL, "");
   whole.xyz[3 * nodes[3]] += 0.01;
@@ -594,7 +594,7 @@ TEST(broken_pieces_are_refused) {
   run_program("mark", scratch_path("ids.pvtu"), NULL);
   assert_int_equal(program_exit_code, 1);
   assert_non_null(strstr(program_err, text));
-  /* Without global ids, coordinates that differ by rounding are a warning. */
+  /* Without global ids, coordinates that differ by rounding cause a warning. */
   has_ids = 0;
   for (int i = 0; i < 3 * whole.n_nodes; ++i) whole.xyz[i] += 1e-9;
   write_grid(scratch_path("one.vtu"), 8, nodes, 1, cells, NULL, "");

@@ -17,14 +17,14 @@ static const double R = 1.1, Rc = 1.05, height = 1.4;
 static const char *const names[6] = {"nadir_right",         "commissure_right_left", "nadir_left",
                                      "commissure_left_non", "nadir_non_coronary",    "commissure_right_non"};
 
-/* Writes landmark i of a trileaflet valve that is turned by 90 degrees about y and moved. The unit is a centimetre divided by
- * `scale`. */
+/* Writes landmark i of a trileaflet valve that is turned by 90 degrees about y and moved. The unit of length is a centimetre
+ * divided by `scale`. */
 static void landmark(int i, double scale, double *p) {
   const double angle = 60 * i * acos(-1.0) / 180, radius = i % 2 ? Rc : R, z = i % 2 ? height : 0;
   p[0] = scale * (z + 0.2), p[1] = scale * (radius * sin(angle) + 0.1), p[2] = scale * (-radius * cos(angle) - 0.3);
 }
 
-/* Writes a JSON file of landmarks with the given unit and axes. `sign` turns x and y, and `more` has further keys or "". */
+/* Writes a JSON file of landmarks with the given unit and axes. `sign` multiplies x and y. `more` has further keys, or is "". */
 static const char *json_of(const char *name, const char *unit, double scale, const char *axes, double sign,
                            const char *more) {
   char text[4096];
@@ -54,7 +54,7 @@ TEST(every_format_gives_the_same) {
   assert_true(strstr(program_out, "\"unit\": \"mm\"") && strstr(program_out, "\"axes\": \"LPS\""));
   if (fabs(json_number(program_out, "rms")) > 1e-8) fail_msg("residuals: %s", program_out);
   strcpy(first, strstr(program_out, "\"rotate\""));
-  /* The same landmarks are given in metres and RAS, and the options turn them back. */
+  /* The landmarks are given in metres and RAS, and the options convert them. */
   RUN_FINE("place", json_of("b.json", "m", 0.01, "RAS", -1, ""), "--valve", "trileaflet", "--unit", "mm", "--axes",
            "LPS", "--output", "-");
   expect_sizes(program_out);
@@ -161,7 +161,7 @@ TEST(closed_curve_is_an_annulus) {
   assert_non_null(strstr(program_out, "\nThe landmarks do not determine "));
   assert_non_null(strstr(program_out, "Their values in the table are guesses from the usual proportions of the kind."));
   assert_non_null(strstr(program_out, "Add landmarks, or give known sizes in cm, as by --set "));
-  /* In an open curve, labels that are no landmarks are points of the annulus, and others keep their meaning. */
+  /* In an open curve, a label that names no landmark makes a point of the annulus. Other labels keep their meaning. */
   m = snprintf(curve, sizeof curve,
                "{\"markups\": [{\"type\": \"Curve\", \"coordinateSystem\": \"LPS\", \"controlPoints\": [");
   for (int i = 0; i < 8; ++i)
@@ -175,7 +175,7 @@ TEST(closed_curve_is_an_annulus) {
   assert_string_equal(program_out, by_name);
 }
 
-/* A name of one landmark may have a list of one point, and of no more. */
+/* The name of a single landmark may have a list of one point, but no longer list. */
 TEST(lists_of_one_point_are_points) {
   const char *one = json_of("a.json", "mm", 10, "LPS", 1, "\"valve\": \"trileaflet\", ");
   static char expected[longest_output], text[4096];
@@ -219,7 +219,7 @@ TEST(report_has_sizes_and_residuals) {
   if (strstr(program_out, "leaflet_height")) fail_msg("a held size is in the report: %s", program_out);
 }
 
-/* The landmarks of a patient whose cusps differ, in millimetres. */
+/* Landmarks of a patient with unequal cusps, in millimetres. */
 static void patient_landmark(int i, double *p) {
   landmark(i, 10, p);
   p[0] += 1.5 * sin(1.7 * i), p[1] += 1.2 * cos(2.3 * i), p[2] += 0.9 * sin(3.1 * i + 1);
@@ -277,7 +277,7 @@ TEST(warps_meet_the_landmarks) {
     const double in_mm = json_number(program_out, "area");
     if (fabs(in_mm - 100 * in_cm) > 1e-9 * in_mm) fail_msg("areas %g mm2, %g cm2", in_mm, in_cm);
     RUN_REFUSED(2, "which has a warp", "surface", "--valve", placed, "--warp", placed, "--output", surface);
-    /* With smoothing, the valve is as far from the landmarks as the file says. */
+    /* With smoothing, the file gives the valve's distance from the landmarks, and this distance is right. */
     RUN_FINE("place", patient_json("w.json"), "--valve", kinds[kind], "--warp", "smoothed", "--noise", "0.3",
              "--output", "-");
     const double rms = json_number(program_out, "warped_rms"), worst = json_number(program_out, "warped_worst");
@@ -287,7 +287,8 @@ TEST(warps_meet_the_landmarks) {
     if (fabs(farthest_landmark(surface) - worst) > 0.05)
       fail_msg("off by %g, stated %g", farthest_landmark(surface), worst);
   }
-  /* OpenFOAM's dictionary has the landmarks in metres: first their places on the valve, then the patient's landmarks. */
+  /* OpenFOAM's dictionary has the landmarks in metres. Its sources are the landmarks' places on the valve, and its targets are
+   * the patient's landmarks. */
   RUN_FINE("place", patient_json("w.json"), "--valve", "coapting", "--warp", "smoothed", "--noise", "0.3", "--quiet",
            "--foam", "-");
   const char *const warp = strstr(program_out, "\nwarp\n{\n    sources\n    ("),
@@ -304,7 +305,7 @@ TEST(warps_meet_the_landmarks) {
     for (int c = 0; c < 3; ++c)
       if (fabs(q[c] - 1e-3 * p[c]) > 1e-12) fail_msg("landmark %d: %g is not %g mm", i, q[c], p[c]);
   }
-  /* A file of pairs has the same effect as the key of the placed valve. Here the targets are the landmarks moved by 1 mm. */
+  /* A file of pairs acts like the key of the placed valve. The targets here are the landmarks shifted by 1 mm. */
   RUN_FINE("place", patient_json("w.json"), "--valve", "trileaflet", "--quiet", "--output", scratch_path("bare.json"));
   char text[2048] = "# noise = 0\nsx,sy,sz,tx,ty,tz\n";
   for (int i = 0; i < 6; ++i) {
@@ -363,8 +364,8 @@ TEST(other_commands_take_the_placed_valve) {
   if (!strstr(foam, "scale           0.01;") || !strstr(foam, "kind            trileaflet;") ||
       !strstr(foam, "translation     ("))
     fail_msg("OpenFOAM: %s", foam);
-  /* The skirt ends at the mesh's wall. Its longest length is in metres, and the landmarks are in millimetres. A kind without a
-   * skirt and a valve with a skirt of its own get none. */
+  /* The skirt ends at the mesh's wall. The skirt's longest length is in metres, and the landmarks are in millimetres. A kind
+   * without a skirt gets none, and a valve that has a skirt keeps it. */
   assert_non_null(strstr(foam, "skirt\n{\n    patch           wall;\n    longest         0.006;\n}\n"));
   free(foam);
   const char *const landmarks = json_of("a.json", "mm", 10, "LPS", 1, "");
@@ -378,7 +379,7 @@ TEST(other_commands_take_the_placed_valve) {
   expect_sizes(program_out);
   RUN_FINE("check", "crossings", "--valve", placed);
   RUN_FINE("states", scratch_path("states.csv"), "--valve", placed, "--count", "2", "--quiet");
-  /* The box is in centimetres, so the unit of the placement is converted. */
+  /* The box is in centimetres, so the program converts the unit of the placement. */
   RUN_FINE("mark", scratch_path("in.vtu"), "--valve", placed, "--unit", "cm", "--set", "xq=-0.2", "--stats", "-",
            "--output", scratch_path("by_options.vtu"));
   const double n_marked = json_number(program_out, "n_marked"), area = json_number(program_out, "area");
@@ -519,7 +520,7 @@ static const char *json_of_points(int n, const char *const *labels, double (*poi
   return scratch_path("points.json");
 }
 
-/* Two cusps of 150 and 210 degrees. The report leaves out the sizes of a cusp that follow the valve's. */
+/* Two cusps have sectors of 150 and 210 degrees. The report omits sizes of a cusp that follow the valve's sizes. */
 TEST(cusps_of_any_number_have_names) {
   static const char *const labels[4] = {"nadir_cusp_0", "commissure_1", "nadir_cusp_1", "commissure_2"};
   double points[4][3];
@@ -569,7 +570,7 @@ TEST(tricuspid_leaflets_have_names) {
   RUN_REFUSED(1, "but they must follow counter-clockwise", "place", path, "--valve", "tricuspid", "--flow", "0,0,1");
 }
 
-/* These are the usual faults at a person's first try. */
+/* These faults are usual at a first try. */
 TEST(wrong_landmarks_are_refused) {
   double points[6][3];
 #define CHANGED(words, ...)                                                                               \
@@ -609,7 +610,7 @@ TEST(wrong_landmarks_are_refused) {
               "--valve", "mitral", "--flow", "0,0,-1", "--quiet");
 }
 
-/* Two points of one cusp's attachment are far apart across it, so no smooth map without folds reaches both. */
+/* Two landmarks of one cusp's attachment are far apart, and every smooth map through both of them folds the valve. */
 TEST(folds_are_refused) {
   const char *labels[8] = {0};
   memcpy(labels, names, sizeof names);
@@ -633,7 +634,8 @@ TEST(folds_are_refused) {
   RUN_FINE("place", json_of_points(6, labels, points), "--valve", "coapting", "--warp", "exact", "--quiet");
 }
 
-/* Landmarks in one place may demand the same, as an annulus point at the anterior horn does. Others contradict each other. */
+/* Landmarks in one place may have equal targets, like an annulus point at the anterior horn. Landmarks with different targets
+ * contradict each other. */
 TEST(landmarks_in_one_place_are_met_or_refused) {
   enum { n = 18 };
   const char *labels[n] = {"anterior_horn"};
@@ -671,7 +673,7 @@ TEST(landmarks_in_one_place_are_met_or_refused) {
   RUN_FINE("place", json_of_points(n, labels, annulus), "--valve", "mitral", "--flow", "0,0,-1", "--quiet");
 }
 
-/* The sizes from landmarks may not fit the other sizes. */
+/* Sizes from landmarks may be invalid together with the other sizes. */
 TEST(sizes_that_do_not_go_together_are_named) {
   const char *path = json_of("a.json", "mm", 10, "LPS", 1, "");
   RUN_REFUSED(1,
@@ -687,7 +689,7 @@ TEST(sizes_that_do_not_go_together_are_named) {
   RUN_FINE("place", path, "--valve", "aortic_regurgitation_commissural", "--output", "-");
   assert_true(json_number(program_out, "closed") > 0);
   assert_true(fabs(json_number(program_out, "root_radius") - 1.1) < 1e-3);
-  /* Low commissures leave less room for the coaptation zone, whose height follows a rule. */
+  /* Low commissures leave less room for the coaptation zone. A rule gives the zone's height. */
   double points[6][3];
   for (int i = 0; i < 6; ++i) {
     landmark(i, 10, points[i]);
@@ -702,7 +704,7 @@ TEST(sizes_that_do_not_go_together_are_named) {
   assert_non_null(strstr(program_err, "commissure_height"));
 }
 
-/* The box is away from the axis z, so half a turn about z takes landmarks out of the box. */
+/* The box is away from the axis z. A turn by 180 degrees about z therefore takes landmarks out of the box. */
 TEST(wrong_axes_are_named) {
   const double lower[3] = {8, 8, -2}, upper[3] = {12, 12, 2};
   assert_int_equal(shim_write_box(scratch_path("far.vtu"), SHIM_RAW, n_box_side, lower, upper, 1), 1);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The example of a user-defined valve exists in three forms: prosthesis.json, .c and .f90. All three define the same valve.
- * Its leaflets never cross each other, and the closed valve has no hole. */
+ * The example of a user-defined valve exists as prosthesis.json, .c and .f90. All three files define one valve. The valve's
+ * leaflets never cross, and the closed valve has no hole. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,7 +14,7 @@
 #include "test_support.h"
 #include "vtk_shim.h"
 
-/* This file has the example's own control points and its valve_with(). */
+/* This file contains the control points and the function valve_with() of the example. */
 #define main prosthesis_main
 #define xyz prosthesis_xyz
 #include RIIS_EXAMPLE_C
@@ -68,9 +68,8 @@ static void difference(const double *a, const double *b, long double *c) {
   for (int k = 0; k < 3; ++k) c[k] = (long double)a[k] - b[k];
 }
 
-/* Returns the depth at which the segment from p to q goes through the triangle, or a number of at most 0 if it does not. The
- * depth is the least of these distances: from each end to the triangle's plane, and from the crossing point to the triangle's
- * edges. */
+/* Returns how deep the segment from p to q goes through the triangle, or at most 0 if it does not. The depth is the least of
+ * three distances: from each end to the triangle's plane, and from the crossing point to the triangle's edges. */
 static long double depth_of_segment(const double *p, const double *q, double triangle[3][3]) {
   long double ab[3], ac[3], normal[3], ap[3], aq[3];
   difference(triangle[1], triangle[0], ab);
@@ -103,7 +102,7 @@ static int boxes_are_apart(double a[3][3], double b[3][3]) {
   return 0;
 }
 
-/* Returns the greatest depth at which triangles of different leaflets go through each other, over all pairs and all edges. */
+/* Returns the greatest depth at which triangles of different leaflets go through each other. Tries all pairs and all edges. */
 static double deepest_crossing(void) {
   long double deepest = 0;
   for (int64_t i = 0; i < shown.n_triangles; ++i) {
@@ -119,8 +118,8 @@ static double deepest_crossing(void) {
   return (double)deepest;
 }
 
-/* Returns the greatest distance by which a vertex lies outside its leaflet's third of the ring. A third is bounded by half
- * planes through the axis and the commissures. Thirds are convex, so a triangle with all corners inside is inside. */
+/* Returns how far a vertex lies outside its leaflet's third of the ring, at most. Half planes through the axis and the
+ * commissures bound a third. Thirds are convex, so a triangle is inside if its corners are. */
 static double farthest_outside(void) {
   static const double commissure[3][2] = {{0.60, -1.04}, {0.60, 1.04}, {-1.20, 0.00}};
   double farthest = 0;
@@ -135,7 +134,7 @@ static double farthest_outside(void) {
   return farthest;
 }
 
-/* Returns whether the vertical line through (x, y) meets a triangle, or passes one within the tolerance. */
+/* Returns whether the vertical line through (x, y) meets a triangle, or passes near one within the tolerance. */
 static int is_covered(double x, double y, double tolerance) {
   for (int64_t i = 0; i < shown.n_triangles; ++i) {
     double(*c)[3] = shown.corner[i];
@@ -151,9 +150,8 @@ static int is_covered(double x, double y, double tolerance) {
   return 0;
 }
 
-/* Returns how many vertical lines of a grid meet no triangle. The grid is centred on the axis and covers the disc inside the
- * ring. The ring's radius is 1.2, and its polygon is off by at most 0.01. The grid has extra rows on the lines where leaflets
- * meet. */
+/* Returns how many vertical lines of a grid meet no triangle. The grid covers the disc inside the ring, around the axis. The
+ * ring's radius is 1.2, and its polygon is off by at most 0.01. Extra rows lie on the lines where leaflets meet. */
 static int n_uncovered(void) {
   const double radius = 1.19, tolerance = 1e-9;
   int n_missed = 0;
@@ -184,7 +182,7 @@ TEST(test_closed) {
   assert_int_equal(n_uncovered(), 0);
 }
 
-/* Writes v.json: the example, with another closed end of the free edges of leaflet 0. */
+/* Writes v.json, which is the example with another closed end of leaflet 0's free edges. */
 static void write_with_end(const char *end) {
   static const char *const keys[] = {"\"edge 0a\"", "\"edge 0b\"", "\"middle 0\""};
   static const char axis[] = "[0.00, 0.00, 0.80]";
@@ -203,7 +201,7 @@ static void write_with_end(const char *end) {
   free(text);
 }
 
-/* The checks above must find the faults that they are meant to find. */
+/* These faults show that the checks above can fail. */
 TEST(test_faults_are_found) {
   char file[256];
   snprintf(file, sizeof file, "%s", scratch_path("v.json"));
@@ -222,7 +220,7 @@ TEST(test_faults_are_found) {
   assert_true(deepest_crossing() <= rounding);
 }
 
-/* The file and the C program have the same triangles and marks. */
+/* The file and the C program give equal triangles and marks. */
 TEST(test_file_is_c) {
   riis_valve *valve = valve_with(closed_moving), *open = valve_with(open_moving);
   riis_surface_options options;
@@ -243,7 +241,7 @@ TEST(test_file_is_c) {
   riis_valve_destroy(&open);
 }
 
-/* Reads the numbers of a source's array initializers. These lines begin with blanks and then a number or a brace. */
+/* Reads the numbers of a source's array initializers. A line with numbers begins with blanks and then a number or a brace. */
 static int numbers_of(const char *path, double *numbers, int n_most) {
   char *text = scratch_read(path, NULL);
   int n_found = 0;
@@ -266,7 +264,7 @@ static int numbers_of(const char *path, double *numbers, int n_most) {
   return n_found;
 }
 
-/* The C and the Fortran program have the same control points. Another test compares their output. */
+/* The C and the Fortran program have the same control points. Another test compares the output of both programs. */
 TEST(test_fortran_is_c) {
   enum { n_all = 3 * (30 + 30 + 30), n_most = 2 * n_all };
   double of_c[n_most], of_fortran[n_most];

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Every refusal has its exit code and one line on stderr that names the fault. No refusal leaves output behind. */
+ * Every refusal has its exit code and one line on stderr that names the fault. A refusal leaves no output behind. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -66,13 +66,13 @@ TEST(test_numbers) {
   RUN_REFUSED(2, "--threads: 'two' is not a whole number", "mark", mesh, "--threads", "two");
   RUN_REFUSED(2, "--threads: '2.5' is not a whole number", "mark", mesh, "--threads", "2.5");
   RUN_REFUSED(2, "--threads: '99999999999' is not a whole number", "mark", mesh, "--threads", "99999999999");
-  /* A user must not be able to pass RIIS_AUTO, which is -1. */
+  /* A user must not be able to pass RIIS_AUTO, whose value is -1. */
   RUN_REFUSED(2, "--half-thickness: -1 is not above 0", "mark", mesh, "--half-thickness", "-1");
   RUN_REFUSED(2, "--half-thickness: nan is not above 0", "mark", mesh, "--half-thickness", "nan");
   RUN_REFUSED(2, "--distance-limit: -1 is not above 0", "mark", mesh, "--distance-limit", "-1");
 }
 
-/* The library refuses these values, although their form is right. */
+/* These values have the right form, and the library refuses them. */
 TEST(test_values) {
   const char *mesh = scratch_path("in.vtu");
   RUN_REFUSED(2, "riis: --scale is 0; ", "mark", mesh, "--scale", "0");
@@ -84,8 +84,8 @@ TEST(test_values) {
   RUN_REFUSED(2, "riis: --tolerance is 0; ", "mark", mesh, "--tolerance", "0");
   RUN_REFUSED(2, "riis: --tolerance is -1; ", "mark", mesh, "--tolerance", "-1");
   RUN_REFUSED(2, "riis: --half-thickness is inf; ", "mark", mesh, "--half-thickness", "inf");
-  /* Some wrong values of options are refused before the mesh is read. The mesh is missing, but the message does not name it.
-   * */
+  /* Some wrong values of options are refused before the program reads the mesh. The mesh is missing here, but the message names
+   * only the value. */
   mesh = scratch_path("missing.vtu");
   RUN_REFUSED(2, "riis: --distance-limit is 0.05; ", "mark", mesh, "--distance-limit", "0.05");
   RUN_REFUSED(2, "riis: --threads is -2; ", "mark", mesh, "--threads", "-2");
@@ -113,7 +113,7 @@ TEST(test_input_files) {
   assert_int_equal(scratch_exists("a.vtu"), 0);
 }
 
-/* Only the library finds some faults of the data. The refusal then also names the file. */
+/* Some faults of the data are found only by the library. The refusal then also names the file. */
 TEST(test_bad_data) {
   scratch_write_text(
       "nan.vtu",
@@ -149,7 +149,8 @@ TEST(test_outputs) {
   RUN_REFUSED(1, "/dev/full: cannot be written: No space left", "mark", mesh, "--stats", "/dev/full", "--quiet");
 }
 
-/* An impossible output is refused before the mesh is read. The mesh is missing, but the message does not name it. */
+/* An impossible output is refused before the program reads the mesh. The mesh is missing here, but the message names only the
+ * output. */
 TEST(test_outputs_first) {
   RUN_REFUSED(1, "a.vtu: cannot be written", "mark", scratch_path("missing.vtu"), "--output",
               scratch_path("no_folder/a.vtu"));
@@ -184,7 +185,7 @@ TEST(test_empty_values) {
   RUN_REFUSED(2, "--output: the value is empty", "mark", "--output=", scratch_path("in.vtu"), "--quiet");
 }
 
-/* A refusal suggests the option that the user may have meant. Refusals come in the order of the arguments. */
+/* A refusal suggests the option that the user probably meant. Of several wrong arguments, the first is refused. */
 TEST(test_unknown_options) {
   const char *mesh = scratch_path("in.vtu");
   RUN_REFUSED(2, "--half-thicknes is not an option, did you mean --half-thickness?", "mark", mesh, "--half-thicknes",
@@ -229,7 +230,7 @@ TEST(test_new_usage) {
   assert_int_equal(scratch_exists("a.vtu"), 0);
 }
 
-/* A band that steps aside: the range, and the commands that have no sides. */
+/* Tests the range of --offset, and the measures and commands that cannot have an offset. */
 TEST(test_offset) {
   const char *mesh = scratch_path("in.vtu");
   RUN_REFUSED(2, "--offset is 1; it must be above -1 and below 1", "mark", mesh, "--offset", "1");

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Meshes of two domains, a fluid and the wall around it. With --cells-where, the results are those of a mesh of the fluid only,
- * which is written here without riis. */
+ * Tests meshes of two domains: a fluid and the wall around it. With --cells-where, the results equal those of a mesh of the fluid
+ * alone. The test writes that mesh without riis. */
 #include <math.h>
 #include <riis/riis_vtk.h>
 
@@ -16,7 +16,7 @@ enum { n_pieces = 5, n_side = 10, n_bricks = n_side * n_side * n_side };
 static mesh whole;
 static int is_fluid[n_bricks];
 
-/* Writes the cells of one or both domains as a legacy file. Only the nodes of these cells are in it. */
+/* Writes the cells of one or both domains as a legacy file. The file has only the nodes of these cells. */
 static void write_part(const char *name, int has_wall) {
   static int place[most_nodes];
   int n_nodes = 0, n_cells = 0;
@@ -52,7 +52,7 @@ static void write_part(const char *name, int has_wall) {
   assert_int_equal(fclose(file), 0);
 }
 
-/* The fluid has |x| and |y| up to 1.2, and the wall up to 2. A sheet across the fluid ends in the wall. */
+/* The fluid has |x| and |y| up to 1.2, and the wall up to 2. A sheet crosses the fluid and ends in the wall. */
 static int make_files(void **state) {
   double side[3][3] = {{4, 0, 0}, {0, 4, 0}, {0, 0, 4}};
   if (scratch_setup(state)) return -1;
@@ -106,7 +106,7 @@ TEST(test_touching_domains_are_told) {
   assert_string_equal(program_err, "");
 }
 
-/* Cuts the mesh into layers of cells, which have the rank in common. */
+/* Cuts the mesh into layers of cells. All cells of a layer have one rank. */
 static void write_pieces(void) {
   riis_vtk_mesh *file = NULL;
   riis_vtk_pieces *pieces = NULL;
@@ -151,7 +151,7 @@ TEST(test_chosen_cells_are_the_mesh) {
   free(fluid);
 }
 
-/* Checks that riis_node_id has the numbers of the nodes in the whole mesh. */
+/* Checks that riis_node_id has the ids that the nodes have in the whole mesh. */
 static void expect_ids(const char *path) {
   static double ids[most_nodes], xyz[3 * most_nodes];
   int64_t n_points = 0, n_cells = 0, n = 0, n_components = 0;
@@ -199,7 +199,8 @@ TEST(test_refusals) {
               "--output", scratch_path("no.pvtu"));
 }
 
-/* Two cubes. Both are in the group 1, one is in the group "lumen" and one in the group 3, in the file's two versions. */
+/* Writes two cubes in each version of the file's format. Both cubes are in group 1. One cube is also in the group "lumen", and
+ * one in group 3. */
 static const char *const cubes[2] = {
     "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n2 2 \"wall of 2\"\n3 2 \"lumen\"\n3 1 "
     "\"all\"\n$EndPhysicalNames\n"

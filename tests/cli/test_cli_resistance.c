@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * R, K, a pressure drop and the leak have units (docs/program.md, "Units of R"). The same box with the same valve is written in
- * m, cm and mm. K follows from the distances by its formula, and by plain factors between the units. */
+ * R, K, a pressure drop and the leak have units (docs/program.md, "Units of R"). One box with one valve is written in m, cm and
+ * mm. K follows from the distances by its formula, with plain factors between the units. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,7 +12,7 @@
 #include "scratch.h"
 #include "vtk_shim.h"
 
-/* A unit of length, its value in metres, and a kilogram in the unit of mass that goes with it. */
+/* A unit of length, its value in metres, and the value of a kilogram in the matching unit of mass. */
 static const struct {
   const char *unit, *K_unit, *K_u_unit, *leak_unit;
   double metres, kilograms;
@@ -29,7 +29,7 @@ static const char *mesh_of(int i) {
   return scratch_path(name);
 }
 
-/* Writes the box of make_box, whose lengths are centimetres, in each unit. */
+/* Writes the box of make_box in each unit. The box's lengths are in centimetres. */
 static int make_boxes(void **state) {
   const int status = make_box(state);
   for (int i = 0; status == 0 && i < n_systems; ++i) {
@@ -40,7 +40,7 @@ static int make_boxes(void **state) {
   return status;
 }
 
-/* Returns the largest difference between K in SI units and the formula, with R in kg/(m s), over the largest K. */
+/* Compares K in SI units with the formula, with R in kg/(m s). Returns the largest difference over the largest K. */
 static double error_of_K(const char *file, double R, double metres, double K_si) {
   const double eps = 0.003, pi = acos(-1);
   double largest = 0, error = 0;
@@ -55,7 +55,7 @@ static double error_of_K(const char *file, double R, double metres, double K_si)
   return error / largest;
 }
 
-/* Returns whether a text file, or a binary one, contains the text. */
+/* Returns whether a text file or a binary file contains the text. */
 static int contains(const char *name, const char *text) {
   size_t n = 0;
   char *all = scratch_read(scratch_path(name), &n);
@@ -68,7 +68,7 @@ static int contains(const char *name, const char *text) {
 
 #define EPS(i) (snprintf(eps, sizeof eps, "%.17g", 0.003 / systems[i].metres), eps)
 
-/* A plain number is in kg/(m s), and one with a unit has that unit. */
+/* R without a unit is in kg/(m s). R with a unit has that unit. */
 TEST(test_same_physics) {
   char eps[32], line[128];
   for (int i = 0; i < n_systems; ++i) {
@@ -82,7 +82,7 @@ TEST(test_same_physics) {
       assert_non_null(strstr(program_out, line));
     }
     assert_true(contains("out.vtu", "UNITS_LABEL") && contains("out.vtu", systems[i].K_unit));
-    /* Another unit of K, in each mesh. */
+    /* The user chooses another unit of K, in each mesh. */
     RUN_FINE("mark", mesh_of(i), "--unit", systems[i].unit, "--half-thickness", EPS(i), "--resistance", "1e4",
              "--k-unit", "kg/(mm3 s)", "--output", scratch_path("chosen.vtu"));
     assert_true(error_of_K("chosen.vtu", 1e4, metres, 1e9) <= 1e-9);
@@ -120,7 +120,7 @@ TEST(test_leak) {
   }
 }
 
-/* Without a unit of the mesh, R and K are in its units, and the report says so. */
+/* If the mesh's unit is unknown, R and K are in units of the mesh, and the report says so. */
 TEST(test_unknown_unit) {
   const char *const mesh = scratch_path("in.vtu");
   RUN_FINE("mark", mesh, "--half-thickness", "0.3", "--resistance", "10", "--output", scratch_path("out.vtu"),
@@ -164,7 +164,7 @@ TEST(test_refused_units) {
 #undef REFUSED
 }
 
-/* A case takes the same numbers and texts. Its "unit", or that of placed valves, counts. */
+/* A case accepts these numbers and texts. The unit is the case's "unit", or the unit of placed valves. */
 TEST(test_units_in_a_case) {
   const struct {
     const char *text;
@@ -199,7 +199,7 @@ TEST(test_units_in_a_case) {
     assert_true(contains("out.vtu", "g/(mm3 s)"));
     assert_non_null(strstr(program_out, "\nR         10000 kg/(m s); riis_K is in g/(mm3 s)\n"));
   }
-  /* The command line's R replaces that of the case. */
+  /* R on the command line replaces R in the case. */
   scratch_write_text("case.json", cases[0].text);
   RUN_FINE("mark", mesh_of(2), "--case", scratch_path("case.json"), "--resistance", "5 kPa s", "--output",
            scratch_path("out.vtu"));

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
  * --search chooses the search. The tests check which search runs, its marks, and the message about a search that may be
- * incomplete. All searches here give the same marks. --steps prints the cost of each step of a moving valve and changes nothing
- * else. */
+ * incomplete. All searches here give equal marks. --steps only adds the cost of each step of a moving valve to the output. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -23,7 +22,7 @@ static void mark_default_valve(double half_thickness, double distance_limit) {
   riis_valve_destroy(&valve);
 }
 
-/* Every search gives the same marks. auto reports which search it chose. */
+/* Every search gives the same marks. The search `auto` reports which search it chose. */
 TEST(test_marks_are_equal) {
   mark_default_valve(0.2, 0.3);
   const char *searches[] = {"auto", "exhaustive", "neighbor"};
@@ -46,8 +45,8 @@ TEST(test_marks_are_equal) {
   }
 }
 
-/* The distances equal those of the C interface with the same options. They differ from the distances to the triangles, and
- * the output says so. */
+/* The distances equal those of the C interface with the same options. These distances differ from the distances to the triangles,
+ * and the output says so. */
 TEST(test_distances) {
   const char *methods[] = {"triangles", "sampling", "minimization"};
   double n_marked[3];
@@ -99,8 +98,8 @@ static void expect_warning(void) {
   assert_ptr_equal(strchr(program_err, '\n') + 1, program_err + strlen(program_err));
 }
 
-/* If the marked nodes are connected, the paper's search also finds all of them. The search cannot know that it found all
- * nodes, and says so. */
+/* If the marked nodes are connected, the paper's search finds all of them. The search cannot know that it is complete, and says
+ * so. */
 TEST(test_paper) {
   mark_default_valve(0.3, RIIS_AUTO);
   run_program("mark", scratch_path("in.vtu"), "--half-thickness", "0.3", "--search", "paper", "--output",
@@ -121,8 +120,8 @@ TEST(test_paper) {
   assert_string_equal(program_out, "");
 }
 
-/* Two triangles are far apart. The paper's search finds only the nodes near the first triangle, and the neighbour search finds
- * the nodes near both. */
+/* Two triangles are far apart. The paper's search finds only the nodes near the first triangle. The neighbour search finds the
+ * nodes near both triangles. */
 TEST(test_two_pieces) {
   scratch_write_text(
       "pieces.stl",
@@ -142,8 +141,7 @@ TEST(test_two_pieces) {
   assert_true(n_marked[2] > 0 && n_marked[2] < n_marked[0]);
 }
 
-/* A mesh of points has no neighbours, so the search's check for missed nodes finds the nodes. The table gives the
- * number of these nodes. */
+/* A mesh of points has no neighbours, so the final check of the search finds the nodes. The table gives their number. */
 TEST(test_no_cells) {
   scratch_write_text("points.vtk",
                      "# vtk DataFile Version 3.0\npoints\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 3 double\n"
@@ -166,7 +164,8 @@ TEST(test_no_cells) {
   assert_true(json_number(program_out, "n_marked") == 1);
 }
 
-/* Options that are refused on a mesh without an adjacency are also refused on a mesh with one, before the mesh is read. */
+/* Some options are refused on a mesh without an adjacency. Such options are then also refused on other meshes, before the mesh is
+ * read. */
 TEST(test_refusals) {
   const char *searches[] = {"neighbor", "paper"};
   for (int i = 0; i < 2; ++i) {

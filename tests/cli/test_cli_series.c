@@ -15,7 +15,7 @@
 
 enum { n_times = 5, most_cells = 6 * n_box };
 static const double times[n_times] = {0, 0.1, 0.2, 0.3, 0.4};
-/* The openings are linear between the keys (time 0, opening 0), (0.2, 1) and (0.4, 0.5). */
+/* The openings are linear between three keys: opening 0 at time 0, opening 1 at 0.2, and opening 0.5 at 0.4. */
 static const double openings[n_times] = {0, 0.5, 1, 0.75, 0.5};
 static const char *const opening_texts[n_times] = {"0", "0.5", "1", "0.75", "0.5"};
 static const char *const cycle = "# a beat\ntime, opening\n0, 0\n\n0.2, 1\n0.4, 0.5\n";
@@ -26,7 +26,7 @@ static const char *step_path(const char *folder, int step, const char *ending) {
   return scratch_path(name);
 }
 
-/* Expects the whole text of a .pvd file with one entry for each of these times. */
+/* Checks the whole text of a .pvd file with one entry for each of these times. */
 static void expect_list(const char *pvd, const char *folder, const char *ending, int n,
                         const char *const time_texts[]) {
   char *found = scratch_read(scratch_path(pvd), NULL), *expected = malloc(4096);
@@ -51,13 +51,13 @@ static int64_t read_array(const char *path, const char *name, double *values) {
   return n_components * n_tuples;
 }
 
-/* Runs the program without a series, with the opening that the valve has at this step. */
+/* Runs the program without a series, at the opening that the valve has in this step. */
 static void run_single(int step) {
   RUN_FINE("mark", scratch_path("in.vtu"), "--valve", "mitral", "--half-thickness", "0.3", "--resistance", "7",
            "--opening", opening_texts[step], "--output", scratch_path("single.vtu"), "--quiet");
 }
 
-/* Expects that the part has all arrays of a single run, with the same bits at its nodes. */
+/* Checks that the part has all arrays of a single run, with the same bits at its nodes. */
 static void expect_as_single(int step, const char *part) {
   static double whole[3 * n_box], values[3 * n_box], ids[n_box];
   static const char *const names[] = {"riis_marked", "riis_distance", "riis_leaflet", "riis_K", "pressure", "velocity"};
@@ -72,8 +72,8 @@ static void expect_as_single(int step, const char *part) {
   }
 }
 
-/* Returns the nodes of all cells that have, in some step, a node within the half thickness. The nodes are in the input's order.
- * */
+/* Returns the nodes of all cells that come near the surface: in some step, a node of the cell lies within the half thickness. The
+ * nodes are in the input's order. */
 static int64_t nodes_near_sweep(double *ids) {
   static unsigned char is_near[n_box], is_wanted[n_box];
   static double marked[n_box];
@@ -121,7 +121,7 @@ TEST(test_files) {
   expect_as_single(4, step_path("beat", 4, "vtu"));
 }
 
-/* Each cell of the part equals the input's cell with the same id, including its data. */
+/* Each cell of the part equals the input's cell with this id, including its data. */
 TEST(test_cells) {
   static double node_ids[n_box], region[most_cells], part_region[most_cells], cell_ids[most_cells];
   static int64_t corners[4 * most_cells], part_corners[4 * most_cells];
@@ -143,8 +143,8 @@ TEST(test_cells) {
   }
 }
 
-/* Compares a step's fields with the C interface's fields. The velocity is the mean since the previous time. At the first time,
- * it is the mean since one step earlier. */
+/* Compares a step's fields with those of the C interface. The velocity is the mean over the step before this time. No step
+ * precedes the first time, so the velocity there is the mean over an added step of equal length. */
 static void expect_fields(int step, const char *path) {
   static double xyz[3 * n_box], normal[3 * n_box], velocity[3 * n_box], momentum[3 * n_box], side[n_box], K[n_box];
   riis_valve *now = NULL, *before = NULL;
@@ -265,8 +265,8 @@ TEST(test_cycles) {
   assert_true(fabs(expected - 0.25) > 0.01);
 }
 
-/* The velocity at the first time is the mean since one step earlier. At this earlier time, a cycle with a period has
- * another opening. */
+/* At the first time, the velocity is the mean over an added step before this time. At the beginning of that step, a cycle with a
+ * period has another opening. */
 TEST(test_first_velocity) {
   double time = -1, opening = -1, n_marked = 0, speed = 0;
   scratch_write_text("cycle.csv", cycle);
@@ -308,8 +308,8 @@ static int64_t read_triangles(const char *path, int64_t *corners) {
   return n;
 }
 
-/* The first series keeps its triangulation, and leaves out only triangles without area. The second series makes a new
- * triangulation at each time. */
+/* The first series keeps its triangulation, and omits only triangles without area. The second series makes a new triangulation at
+ * each time. */
 TEST(test_triangulations) {
   static const char *const hows[] = {"fixed", "adapted"};
   static int64_t corners[2][300000];
@@ -336,8 +336,8 @@ TEST(test_triangulations) {
   }
 }
 
-/* The surface rises by 0.5 in a time of 1, given by frames. Its marks equal those of a single run at the same time, and its
- * velocity is the frames' velocity. */
+/* The frames lift the surface by 0.5 in a time of 1. The marks equal those of a single run at this time, and the velocity is that
+ * of the frames. */
 TEST(test_motion) {
   static double marked[n_box], single[n_box], velocity[3 * n_box];
   RUN_FINE("surface", "--valve", "mitral", "--output", scratch_path("low.vtp"), "--quiet");
@@ -372,7 +372,7 @@ TEST(test_motion) {
     assert_true(fabs(velocity[3 * i]) < 1e-12 && fabs(velocity[3 * i + 2] - 0.5) < 1e-12);
   }
   assert_true(n_marked > 50);
-  /* Before its first frame the surface rests. It has no opening. */
+  /* The surface rests before its first frame. A surface from frames has no opening. */
   char *table = scratch_read(scratch_path("mv.csv"), NULL);
   double n = 0, speed = -1;
   assert_int_equal(sscanf(strchr(table, '\n'), "\n0,,%lf,%lf,", &n, &speed), 2);
@@ -380,7 +380,7 @@ TEST(test_motion) {
   free(table);
 }
 
-/* The .pvd must escape a file name with characters that XML reserves. */
+/* In the .pvd, characters that XML reserves must be escaped in the file name. */
 TEST(test_names) {
   run_series("a & <b>.pvd", NULL, NULL);
   char *list = scratch_read(scratch_path("a & <b>.pvd"), NULL);
@@ -389,7 +389,7 @@ TEST(test_names) {
   free(list);
 }
 
-/* Marks at times with this last one, every 0.1. */
+/* Marks at times in steps of 0.1, up to this last time. */
 #define RUN_UNTIL(mesh, last, ...)                                                                    \
   (run_program("mark", scratch_path(mesh), "--valve", "mitral", "--half-thickness", "0.3", "--cycle", \
                scratch_path("cycle.csv"), "--times", "0:" last ":0.1", __VA_ARGS__, NULL),            \
@@ -399,7 +399,7 @@ TEST(test_files_of_an_earlier_run_go) {
   scratch_write_text("cycle.csv", cycle);
   RUN_UNTIL("in.vtu", "0.4", "--output", scratch_path("old.pvd"), "--surface-output", scratch_path("leaf.pvd"));
   assert_null(strstr(program_out, "removed"));
-  /* Files of other names are the user's. */
+  /* Files with other names belong to the user. */
   scratch_write_text("old/old_notes_2024.vtu", "mine");
   scratch_write_text("old/old_12.vtu", "mine");
   scratch_write_text("old/other_0003.vtu", "mine");
@@ -426,13 +426,13 @@ TEST(test_files_of_a_hand_made_list_stay) {
       "    <DataSet timestep=\"0.3\" part=\"0\" file=\"hand/hand_0003.vtu\"/>\n  </Collection>\n</VTKFile>\n";
   scratch_write_text("cycle.csv", cycle);
   RUN_UNTIL("in.vtu", "0.4", "--output", scratch_path("hand.pvd"));
-  /* Another list, which riis did not write, names one of the files. */
+  /* A list that riis did not write names one of the files. */
   scratch_write_text("mine.pvd", by_hand);
   RUN_REFUSED(1, "mine.pvd names hand/hand_0003.vtu, a step of an earlier ", "mark", scratch_path("in.vtu"), "--valve",
               "mitral", "--half-thickness", "0.3", "--cycle", scratch_path("cycle.csv"), "--times", "0,0.1", "--output",
               scratch_path("hand.pvd"));
   assert_true(scratch_exists("hand/hand_0003.vtu") && scratch_exists("hand/hand_0004.vtu"));
-  /* The list of this name is not by riis. */
+  /* riis did not write the list with this name. */
   assert_int_equal(remove(scratch_path("mine.pvd")), 0);
   scratch_write_text("hand.pvd", by_hand);
   for (int is_listed = 1; is_listed >= 0; --is_listed) {
@@ -442,7 +442,7 @@ TEST(test_files_of_a_hand_made_list_stay) {
     assert_true(scratch_exists("hand/hand_0003.vtu") && scratch_exists("hand/hand_0004.vtu"));
     remove(scratch_path("hand.pvd"));
   }
-  /* A run that writes all these files replaces them, as ever. */
+  /* A run that writes all these files replaces them. */
   RUN_UNTIL("in.vtu", "0.4", "--output", scratch_path("hand.pvd"));
 }
 
@@ -455,7 +455,7 @@ TEST(test_earlier_files_of_a_mesh_in_pieces_go) {
   assert_non_null(strstr(program_out, "; 8 files of an earlier run removed\n"));
   assert_true(scratch_exists("pieces/pieces_0002.pvtu") && scratch_exists("pieces/pieces_p0002_0002.vtu"));
   assert_false(scratch_exists("pieces/pieces_0003.pvtu") || scratch_exists("pieces/pieces_p0002_0003.vtu"));
-  /* The whole mesh has other files. */
+  /* The series of the whole mesh has other file names. */
   RUN_UNTIL("in.vtu", "0.1", "--output", scratch_path("pieces.pvd"));
   assert_non_null(strstr(program_out, "; 12 files of an earlier run removed\n"));
   assert_false(scratch_exists("pieces/pieces_0000.pvtu") || scratch_exists("pieces/pieces_p0000_0000.vtu"));

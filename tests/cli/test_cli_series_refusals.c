@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * --times: a bad series is refused before any file is written; the tests check status and message. Other tests interrupt a
+ * A bad series (--times) is refused before any file is written. The tests check status and message. Other tests interrupt a
  * series. */
 #include <signal.h>
 #include <stdio.h>
@@ -122,7 +122,7 @@ TEST(test_places) {
               "/nowhere/s.pvd");
   RUN_REFUSED(1, "the folder /nowhere does not exist", "mark", mesh, "--cycle", cycle, "--times", "0,1",
               "--series-table", "/nowhere/s.csv");
-  /* The output folder cannot be made, because a file has its name. */
+  /* A file has the name of the output folder, so the folder cannot be made. */
   scratch_write_text("full", "text");
   RUN_REFUSED(1, "full: the folder cannot be made", "mark", mesh, "--valve", "mitral", "--half-thickness", "0.3",
               "--cycle", cycle, "--times", "0,1", "--output", scratch_path("full.pvd"), "--quiet");
@@ -131,14 +131,14 @@ TEST(test_places) {
   assert_int_equal(symlink("../in.vtu", scratch_path("in/in_0000.vtu")), 0);
   RUN_REFUSED(2, "holds the file of MESH", "mark", scratch_path("in/in_0000.vtu"), "--cycle", cycle, "--times", "0,1",
               "--output", scratch_path("in.pvd"));
-  /* The mesh already has arrays with the names of the marks. */
+  /* The mesh already has arrays that are named like the marks. */
   RUN_FINE("mark", mesh, "--valve", "mitral", "--half-thickness", "0.3", "--output", scratch_path("marked.vtu"));
   RUN_REFUSED(2, "already has an array riis_marked", "mark", scratch_path("marked.vtu"), "--valve", "mitral",
               "--half-thickness", "0.3", "--cycle", cycle, "--times", "0,1", "--output", scratch_path("s.pvd"));
   assert_false(scratch_exists("s.pvd"));
 }
 
-/* Without ffmpeg in PATH, the refusal comes before any work. So the message does not name the missing mesh. */
+/* If ffmpeg is not in PATH, the refusal comes before any work. The mesh is also missing, but the message names only ffmpeg. */
 TEST(test_no_ffmpeg) {
   char *before = strdup(getenv("PATH"));
   write_cycle("0,0\n1,1\n");
@@ -151,7 +151,7 @@ TEST(test_no_ffmpeg) {
   assert_false(scratch_exists("a.mp4"));
 }
 
-/* If no node is near the valve at any time, the status is 3, with a warning and complete files. */
+/* If no node is near the valve at any time, the status is 3. The files are complete, and there is a warning. */
 TEST(test_none_marked) {
   write_cycle("0,0\n1,1\n");
   run_program("mark", scratch_path("in.vtu"), "--valve", "mitral", "--translate", "50,0,0", "--half-thickness", "0.3",
@@ -165,7 +165,7 @@ TEST(test_none_marked) {
            "--allow-none");
 }
 
-/* The size of the output is printed before the files are written, but not with --quiet. */
+/* The program prints the size of the output before it writes the files, but not with --quiet. */
 TEST(test_announcement) {
   struct stat status;
   write_cycle("0,0\n1,1\n");
@@ -197,7 +197,7 @@ static int n_listed(const char *pvd) {
   return n;
 }
 
-/* A signal ends the series after the current step is complete. Every listed file can be read, and there are no other files. */
+/* After a signal, the series completes the current step and ends. Every listed file can be read, and no other file exists. */
 static void interrupt_series(int signal_number) {
   static const char *const files[] = {"long/long_0000.vtu", "long/long_0001.vtu"};
   const pid_t process =
@@ -209,8 +209,8 @@ static void interrupt_series(int signal_number) {
   finish_program(process);
 }
 
-/* Stops the main thread of the process in the middle of a step, as if the step took very long. Returns 0 if the system does not
- * allow one process to stop the threads of another. */
+/* Stops the main thread of the process in the middle of a step, as in a very long step. Returns 0 if the system does not let one
+ * process stop another's threads. */
 static int stop_main_thread(pid_t process, int is_seized) {
   int status = 0;
   if (!is_seized && ptrace(PTRACE_SEIZE, process, NULL, NULL) != 0) return 0;
@@ -256,10 +256,10 @@ TEST(test_interruption) {
   }
 }
 
-/* While the main thread is stopped, the program must still list all files in the .pvd. Then the process is killed. The list may
- * lack one file, if the thread was stopped between writing a file and listing it. For some microseconds, the thread holds the
- * list's lock while it adds a file, and nobody else can write the list. If it was stopped there, it continues, and is
- * stopped again elsewhere. */
+/* The main thread is stopped, and the program must still list all files in the .pvd. Then the test kills the process. The list
+ * may lack one file, if the thread stopped after it wrote a file and before it listed it. The thread holds the list's lock for
+ * some microseconds, while it adds a file. In this time no other thread can write the list. If the thread stopped there, it
+ * continues, and the test stops it again elsewhere. */
 TEST(test_killed) {
   write_cycle("0,0\n1,1\n");
   const pid_t process = start_program("mark", scratch_path("in.vtu"), "--valve", "mitral", "--half-thickness", "0.3",

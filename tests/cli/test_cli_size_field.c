@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * `riis size-field`: the grid is read back, and its edge lengths are compared with closest points of separate surfaces. */
+ * Tests `riis size-field`. The grid is read again, and its edge lengths are compared with closest points of separate surfaces. */
 /* clang-format off: test_support.h checks statuses if riis.h came before */
 #include <riis/riis.h>
 
@@ -76,7 +76,7 @@ static double least_distance(const double *point) {
   return least;
 }
 
-/* The numbers that decide the edge lengths, as the help of `riis size-field` describes. */
+/* These numbers decide the edge lengths, as the help of `riis size-field` describes. */
 typedef struct {
   double half_thickness, band, growth, largest;
 } edges;
@@ -85,7 +85,7 @@ static double length_at(double distance, edges want) {
   return fmin(want.largest, want.band + want.growth * fmax(0, distance - want.half_thickness));
 }
 
-/* Compares random points of the grid, and all points of its sides, where the lengths must be the largest. */
+/* Compares random points of the grid, and all points on its sides. The lengths must be largest on the sides. */
 static void check_grid(edges want) {
   random_source random = random_start("size_field");
   int n_in_band = 0, n_growing = 0;
@@ -139,7 +139,7 @@ TEST(placed_valve_at_one_opening) {
   drop_states();
 }
 
-/* A case without a mesh: a mitral valve that rests half open and an aortic valve that opens. */
+/* A case without a mesh has a mitral valve that rests half open and an aortic valve that opens. */
 TEST(case_of_two_valves) {
   const char text[] =
       "{\"half_thickness\": 0.1, \"times\": [0, 1, 2], \"valves\": ["
@@ -160,8 +160,8 @@ TEST(case_of_two_valves) {
 
 /* ---- An offset ---- */
 
-/* With the offset 0.75, edges beside a rim leak from 2 sqrt(1 - 0.75^2) = 1.32 half thicknesses on. The rim of a plate is its
- * outline. */
+/* With the offset 0.75, an edge beside a rim can leak if it is longer than 2 sqrt(1 - 0.75^2) = 1.32 half thicknesses. The rim of
+ * a plate is its outline. */
 TEST(an_offset_beside_the_rim_of_a_plate) {
   const char text[] = "v -1 -0.5 0\nv 1 -0.5 0\nv 1 0.5 0\nv -1 0.5 0\nf 1 2 3\nf 1 3 4\n";
   scratch_write("plate.obj", text, strlen(text));
@@ -186,7 +186,8 @@ TEST(an_offset_beside_the_rim_of_a_plate) {
   assert_true(n_beside_rims > 500 && n_at_middle > 100);
 }
 
-/* Nodes whose closest point is on the rim of a valve get the length beside rims. The library tells the rim. */
+/* If a node's closest point is on the rim of a valve, the node gets the length beside rims. The library reports which points are
+ * on the rim. */
 TEST(an_offset_beside_the_rims_of_valves) {
   const char *const kinds[] = {"aortic", "mitral", "coapting", "bileaflet"};
   const double openings[] = {0, 0.5, 1};

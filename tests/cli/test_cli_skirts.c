@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Skirts of surfaces from files. A closed valve is in a vessel that is wider than its attachment. It is read as one file, as a
- * file for each leaflet, without the array of the attachment, as a motion and in a case. */
+ * Tests skirts of surfaces from files. A closed valve stands in a vessel that is wider than its attachment. The valve is read in
+ * several ways: as one file, as a file for each leaflet, without the array of the attachment, as a motion and in a case. */
 #include <math.h>
 #include <riis/riis_vtk.h>
 #include <stdio.h>
@@ -15,7 +15,7 @@
 enum { n_across = 27, n_along = 32 };
 static const double radius = 1.6, lowest = -1.5, highest = 2.5;
 
-/* Writes a vessel of hexahedra: squares that became discs. */
+/* Writes a vessel of hexahedra. Squares of a grid are mapped to discs. */
 static int write_vessel(void) {
   FILE *file = fopen(scratch_path("vessel.vtk"), "w");
   assert_non_null(file);
@@ -63,7 +63,7 @@ static riis_surface_arrays arrays_of(const char *path, riis_vtk_surface **file) 
   return arrays;
 }
 
-/* Writes a leaflet, or all leaflets for -1, as an .stl file, which has no arrays. */
+/* Writes a leaflet as an .stl file, which has no arrays. The leaflet -1 stands for all leaflets. */
 static void write_stl(const char *name, int leaflet) {
   riis_vtk_surface *from = NULL;
   const riis_surface_arrays arrays = arrays_of(plain, &from);
@@ -120,7 +120,7 @@ TEST(the_attachment_is_in_the_file) {
   riis_vtk_surface_destroy(&file);
 }
 
-/* An old caller's struct ends before the attachment. */
+/* The struct of an old caller ends before the attachment. */
 TEST(old_callers_get_no_attachment) {
   riis_vtk_surface *file = NULL;
   riis_surface_arrays arrays;
@@ -191,7 +191,7 @@ TEST(measures_leave_the_skirt_out) {
   RUN_FINE("states", "-", "--surface", plain);
   snprintf(bare, sizeof bare, "%s", program_out);
   RUN_FINE("states", "-", "--surface", plain, "--skirt", "0.4");
-  /* The first line has the columns. The skirt has two more of them, after the leaflets' columns. */
+  /* The table's first line names the columns. The skirt's two columns follow those of the leaflets. */
   char *const columns = strstr(program_out, ",skirt_area,skirt_area_ratio");
   char *const edges = strstr(program_out, ",skirt_edge,skirt_edge_ratio");
   assert_true(columns != NULL || edges != NULL);
@@ -216,7 +216,7 @@ TEST(refusals) {
   }
 }
 
-/* A square of two triangles, with an array of the attachment. */
+/* Writes a square of two triangles, with an array of the attachment. */
 static const char *write_square(const char *array) {
   char text[1024];
   snprintf(text, sizeof text,

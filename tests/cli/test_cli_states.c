@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * `riis states`: lengths of free edges are compared with the valves' curves. Areas and orifices are compared with the
- * surface's triangles. */
+ * Tests `riis states`. Lengths of free edges are compared with the valves' curves. Areas and orifices are compared with the
+ * triangles of the surface. */
 /* clang-format off: test_support.h checks statuses if riis.h comes before it */
 #include <riis/riis.h>
 
@@ -91,7 +91,7 @@ static riis_valve *make_valve(const char *kind) {
   return valve;
 }
 
-/* Computes the area of a leaflet from the triangles of a separate surface, and the orifice by counting grid points. */
+/* Computes the area of a leaflet from the triangles of a separate surface. Computes the orifice by counting grid points. */
 typedef struct {
   double orifice, area[3];
 } measured;
@@ -108,7 +108,7 @@ static int is_covered(int64_t n, const int64_t *vertex, const double *xyz, doubl
   return 0;
 }
 
-/* is_inside returns whether a point is in the disc. The disc lies within `reach` of the axis. */
+/* is_inside returns whether a point is in the orifice's disc, which lies within `reach` of the axis. */
 static measured measure(const riis_valve *valve, double reach, int (*is_inside)(double x, double y)) {
   enum { n_side = 120 };
   riis_surface *surface = NULL;
@@ -175,15 +175,15 @@ TEST(test_mitral) {
     const measured found = measure(valve, 2.2, is_in_annulus);
     CHECK_NEAR(cell(i, "anterior_area"), found.area[0], 0.02);
     CHECK_NEAR(cell(i, "posterior_area"), found.area[1], 0.02);
-    /* The points are seen along z. The axis of the annulus leans by up to 5 degrees before the valve is open. */
+    /* The points are seen along z. Until the valve is open, the axis of the annulus leans by up to 5 degrees. */
     CHECK_NEAR(cell(i, "orifice_area"), found.orifice, i == 4 ? 0.03 : 0.06);
     CHECK_AT_MOST(cell(i, "effective_area"), cell(i, "orifice_area"));
-    /* The rim reaches no farther than two half thicknesses of 0.1. The closed orifice is 0 up to rounding. */
+    /* The rim's band reaches at most two half thicknesses of 0.1. The closed orifice is 0 up to rounding. */
     CHECK_AT_MOST(cell(i, "orifice_area") - 0.2 * cell(i, "orifice_perimeter"), cell(i, "effective_area") + 1e-12);
     mitral_oracle_destroy(oracle);
   }
   annulus_of = NULL;
-  /* The summary names the values that are not physiological. */
+  /* The summary names values that are not physiological. */
   CHECK_NEAR(cell(0, "anterior_edge"), 3.91, 0.005);
   CHECK_NEAR(cell(4, "anterior_edge"), 4.58, 0.005);
   CHECK_NEAR(cell(4, "posterior_edge"), 7.28, 0.005);
@@ -197,7 +197,7 @@ TEST(test_mitral) {
   riis_valve_destroy(&valve);
 }
 
-/* Without --count there are 101 openings. With the table on stdout, the program prints nothing else. */
+/* If the table goes to stdout, the program prints nothing else. */
 TEST(test_stdout) {
   RUN_STATES("--valve", "bileaflet", "--quiet");
   assert_string_equal(program_out, "");
@@ -209,8 +209,8 @@ TEST(test_stdout) {
   free(text);
 }
 
-/* An open area that the band takes entirely looks wrong without an explanation if it has no perimeter. The slit between the
- * closed leaflets has a perimeter if it is wider than a fifth of the half thickness. */
+/* If the band takes an open area entirely and the area has no perimeter, the numbers look wrong without an explanation. The slit
+ * between the closed leaflets has a perimeter if it is wider than a fifth of the half thickness. */
 TEST(test_slits) {
   static const struct {
     const char *gap, *half_thickness;
@@ -228,7 +228,7 @@ TEST(test_slits) {
 
 /* ---- The aortic valve ---- */
 
-/* Returns the length of a cubic, approximated by chords. */
+/* Returns the length of a cubic, as the sum of chords. */
 static double cubic_length(double p[4][3]) {
   enum { n = 20000 };
   double length = 0, last[3];
@@ -282,7 +282,7 @@ TEST(test_aortic) {
     const measured found = measure(valve, 1.3, is_in_root);
     CHECK_NEAR(cell(i, "orifice_area"), orifice_by_c(valve), 1e-12);
     CHECK_AT_MOST(cell(i, "effective_area"), cell(i, "orifice_area"));
-    /* The rim reaches no farther than two half thicknesses of 0.1. The closed orifice is 0 up to rounding. */
+    /* The rim's band reaches at most two half thicknesses of 0.1. The closed orifice is 0 up to rounding. */
     CHECK_AT_MOST(cell(i, "orifice_area") - 0.2 * cell(i, "orifice_perimeter"), cell(i, "effective_area") + 1e-12);
     for (int k = 0; k < 3; ++k) {
       const double *of = table_of_paper[k];
@@ -303,7 +303,7 @@ TEST(test_aortic) {
   riis_valve_destroy(&open);
 }
 
-/* The table is measured in the valve's own frame, so a shift changes nothing. Units change lengths and areas. */
+/* The table is in the valve's own frame, so a shift changes nothing. Units change lengths and areas. */
 TEST(test_frame_and_unit) {
   scratch_write_text("open.json", "{\"leaflet_radius_in\": 1, \"translation\": [3, -2, 1]}");
   RUN_STATES("--params-open", scratch_path("open.json"), "--set", "translation=3,-2,1", "--count", "3");
@@ -335,7 +335,7 @@ TEST(test_prosthesis) {
   CHECK_NEAR(cell(1, "orifice_area"), 3.79, 0.01);
 }
 
-/* One side of this flat triangular patch is a point. The triangles at the point have no area. The end of the edge at the point
+/* One side of this flat triangular patch is a point. The triangles at the point have no area. At this point, the end of the edge
  * therefore belongs to no triangle. The sides along the axes have the lengths 1 and 2, and the slanted side has the length
  * sqrt(5). */
 static void run_flat_triangle(const char *sides) {
@@ -365,9 +365,9 @@ TEST(test_collapsed_sides) {
   expect_said("edges     not measured: a leaflet has no side v = 1 on its rim\n");
 }
 
-/* Two patches above each other share a side. The common side is the side v = 1 of one patch, but no free edge. The patches' other
- * curves bend differently, so each patch by itself would cut the common side into different parts. The test has one straight and
- * one curved side. */
+/* Two patches above each other share a side. The common side is the side v = 1 of one patch, but it is not a free edge. The
+ * patches' other curves bend differently. Each patch alone would therefore cut the common side into different parts. The test has
+ * one straight and one curved side. */
 TEST(test_shared_sides) {
   static const char *const middles[2] = {"[0, 1, 0], [2, 1, 0]", "[0, 1, 0], [1, 1.5, 0], [2, 1, 0]"};
   for (int i = 0; i < 2; ++i)
@@ -387,14 +387,14 @@ TEST(test_shared_sides) {
       char name[64];
       snprintf(name, sizeof name, "leaflet_%d_edge", leaflet);
       CHECK_NEAR(cell(0, name), cubic_length(high), 1e-3);
-      /* If the patches are two leaflets, the common side is a free edge of the lower one. */
+      /* If the patches belong to two leaflets, the common side is a free edge of the lower leaflet. */
       if (leaflet == 1) assert_true(cell(0, "leaflet_0_edge") > 1.999);
     }
 }
 
 /* ---- Skirts, surfaces from files ---- */
 
-/* Writes a square tube around the z axis, whose sides are 2 units away from the axis. */
+/* Writes a square tube around the z axis. The tube's sides are 2 units away from the axis. */
 static void write_wall(const char *name, double unit) {
   const double corner[4][2] = {
       {2 * unit, 2 * unit}, {-2 * unit, 2 * unit}, {-2 * unit, -2 * unit}, {2 * unit, -2 * unit}};
@@ -422,7 +422,7 @@ TEST(test_skirts_and_files) {
   /* In a file of a valve with a skirt, the outline is the skirt's outer edge. */
   RUN_STATES("--surface", file);
   CHECK_NEAR(cell(0, "orifice_area"), 0, 1e-3);
-  /* Without a skirt, a file has the leaflets' free edges. */
+  /* In a file without a skirt, the outlines are the leaflets' free edges. */
   run_program("surface", "--valve", "trileaflet", "--output", file, NULL);
   expect_run_fine(__FILE__, __LINE__);
   RUN_STATES("--surface", file, "--coaptation");
@@ -436,7 +436,7 @@ TEST(test_skirts_and_files) {
   RUN_STATES("--valve", "trileaflet", "--skirt", "0.1", "--coaptation", "--count", "2");
   CHECK_NEAR(cell(0, "contact_edge"), 7.5, 1e-9);
   assert_true(cell(1, "contact_edge") < 2 && cell(0, "skirt_area") > 0.5 && cell(0, "contact_area") > 0.1);
-  /* Behind four cusps, the skirt has another id. */
+  /* With four cusps, the skirt has a larger id. */
   RUN_STATES("--valve", "quadricuspid", "--skirt", "0.1", "--count", "2");
   assert_true(cell(0, "skirt_area") > 0.5 && cell(0, "cusp_3_area") > 0.5 && cell(0, "cusp_3_edge") > 1);
 
@@ -457,7 +457,7 @@ TEST(test_skirts_and_files) {
   RUN_STATES("--valve", "mitral", "--count", "2");
   CHECK_NEAR(orifice, cell(1, "orifice_area"), 1e-3 * orifice);
 
-  /* A file of the paper's aortic valve, whose cusps do not touch, has the valve's orifice. */
+  /* The cusps of the paper's aortic valve do not touch. A file of this valve nevertheless has the valve's orifice. */
   run_program("surface", "--valve", "aortic", "--opening", "1", "--tolerance", "0.01", "--output", file, NULL);
   expect_run_fine(__FILE__, __LINE__);
   RUN_STATES("--surface", file);
@@ -465,7 +465,7 @@ TEST(test_skirts_and_files) {
   RUN_STATES("--valve", "aortic", "--count", "2");
   CHECK_NEAR(of_file, cell(1, "orifice_area"), 0.005 * of_file);
 
-  /* Leaflets of a mechanical valve leave the rest of a square tube open. */
+  /* The leaflets of a mechanical valve leave the rest of a square tube open. */
   run_program("surface", "--valve", "bileaflet", "--opening", "1", "--tolerance", "0.01", "--output", file, NULL);
   expect_run_fine(__FILE__, __LINE__);
   RUN_STATES("--surface", file, "--wall", wall);

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The unit advice in meshes whose unit is known: pipes, roots, chambers, basins and flat chambers with all kinds of valves, in
- * metres, centimetres and millimetres. Without --unit, the advice names the true unit, alone or among others. A vessel in
- * centimetres gets no advice, and a mesh whose unit is named gets none. A coarse basin in centimetres can have the numbers of a
- * vessel in millimetres, so its advice may name both. If two units remain, the next run says how many nodes each unit marks. */
+ * Tests the advice on units in meshes whose unit is known. The meshes are pipes, roots, chambers, basins and flat chambers with
+ * all kinds of valves, in metres, centimetres and millimetres. Without --unit, the advice names the true unit, alone or among
+ * others. A vessel in centimetres gets no advice, and neither does a mesh with --unit. A coarse basin in centimetres can have the
+ * numbers of a vessel in millimetres, so its advice may name both units. If two units remain, the next run says how many nodes
+ * each unit marks. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -22,11 +23,11 @@ static const char *const kinds[n_kinds] = {"aortic", "coapting", "trileaflet", "
 
 typedef enum shape { pipe_shape, root_shape, chamber_shape, basin_shape, flat_shape, n_shapes } shape;
 
-/* A vessel along z around a valve at the origin. Lengths are in centimetres. */
+/* A vessel along z, around a valve at the origin. Lengths are in centimetres. */
 typedef struct vessel {
   shape shape;
   double radius, length, half_length; /* half_length is that of a chamber */
-  double edge, growth; /* an edge at the valve, and how much longer an edge is at a length farther away */
+  double edge, growth; /* an edge at the valve, and the factor by which edges grow at a length farther away */
   double centre;       /* of the length, on the axis */
   double side[3];      /* of a basin or a flat chamber, around the valve */
 } vessel;
@@ -47,7 +48,7 @@ static double radius_at(const vessel *v, double z) {
   return v->radius * sqrt(fmax(1 - t * t, 0.01));
 }
 
-/* Returns the places between two ends at which there are nodes. They are closer near the valve. */
+/* Returns the coordinates of the nodes between two ends. The nodes are closer together near the valve. */
 static int make_layers(const vessel *v, double from, double to, double z[most_layers]) {
   int n = 0;
   double at = from;
@@ -59,7 +60,7 @@ static int make_layers(const vessel *v, double from, double to, double z[most_la
   return n;
 }
 
-/* The nodes along the three directions of the grid. Across a vessel they are from -1 to 1. */
+/* The nodes along the three directions of the grid. Across a vessel, the coordinates are from -1 to 1. */
 typedef struct grid {
   int n[3];
   double at[3][most_layers];
@@ -86,7 +87,7 @@ static void place(double p[3], double factor) {
   for (int k = 0; k < 3; ++k) p[k] = factor * (c * p[k] + s * across[k] + (1 - c) * along * axis[k]) + shift[k];
 }
 
-/* Writes hexahedra. Across a vessel, a square is mapped to a disc. */
+/* Writes hexahedra. Across a vessel, squares are mapped to discs. */
 static void write_vessel(const vessel *v, double factor) {
   static grid g;
   make_grid(v, &g);
@@ -117,8 +118,8 @@ static void write_vessel(const vessel *v, double factor) {
   assert_int_equal(fclose(file), 0);
 }
 
-/* Draws a basin of 8 to 60 cm, or a flat chamber of 6 to 40 cm and a height of 2 to 5 cm, until its grid is small enough and
- * has no edge longer than longest_edge. */
+/* Makes a random basin of 8 to 60 cm, or a flat chamber of 6 to 40 cm with a height of 2 to 5 cm. Draws new sizes until the grid
+ * is small enough and has no edge longer than longest_edge. */
 static vessel random_basin(shape of) {
   static grid g;
   while (1) {
@@ -180,7 +181,7 @@ static void run_on_mesh(const char *kind, const char *unit) {
   if (program_exit_code != 0 && program_exit_code != 3) fail_msg("exit code %d: %s", program_exit_code, program_err);
 }
 
-/* Returns the part of stderr that begins with this text and ends with its line, or "". */
+/* Returns the part of stderr from this text to the end of the text's line, or "". */
 static const char *line_with(const char *text) {
   static char line[1024];
   const char *found = strstr(program_err, text);
@@ -196,7 +197,7 @@ static int advises(const char *line, const char *unit) {
   return found && (found[strlen(wanted)] == 0 || found[strlen(wanted)] == ' ');
 }
 
-/* Checks that the run with the true unit says how many nodes each advised unit marks, and that both numbers are right. */
+/* Checks the run with the true unit. The run must say how many nodes each advised unit marks, and both numbers must be right. */
 static void check_counts(const char *kind, int true_unit, const int is_advised[n_units]) {
   static char line[1024];
   run_on_mesh(kind, units[true_unit]);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * --unit and --surface-unit: the marks are the same in all units. If the sizes of mesh, surface and half thickness do not
- * match, a warning advises options. The test applies them, and the warning disappears. */
+ * --unit and --surface-unit: the marks are the same in all units. If the sizes of mesh, surface and half thickness do not match,
+ * a warning advises options. After the test follows this advice, the warning must disappear. */
 #include <riis/riis_vtk.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -18,7 +18,7 @@ static const double factors[n_units] = {0.01, 1, 10}; /* from centimetres to eac
 static char meshes[n_units][256], surfaces[n_units][256];
 static int n_wanted; /* number of marked nodes of the valve in the box */
 
-/* Writes the box of in.vtu with finer cells, and the valve, in every unit. */
+/* Writes the box of in.vtu with finer cells, and the valve. Box and valve have a file in every unit. */
 static int make_files(void **state) {
   scratch_setup(state);
   for (int i = 0; i < n_units; ++i) {
@@ -39,7 +39,7 @@ static int make_files(void **state) {
   return n_wanted > 100 ? 0 : -1;
 }
 
-/* Rounding may change the mark of a node at the half thickness. A wrong unit changes all marks. */
+/* Rounding may change the mark of a node at the half thickness. A wrong unit would change all marks. */
 static void expect_wanted_marks(void) {
   if (program_exit_code != 0 || program_err[0]) fail_msg("exit code %d, stderr: %s", program_exit_code, program_err);
   const double n = json_number(program_out, "n_marked");
@@ -91,7 +91,7 @@ TEST(test_patches) {
   assert_true(n_marked[0] > 30 && n_marked[0] == n_marked[1] && n_marked[1] == n_marked[2]);
 }
 
-/* Checks for one line with this text and for this exit code. --quiet does not remove the line. */
+/* Checks the exit code, and that one line with this text is printed. --quiet does not remove the line. */
 static void expect_warning(int exit_code, const char *text) {
   const char *end = strchr(program_err, '\n');
   if (program_exit_code != exit_code || strncmp(program_err, "riis: ", 6) != 0 || !end || end[1] ||
@@ -114,7 +114,7 @@ static int advised(char words[8][64]) {
   return n;
 }
 
-/* Runs the program with the advice of the last warning. Afterwards there must be no warning. surface may be NULL. */
+/* Runs the program with the options that the last warning advises. No warning may follow. `surface` may be NULL. */
 static void expect_cured(const char *mesh, const char *surface) {
   char words[8][64];
   const int n_words = advised(words);
@@ -153,7 +153,7 @@ TEST(test_wrong_valve_units) {
   expect_cured(meshes[0], NULL);
 }
 
-/* Checks that only the first warning has advice: the warning about leaks that follows has none. */
+/* Checks that only the first warning has advice, and that the following warning about leaks has none. */
 static void expect_one_advice(void) {
   assert_non_null(strstr(program_leaks, " between two unmarked nodes"));
   assert_null(strstr(program_leaks, "--half-thickness"));
@@ -170,7 +170,7 @@ TEST(test_wrong_file_units) {
   run_program("mark", meshes[0], "--surface", surfaces[2], "--unit", "m", "--surface-unit", "m", NULL);
   expect_warning(3, ": write --unit m --surface-unit mm in place of --unit m --surface-unit m\n");
   expect_cured(meshes[0], surfaces[2]);
-  /* Mesh and surface are in one unit, and the half thickness in another. */
+  /* The half thickness is in another unit than the mesh and the surface. */
   run_program("mark", meshes[2], "--surface", surfaces[2], NULL);
   expect_warning(0, "the median edge of the mesh ");
   expect_warning(0, "both look as if they were in millimetres: write --unit mm --surface-unit mm\n");
@@ -185,7 +185,7 @@ TEST(test_wrong_file_units) {
   expect_warning(3, "write --scale 0.5 in place of --scale 0.005\n");
 }
 
-/* Checks that the first line has this text, and removes it. */
+/* Checks that the first line has this text, and removes the line. */
 static void expect_note_and_warning(const char *text) {
   char *const end = strchr(program_err, '\n');
   if (!end || !strstr(program_err, text) || strstr(program_err, text) > end)
@@ -193,8 +193,8 @@ static void expect_note_and_warning(const char *text) {
   memmove(program_err, end + 1, strlen(end + 1) + 1);
 }
 
-/* The mesh's edges suggest millimetres. It may also be a large and coarse mesh in centimetres, so a unit that the user names
- * decides. */
+/* The mesh's edges suggest millimetres. A large and coarse mesh in centimetres would also have these edges, so a unit that the
+ * user names decides. */
 TEST(test_coarse_or_other_unit) {
   assert_int_equal(
       shim_write_box(scratch_path("large.vtu"), SHIM_RAW, 40, (double[3]){-9, -9, -9}, (double[3]){9, 9, 9}, 0), 1);
@@ -219,8 +219,8 @@ TEST(test_coarse_or_other_unit) {
   expect_warning(0, "both look as if they were in millimetres: write --unit mm --surface-unit mm\n");
 }
 
-/* A basin of 13 cm with short edges may also be a vessel of 13 mm. The advice names both units, and the next run says how many
- * nodes each unit marks. */
+/* A basin of 13 cm with short edges may also be a vessel of 13 mm. The advice names both units. The next run says how many nodes
+ * each unit marks. */
 TEST(test_two_possible_units) {
   const double far = 6.5;
   assert_int_equal(shim_write_box(scratch_path("basin.vtu"), SHIM_RAW, 40, (double[3]){-far, -far, -far},
@@ -244,7 +244,7 @@ TEST(test_two_possible_units) {
   assert_non_null(strstr(program_err, "): write --unit mm or --unit cm\n"));
 }
 
-/* A placed valve in millimetres, which the user did not type as --unit mm, and a mesh in metres. */
+/* The placed valve is in millimetres, although the user did not type --unit mm. The mesh is in metres. */
 TEST(test_placed_valve_in_other_unit) {
   scratch_write_text("placed.json",
                      "{\"valve\": \"coapting\", \"unit\": \"mm\", \"axes\": \"mesh\", \"rotate\": [0, 0, 1, 0], "
@@ -275,7 +275,8 @@ TEST(test_half_thickness) {
   expect_warning(program_exit_code, "the half thickness is 0.001, the median edge of the mesh 0.1");
   expect_warning(program_exit_code, ": write --half-thickness 0.1\n");
   expect_cured(meshes[1], NULL);
-  /* If no power of ten suits a coarse mesh, the program advises its edge length, unless this length is also too large. */
+  /* If no power of ten suits a coarse mesh, the program advises the mesh's edge length. A length that is also too large is not
+   * advised. */
   const double far = 1.6;
   assert_int_equal(shim_write_box(scratch_path("coarse.vtu"), SHIM_RAW, 6, (double[3]){-far, -far, -far},
                                   (double[3]){far, far, far}, 0),
@@ -304,7 +305,7 @@ TEST(test_places) {
   expect_warning(0, "only ");
   expect_warning(0, " of 10,648 nodes are marked: the mesh is in x");
   RUN_FINE("mark", meshes[1], "--translate", "50,0,0", "--allow-none", "--quiet", "--stats", scratch_path("s.json"));
-  /* A mesh of few nodes, all near the valve, gets no message. */
+  /* If a mesh has few nodes that are all near the valve, there is no message. */
   scratch_write_text("few.vtk",
                      "# vtk DataFile Version 3.0\nfew\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n"
                      "1 0 -.3 1.01 0 -.3 1 .01 -.3 1 0 -.31\nCELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n");
@@ -312,8 +313,8 @@ TEST(test_places) {
   assert_int_equal(program_exit_code, 0);
 }
 
-/* In a case of several valves, the more likely cause is reported first, whatever the order of the valves. Only this cause has
- * advice. */
+/* In a case of several valves, the program reports the more likely cause first, whatever the order of the valves. Only this
+ * message has advice. */
 TEST(test_order_of_causes) {
   scratch_write_text("two.json",
                      "{\"mesh\": \"mm.vtu\", \"valves\": [\n"
@@ -343,7 +344,7 @@ TEST(test_coarse_and_other_unit) {
   }
 }
 
-/* Even if no node is near the surface, similar sizes show that mesh and surface are in the same unit. */
+/* Similar sizes show that mesh and surface share a unit, even if no node is near the surface. */
 TEST(test_beside_the_mesh) {
   for (int named = 0; named < 2; ++named) {
     run_program("mark", meshes[1], "--surface", surfaces[1], "--translate", "0,0,2.6", named ? "--unit" : NULL, "cm",

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * `riis export uris`: the test reads the files back as svMultiPhysics does, and compares their vertices with the library's at
- * the openings of the frames. It also marks nodes by the solver's rule. */
+ * Tests `riis export uris`. The test reads the files as svMultiPhysics does, and compares their vertices with the library's at
+ * the openings of the frames. The test also marks nodes by the solver's rule. */
 /* clang-format off: test_support.h checks statuses if riis.h comes before it */
 #include <riis/riis.h>
 #include <riis/riis_vtk.h>
@@ -16,8 +16,8 @@
 
 /* ---- The surface by the library's C interface ---- */
 
-/* A placement of the surface, twice: as arguments of riis, and as options of riis_surface_create that place it in cm. The export
- * is in g and cm, and R of the command line, 12500, is in kg/(m s) if the mesh's unit is known. */
+/* A placement of the surface in two forms: as arguments of riis, and as options of riis_surface_create that place it in cm. The
+ * export is in g and cm. If the mesh's unit is known, the value 12500 of R on the command line is in kg/(m s). */
 typedef struct {
   const char *words[6];
   double scale, half_thickness, turn[4], shift[3], R;
@@ -48,7 +48,7 @@ static riis_surface *surface_at(const place *where, riis_valve *valve) {
   return surface;
 }
 
-/* Returns the corners of every triangle of a leaflet, (3, 3, n), in the order of triangles. The caller frees them. */
+/* Returns the corners (3, 3, n) of all triangles of a leaflet, in the order of triangles. The caller frees them. */
 static double *corners_of(const riis_surface *surface, int leaflet, int *n_found) {
   const double *xyz = triangles_of(surface).xyz;
   const int64_t n = triangles_of(surface).n_triangles;
@@ -64,7 +64,7 @@ static double *corners_of(const riis_surface *surface, int leaflet, int *n_found
   return corners;
 }
 
-/* Compares a frame with the library's triangles. The n_more further triangles only enlarge the solver's box. */
+/* Compares a frame with the library's triangles. The last n_more triangles serve only to enlarge the solver's box. */
 static void check_frame(const uris_face *face, const double *frame, const riis_surface *surface, int leaflet,
                         int n_more, double scale) {
   int n = 0;
@@ -122,7 +122,7 @@ static void turned(const double turn[4], const double from[3], double to[3]) {
   }
 }
 
-/* Blood flows along z, but in the mitral valve against z. The tolerance is 5 degrees, since the closed annulus is
+/* Blood flows along z, and in the mitral valve against z. The tolerance is 5 degrees, because the closed annulus is
  * saddle-shaped. */
 static void check_normal(const char *kind, const place *where) {
   const double along[3] = {0, 0, strcmp(kind, "mitral") == 0 ? -1 : 1};
@@ -165,7 +165,7 @@ TEST(test_positions) {
       assert_int_equal(exported.n_faces, kinds[i].n_leaflets + 1);
       for (int f = 0; f < exported.n_leaflets; ++f) assert_string_equal(exported.face[f].name, kinds[i].face[f]);
       check_positions(&places[k], valve);
-      /* The name is that of the folder. */
+      /* The valve's name is that of the folder. */
       assert_non_null(strstr(exported.name, folder));
       check_normal(kinds[i].kind, &places[k]);
       uris_free(&exported);
@@ -174,7 +174,7 @@ TEST(test_positions) {
   }
 }
 
-/* The ring is a face beside the leaflets, or it is left out. */
+/* The ring is an additional face beside the leaflets, or is left out. */
 TEST(test_ring) {
   EXPORT("ring_face", RAMPS, "--valve", "bileaflet", "--set", "ring_height=0.6");
   assert_string_equal(exported.face[2].name, "housing");
@@ -191,7 +191,7 @@ TEST(test_ring) {
   uris_free(&exported);
 }
 
-/* From the .vtu, VTK reads the nodes of the first frame in their order. */
+/* VTK reads the nodes of the first frame from the .vtu, in their order. */
 TEST(test_vtk) {
   EXPORT("by_vtk", RAMPS, "--valve", "mitral");
   const uris_face *face = &exported.face[1];
@@ -212,7 +212,7 @@ TEST(test_vtk) {
   uris_free(&exported);
 }
 
-/* From two frames, the solver computes the velocity of a node, which equals the velocity of the library's vertex. Nodes of the
+/* The solver computes the velocity of a node from two frames. This velocity equals that of the library's vertex. Nodes of the
  * mitral valve also slide along their leaflet with the joints of the annulus. */
 TEST(test_velocity) {
   riis_valve *valve = NULL, *before = NULL;
@@ -274,8 +274,8 @@ static double longest_edge_of(const uris_face *face, const double *xyz) {
   return longest;
 }
 
-/* The leaflet's outline consists of the edges that belong to only one triangle. When edges are halved, no such edge may arise
- * inside. */
+/* The leaflet's outline consists of the edges that belong to only one triangle. When the export halves edges, no such edge may
+ * arise inside the leaflet. */
 static double outline_of(const uris_face *face, const double *xyz) {
   double outline = 0;
   for (int i = 0; i < 3 * face->n_triangles; ++i) {
@@ -290,8 +290,7 @@ static double outline_of(const uris_face *face, const double *xyz) {
   return outline;
 }
 
-/* In no frame is an edge longer than allowed. The area and the outline of the leaflets are unchanged, and every old node
- * is still there. */
+/* No frame has an edge that is too long. The leaflets keep their area and outline, and every old node remains. */
 TEST(test_largest_edge) {
   const char *const valves[] = {"mitral", "bileaflet"};
   for (int v = 0; v < 2; ++v) {
@@ -331,7 +330,7 @@ static double delta(double d, double eps) {
   return d < eps ? (1 + cos(3.14159265358979323846 * d / eps)) / (2 * eps) : 0;
 }
 
-/* Marks a grid round the closed valve by the solver's rule and by the library. */
+/* Marks a grid round the closed valve by the solver's rule, and by the library. */
 static rule_marks marks_of_closed(const char *kind) {
   const double eps = exported.thickness, step = 1.1 * eps;
   riis_valve *valve = NULL;
@@ -358,7 +357,7 @@ static rule_marks marks_of_closed(const char *kind) {
         found.delta += delta(closest.distance, eps);
         found.delta_lost += delta(closest.distance, eps) - delta(d, eps);
         if (closest.distance <= eps) found.largest_excess = fmax(found.largest_excess, d - closest.distance);
-        /* The middles of the triangles lie on the surface, so no middle is nearer than the surface. */
+        /* The middles of the triangles lie on the surface, so a middle is at least as far as the surface. */
         assert_true(d >= closest.distance - 1e-12);
         if (closest.distance < 0.3 * eps || closest.distance > eps || closest.side == 0) continue;
         ++found.n_sides;
@@ -382,7 +381,7 @@ TEST(test_marking_rule) {
     run_program("export", scratch_path(folder), "--resistance", "12500", RAMPS, "--valve", valves[v], "--largest-edge",
                 "0.05", NULL);
     assert_int_equal(program_exit_code, 0);
-    /* The files of the mitral valve are large, so they are announced. */
+    /* The files of the mitral valve are large, so the program announces them. */
     if (v == 1) assert_ptr_equal(strstr(program_err, "riis: writing "), program_err);
     exported = uris_read(program_out);
     const rule_marks fine = marks_of_closed(valves[v]);
@@ -392,8 +391,8 @@ TEST(test_marking_rule) {
            100 * fine.delta_lost / fine.delta);
     assert_true(coarse.n_marked > 500);
     assert_int_equal(coarse.n_more + fine.n_more, 0);
-    /* The solver marks most of these nodes, on their own side of the closed valve. With smaller triangles it marks nearly all of
-     * them. */
+    /* The solver marks most of these nodes, on their side of the closed valve. With smaller triangles, the solver marks nearly
+     * all of these nodes. */
     assert_true(coarse.n_lost > 0 && coarse.n_lost < 0.3 * coarse.n_marked);
     assert_true(fine.largest_excess < 0.05 && fine.largest_excess < coarse.largest_excess);
     assert_true(fine.n_lost < 0.02 * fine.n_marked && fine.n_lost < coarse.n_lost);
@@ -402,15 +401,16 @@ TEST(test_marking_rule) {
   }
 }
 
-/* A grid of points round a valve with a ring: the solver's K at each, over R, and that of the whole surface. */
+/* A grid of points round a valve with a ring. Each point has the solver's K over R, and the K over R of the whole surface. */
 enum { ring_n = 32 };
 typedef struct {
-  int n_more; /* points with more K than the whole surface gives: they count twice */
+  int n_more; /* points with more K than the whole surface gives, so they count twice */
   double of_solver, of_whole;
-  int is_sealed; /* no way through the ring along the grid has only points without K */
+  int is_sealed; /* 1 if every way through the ring along the grid passes a point with K */
 } ring_sums;
 
-/* Spreads from the points below the valve through points without K inside the radius. Returns whether none above is reached. */
+/* Spreads from the points below the valve, through points without K inside the radius. Returns whether the valve stops this
+ * spread, so that no point above the valve is reached. */
 static int is_sealed_within(const unsigned char *is_free) {
   static int stack[ring_n * ring_n * ring_n];
   static unsigned char seen[ring_n * ring_n * ring_n];
@@ -446,7 +446,7 @@ static ring_sums sums_with_ring(const riis_surface *whole, int is_closed) {
     double distance = 0;
     CHECK_OK(riis_closest_point(whole, p, &closest, sizeof closest));
     const double exact = delta(closest.distance, eps);
-    /* Middles of triangles are never nearer than the surface. */
+    /* A middle of a triangle is at least as far as the surface. */
     if (exact > 0) uris_nearest(&state, p, &distance);
     const double solver = exact > 0 ? delta(distance, eps) : 0;
     sums.of_whole += exact;
@@ -460,13 +460,13 @@ static ring_sums sums_with_ring(const riis_surface *whole, int is_closed) {
   return sums;
 }
 
-/* The least distance to leaflets and ring counts, so no point has K twice, and the closed valve seals the ring. A scaffold, whose
- * K the solver adds, is not offered. */
+/* The least distance to the leaflets and the ring counts, so K never counts twice. The closed valve seals the ring. The export
+ * does not offer a scaffold, because the solver would add its K. */
 TEST(test_ring_counts_once) {
   riis_valve *valve = NULL;
   CHECK_OK(riis_valve_create("bileaflet", &valve));
   CHECK_OK(riis_valve_set_scalar(valve, "ring_height", 0.6));
-  /* The files are large, so they are announced. */
+  /* The files are large, so the program announces them. */
   run_program("export", scratch_path("once"), "--resistance", "12500", RAMPS, "--valve", "bileaflet", "--set",
               "ring_height=0.6", "--largest-edge", "0.05", NULL);
   assert_int_equal(program_exit_code, 0);
@@ -494,7 +494,7 @@ TEST(test_ring_counts_once) {
 
 /* ---- The solver's box ---- */
 
-/* A frame of the solver, with or without the face that enlarges the box. */
+/* A frame of the solver, with and without the face that enlarges the box. */
 typedef struct {
   int is_closing, n_marked, n_marked_outside, n_of_side[2];
   uris_state all, leaflets; /* n_marked_outside: marked nodes outside the box of the leaflets alone */
@@ -502,8 +502,8 @@ typedef struct {
 
 static random_source rng;
 
-/* Checks a point that is marked or in a pressure band. The point must lie in the box, and its nearest triangle by the solver's
- * rule must belong to a leaflet. */
+/* Checks a point that is marked or lies in a pressure band. The point must lie in the box. The point's nearest triangle by the
+ * solver's rule must belong to a leaflet. */
 static void look_at(frame *at, const double point[3]) {
   double expected = 0, distance = 0;
   const int leaflet = uris_nearest(&at->leaflets, point, &expected);
@@ -519,7 +519,8 @@ static void look_at(frame *at, const double point[3]) {
   }
 }
 
-/* Checks points around a triangle's middle, along the axes and between them, from nearly on the triangle to beyond the bands. */
+/* Checks points around a triangle's middle, along the axes and between the axes. The points go from nearly on the triangle to
+ * beyond the bands. */
 static void look_around(frame *at, const double middle[3]) {
   for (int towards = 0; towards < 27; ++towards)
     for (double r = 1e-12; r < 6; r *= 30) {
@@ -548,12 +549,12 @@ static double check_box_of_frame(int is_closing, int k) {
   }
   assert_true(at.n_marked > 10);
   const double outside = at.n_marked_outside / (double)at.n_marked;
-  /* If no node is in a band, the solver divides 0 by 0. A closed valve then never opens. An open valve never closes,
-   * because it needs nodes upstream of the leaflets. */
+  /* If no node is in a band, the solver divides 0 by 0. A closed valve then never opens. An open valve never closes, because
+   * closing needs nodes upstream of the leaflets. */
   assert_true(at.n_of_side[0] > 10 && (!is_closing || at.n_of_side[1] > 10));
   assert_int_equal(at.all.n - at.leaflets.n, 3);
   for (int i = at.leaflets.n; i < at.all.n; ++i) look_around(&at, at.all.middle + 3 * i);
-  /* A larger box than the bands need would slow the solver down. */
+  /* A box larger than the bands need would slow the solver down. */
   for (int j = 0; j < 3; ++j)
     CHECK_AT_MOST(at.all.upper[j] - at.all.lower[j], 1.5 * (at.leaflets.upper[j] - at.leaflets.lower[j]) + 10.5 * eps);
   uris_state_free(&at.all);
@@ -561,8 +562,8 @@ static double check_box_of_frame(int is_closing, int k) {
   return outside;
 }
 
-/* Tests the box for all kinds of valves, along the axes and oblique, with thick and thin bands. Further cases are a flat
- * prosthesis, a flat patch whose box has no thickness, and a patch that opens into a plane across another axis. */
+/* Tests the box for all kinds of valves, along the axes and oblique, with thick and thin bands. Three special cases follow: a
+ * flat prosthesis, a flat patch whose box has no thickness, and a patch that opens into a plane across another axis. */
 TEST(test_box) {
   rng = random_start("test_cli_uris");
   static const char *const shapes[][8] = {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Tests `riis export uris`: refusals, which leave no file, and the frames of cycles and of valves from patches. */
+ * Tests refusals of `riis export uris`, which leave no file. Also tests the frames of cycles and of valves from patches. */
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -26,7 +26,7 @@ static void remove_folder(void) {
 
 #define REFUSED(exit_code, text, ...) (RUN_REFUSED(exit_code, text, __VA_ARGS__), expect_nothing_left())
 
-/* Runs an export that succeeds, returns its data, and removes its folder. */
+/* Runs an export, which must succeed. Returns the data of the export, and removes its folder. */
 #define EXPORTED(...) (RUN_FINE(EXPORT, __VA_ARGS__), take_export())
 static uris_valve take_export(void) {
   const uris_valve valve = uris_read(program_out);
@@ -143,7 +143,7 @@ TEST(test_folders) {
   REFUSED(1, text, "export", scratch_path("no/uris"), "--resistance", "1", "--time-step", "0.01", RAMPS);
   REFUSED(2, "has a blank, and svMultiPhysics cannot read such a path", "export", "my folder", "--resistance", "1",
           "--time-step", "0.01", RAMPS);
-  /* An empty folder is filled. A name that ends in a slash is accepted. */
+  /* The export fills an empty folder. A folder's name may end in a slash. */
   const int n_files = scratch_n_files();
   assert_int_equal(mkdir(FOLDER, 0777), 0);
   snprintf(text, sizeof text, "%s/", FOLDER);
@@ -154,7 +154,7 @@ TEST(test_folders) {
   assert_int_equal(scratch_n_files(), n_files);
 }
 
-/* A refused valve, a full disk and an interruption leave nothing, not even the folder. */
+/* A refused valve, a full disk or an interruption leaves nothing behind, not even the folder. */
 TEST(test_nothing_half_written) {
   REFUSED(1, "root_radius", EXPORT, "--time-step", "0.01", RAMPS, "--valve", "trileaflet", "--set", "root_radius=-1");
   REFUSED(1, "opening is 0.", EXPORT, "--time-step", "0.004", RAMPS, "--valve", scratch_path("patch.json"));
@@ -176,7 +176,7 @@ TEST(test_nothing_half_written) {
 
 /* ---- Names and the first state ---- */
 
-/* Two valves of one kind have two names, because their folders differ. */
+/* Two valves of one kind have different names, because their folders differ. */
 TEST(test_names) {
   char name[2][64];
   const char *const folders[] = {"left-heart", "right-heart"};
@@ -230,8 +230,8 @@ static void expect_openings(const char *text) {
 }
 
 TEST(test_cycles) {
-  /* The valve opens in 0.22:0.29. It closes in 0.29:0.66, from the key with the largest opening to the next key with the
-   * least. */
+  /* The valve opens in 0.22:0.29. The valve closes in 0.29:0.66, from the key with the largest opening to the next key with the
+   * least opening. */
   scratch_write_text("mitral.csv", "0,0\n0.22,0\n0.29,1\n0.40,0.62\n0.50,0.55\n0.57,0.85\n0.66,0\n");
   uris_valve valve = EXPORTED("--time-step", "0.01", "--valve", "mitral", "--cycle", scratch_path("mitral.csv"));
   assert_int_equal(valve.face[0].n_open, 8);
@@ -239,15 +239,15 @@ TEST(test_cycles) {
   expect_openings("opening: 8 frames, from opening 0 to 1\n");
   expect_openings("closing: 38 frames, from opening 1 to 0\n");
   uris_free(&valve);
-  /* With a period, the span of opening or closing crosses the end of the cycle. */
+  /* In a cycle with a period, opening or closing may go beyond the end of the cycle. */
   scratch_write_text("over.csv", "0,0.5\n0.25,1\n0.5,0\n");
   valve = EXPORTED("--time-step", "0.125", "--cycle", scratch_path("over.csv"), "--period", "1", "--interpolation",
                    "cubic");
   assert_int_equal(valve.face[0].n_open, 7);
   assert_int_equal(valve.face[0].n_close, 3);
   uris_free(&valve);
-  /* The exported span is only a part of the closing. The leaflets therefore jump where this span begins, and the program warns of
-   * this. */
+  /* The exported span is only a part of the closing. The leaflets therefore jump at the beginning of this span, and the program
+   * warns about the jump. */
   run_program(EXPORT, "--time-step", "0.01", "--valve", "mitral", "--cycle", scratch_path("mitral.csv"),
               "--closing-span", "0.57:0.66", "--quiet", NULL);
   assert_int_equal(program_exit_code, 0);
@@ -257,7 +257,7 @@ TEST(test_cycles) {
   remove_folder();
 }
 
-/* As it opens, one side of the patch shrinks to a point, and then some triangles have no area. */
+/* While the patch opens, one of its sides shrinks to a point. Some triangles then have no area. */
 TEST(test_patches) {
   scratch_write_text(
       "shrinks.json",

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * --valve FILE.json: the marks of a valve from a file are compared with the C interface's. Every fault of a file is refused. */
+ * Tests --valve FILE.json. The marks of a valve from a file are compared with those of the C interface. Every fault of a file is
+ * refused. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,8 +11,8 @@
 #include "program.h"
 #include "scratch.h"
 
-/* A flap of two patches that swings open. It has curves of every degree and one collapsed side. In the file, the curves are
- * in another order, also in its "open" state. */
+/* A flap of two patches that swings open. The flap has curves of every degree, and one side that is a point. The file lists the
+ * curves in another order, also in its "open" state. */
 static const char *const flap =
     "{\"curves\": {\"hinge\": [[-1, 0, 0], [0, 0, 0]], \"rim\": [[0, 1.2, -0.3], [-1, 1, 0]],\n"
     "  \"left\": [[-1, 0, 0], [-1, 0.5, 0.4], [-1, 1, 0]], \"middle\": [[0, 0, 0], [0, 0.4, 0.4], [0, 0.8, 0.4], [0, "
@@ -56,7 +57,8 @@ static riis_valve *flap_by_c(const double *control) {
   return valve;
 }
 
-/* Writes v.json: the flap with the first occurrence of `found` replaced, with or without an open state. */
+/* Writes v.json, which is the flap after one replacement: the first occurrence of `found`. The file has or lacks an open
+ * state. */
 static void write_flap(int can_open, const char *found, const char *replacement) {
   char text[4096], changed[4096];
   snprintf(text, sizeof text, flap, can_open ? flap_open : "");
@@ -70,7 +72,7 @@ static void write_flap(int can_open, const char *found, const char *replacement)
   scratch_write_text("v.json", changed);
 }
 
-/* The path of v.json. scratch_path would keep it only for a few calls. */
+/* Keeps the path of v.json, because scratch_path would keep it only for a few calls. */
 static char file[256];
 static void keep_path(void) { snprintf(file, sizeof file, "%s", scratch_path("v.json")); }
 
@@ -116,7 +118,7 @@ TEST(test_marks) {
   riis_valve_destroy(&open);
 }
 
-/* Every option that takes parameters accepts the valve's parameters. */
+/* Every option for parameters accepts the parameters of this valve. */
 TEST(test_parameters) {
   keep_path();
   write_flap(1, NULL, NULL);
@@ -233,7 +235,7 @@ TEST(test_changed_files) {
     write_flap(changes[i].can_open, changes[i].found, changes[i].replacement);
     RUN_REFUSED(1, changes[i].text, "mark", scratch_path("in.vtu"), "--valve", scratch_path("v.json"));
   }
-  /* A curve without length gets a length, and a curve with length loses it. */
+  /* A curve without length gets a length, or a curve with length loses it. */
   write_flap(1, "[[1, 0.5, -1]]", "[[1, 0.5, -1], [1, 0.5, -1]]");
   RUN_FINE("mark", scratch_path("in.vtu"), "--valve", scratch_path("v.json"), "--opening", "1");
   /* An output must not replace an input. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Walls of skirts: volume meshes, holes, other axes, and gaps that grow while the valve opens. */
+ * Tests walls of skirts: volume meshes, holes, other axes, and gaps that grow while the valve opens. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,10 +13,10 @@
 
 enum { n_round = 48, n_along = 40 };
 
-/* A tube around an axis parallel to z, in centimetres. A square of it may be missing. */
+/* Writes a tube around an axis parallel to z, in centimetres. The tube may lack a square. */
 typedef struct tube {
   double x, y, radius, growth; /* the radius grows with z */
-  int is_closed, hole;         /* a hole at this layer; -1: none */
+  int is_closed, hole;         /* the layer of a hole, or -1 for no hole */
 } tube;
 
 static void tube_point(const tube *t, int i, int k, double *p) {
@@ -86,7 +86,7 @@ TEST(test_holes) {
     }
 }
 
-/* Writes the closed state of the example's patches as a valve that does not open. */
+/* Writes a valve that cannot open, in the closed state of the example's patches. */
 static void write_closed_state(const char *name) {
   char text[8192];
   FILE *file = fopen(RIIS_EXAMPLES "/prosthesis.json", "r");
@@ -139,7 +139,7 @@ TEST(test_volume_mesh_as_wall) {
   const char *const text = strstr(program_out, "skirt     to the wall, ");
   assert_non_null(text);
   snprintf(line, sizeof line, "%.*s", (int)strcspn(text, "\n"), text);
-  /* The same box as a surface of twelve triangles. */
+  /* Writes this box as a surface of twelve triangles. */
   FILE *file = fopen(scratch_path("box.stl"), "w");
   assert_non_null(file);
   fputs("solid box\n", file);
@@ -159,7 +159,7 @@ TEST(test_volume_mesh_as_wall) {
   skirt_to(scratch_path("box.stl"), "2", "0,0,0");
   expect_run_fine(__FILE__, __LINE__);
   if (!strstr(program_out, line)) fail_msg("%s\n%s", line, program_out);
-  /* A surface that is damaged, and a mesh without volumes, are no walls. */
+  /* A damaged surface and a mesh without volumes are refused as walls. */
   scratch_write_text("few.vtk",
                      "# vtk DataFile Version 3.0\nfew\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 2 double\n"
                      "1 0 0 2 0 0\nCELLS 1 3\n2 0 1\nCELL_TYPES 1\n3\n");
@@ -171,7 +171,7 @@ TEST(test_volume_mesh_as_wall) {
   assert_non_null(strstr(program_err, "none.vtu"));
 }
 
-/* The open state has a smaller root, so the wall is farther from its attachment. */
+/* The open state has a smaller root, so its attachment is farther from the wall. */
 TEST(test_wall_at_all_openings) {
   const tube wall = {0, 0, 1.8, 0, 1, -1};
   char path[256], open_state[256];

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Files are replaced as a whole, or stay as they were, even if a write is interrupted or fails. No input is lost, and nothing
- * is left beside the files. */
+ * The program replaces a file as a whole, or leaves it as it was, even if a write is interrupted or fails. No input is lost, and
+ * no temporary file remains. */
 #ifndef _GNU_SOURCE
 #define _GNU_SOURCE /* for F_SETSIG, F_NOTIFY */
 #endif
@@ -41,7 +41,7 @@ TEST(test_same_file_twice) {
   RUN_REFUSED(2, "is also the file of --output", "mark", mesh, "--output", out, "--stats", out);
   RUN_REFUSED(2, "is also the file of --picture", "mark", mesh, "--picture", "a.png", "--picture", "./a.png");
   RUN_REFUSED(2, "is also the file of --surface-output", "mark", mesh, "--surface-output", "a.vtp", "--stats", "a.vtp");
-  /* The link is another name of the input. */
+  /* The link is a second name of the input. */
   assert_int_equal(symlink("in.vtu", scratch_path("link.vtu")), 0);
   assert_int_equal(link(params, scratch_path("hard.json")), 0);
   RUN_REFUSED(2, "is also the file of MESH", "mark", mesh, "--stats", scratch_path("link.vtu"));
@@ -57,7 +57,7 @@ TEST(test_same_file_twice) {
   free(after);
 }
 
-/* An output that is the input, under any name, is refused. The input keeps its bytes. */
+/* An output that is the input is refused, under any name. The input keeps its bytes. */
 static void expect_kept(const char *name, const char *before) { assert_true(scratch_is_same(name, before)); }
 
 static void copy_file(const char *from, const char *to) {
@@ -90,7 +90,8 @@ TEST(test_in_place) {
   expect_kept("place.vtp", "kept.vtp");
 }
 
-/* Stats replace a file, also if its name is a link. If the name is a device, they are written into the device. */
+/* --stats replaces a file, even if the given name is a link to it. If the name is a device, the numbers are written to the
+ * device. */
 TEST(test_stats_places) {
   scratch_write_text("s.json", "before");
   assert_int_equal(symlink("s.json", scratch_path("s_link.json")), 0);
@@ -106,7 +107,7 @@ TEST(test_stats_places) {
   assert_int_equal(scratch_n_files(), n_files);
 }
 
-/* A motion consists of its .pvd list and the listed frames. Neither an output nor a step of a series may replace one of these
+/* A motion consists of its .pvd list and the listed frames. An output or a step of a series must not replace one of these
  * files. */
 TEST(test_motion_in_place) {
   RUN_FINE("surface", "--valve", "mitral", "--output", scratch_path("a.vtp"), "--quiet");
@@ -135,7 +136,7 @@ TEST(test_motion_in_place) {
               scratch_path("beat.pvd"));
   RUN_REFUSED(2, "is a frame of --surface", "mark", mesh, MOTION, "--times", "0,1", "--series-table",
               scratch_path("beat/other.vtp"));
-  /* The step's name is a link to an input, or an input is a link to a step. */
+  /* Either a step's name is a link to an input, or an input is a link to a step. */
   assert_int_equal(symlink("../beat/other.vtp", scratch_path("out/out_0001.vtp")), 0);
   RUN_REFUSED(2, "holds the file of --surface", "mark", mesh, MOTION, "--times", "0,1", "--surface-output",
               scratch_path("out.pvd"));
@@ -158,7 +159,7 @@ TEST(test_motion_in_place) {
   expect_kept("out/out_0000.vtu", "kept.vtu");
 }
 
-/* Starts a run and waits until it holds its locks. The run then waits for a reader of its stats, which go to a pipe. */
+/* Starts a run and waits until it holds its locks. The run's stats go to a pipe, so it then waits for a reader. */
 static pid_t start_held_run(const char *output) {
   const pid_t process = start_program("mark", scratch_path("in.vtu"), "--output", output, "--stats",
                                       scratch_path("pipe"), "--half-thickness", "0.6", "--quiet", NULL);
@@ -179,8 +180,8 @@ static void expect_locked(const char *mesh, const char *option, const char *outp
   free(text);
 }
 
-/* A second run with the same output is refused, for every option and every name of the file. A run that has ended or was
- * killed does not block other runs. */
+/* A second run with the same output is refused, for every option and every name of the file. Runs that have ended or were killed
+ * do not block later runs with the same output. */
 TEST(test_second_run) {
   char mesh[256], held[256];
   snprintf(mesh, sizeof mesh, "%s", scratch_path("in.vtu"));
@@ -205,7 +206,7 @@ TEST(test_second_run) {
   assert_int_equal(program_exit_code, 128 + SIGINT);
   assert_false(scratch_exists(".riis-held.vtu.lock"));
 }
-/* A new file in the same folder replaces the old one. So the folder must be writable, not only the file. */
+/* The program replaces a file by a new file in its folder. The folder must therefore be writable, not only the file. */
 TEST(test_closed_folder) {
   /* Root may write everywhere, so the child processes must give up root's rights. */
   if (prctl(PR_CAPBSET_DROP, CAP_DAC_OVERRIDE) != 0 && geteuid() == 0) skip();
@@ -226,7 +227,7 @@ TEST(test_closed_folder) {
   expect_text("closed/a.json", "before");
 }
 
-/* If a file may not grow to its full size, the program reports an error and is not killed. */
+/* If a file may not grow to its full size, the program reports an error and ends normally. */
 TEST(test_limited_size) {
   scratch_write_text("limit.vtu", "before");
   scratch_write_text("limit.json", "before");
@@ -242,7 +243,7 @@ TEST(test_limited_size) {
   small.rlim_cur = 200;
   assert_int_equal(setrlimit(RLIMIT_FSIZE, &small), 0);
   run_program("mark", scratch_path("in.vtu"), "--stats", scratch_path("limit.json"), "--quiet", "--half-thickness",
-              "0.5", NULL); /* no edge leaks, because a warning would go to stderr, which has the same limit */
+              "0.5", NULL); /* no edge leaks, because the limit also applies to stderr, which gets the warning */
   setrlimit(RLIMIT_FSIZE, &before);
   expect_run_refused(1, "limit.json: cannot be written: File too large", __FILE__, __LINE__);
   expect_text("limit.vtu", "before");
@@ -264,7 +265,7 @@ static void run_and_interrupt(int signal_number) {
   if (!is_set) skip(); /* a kernel without dnotify */
 }
 
-/* A signal ends the process only after the current file is complete, so --stats is not written. Nothing else is left. */
+/* After a signal, the process first completes the current file. It does not write --stats, and leaves no temporary file. */
 TEST(test_interruption) {
   const int signals[] = {SIGINT, SIGTERM};
   const int n_files = scratch_n_files();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Flat ends of walls. The oracle is what the generator cut: random numbers of vessels, directions, leans, waves, units, caps and
-// turned triangles. Walls that have no ends, or faults, are refused with the reason and the cure.
+// Flat ends of walls. The oracle is the generator, which knows what it cut. Numbers of vessels, directions, leans, waves, units,
+// caps and reversed triangles are random. A wall without ends or with faults is refused with the reason and the cure.
 #include <unistd.h>
 
 #include <algorithm>
@@ -69,7 +69,7 @@ double volume_of(const PatientWall &wall) {
   return volume;
 }
 
-// Each side of a triangle has exactly one neighbour, which runs the other way.
+// At each side, a triangle has exactly one neighbour, which runs along the side in the other direction.
 void expect_closed(const PatientWall &wall) {
   std::map<std::pair<std::int64_t, std::int64_t>, int> sides;
   for (std::size_t i = 0; i < wall.corners.size(); ++i)
@@ -126,7 +126,7 @@ void random_vessels(random_source &random) {
     const auto cap = static_cast<Cap>(random_bits(&random) % 3);
     const double waves = trial % 3 == 0 ? 0 : random_between(&random, 0, 0.06);
     const CutVessels vessels = draw_vessels(random, n_ends, waves, cap);
-    // A vessel of about 12 mm in a scanner whose origin is up to a metre away, in metres, centimetres or millimetres.
+    // A vessel of about 12 mm, in metres, centimetres or millimetres. The scanner's origin is up to a metre away.
     constexpr double units[3] = {1e-3, 0.1, 1};
     const double unit = units[random_bits(&random) % 3];
     const Placement placement = draw_placement(random, 12 * unit, random_between(&random, 0, 1100) * unit);
@@ -153,7 +153,8 @@ void random_vessels(random_source &random) {
       n_open += cap == Cap::open;
       n_some += turned == Turned::some;
       n_five += n_ends == 5;
-      // A valve in the first vessel: blood comes from its end. With the flow turned, it comes from another end.
+      // A valve stands in the first vessel, and blood comes from this vessel's end. If the flow is reversed, blood comes from
+      // another end.
       for (const double way : {-1.0, 1.0}) {
         PatientWall named = wall;
         name_ends(named, placement.of(vessels.axes[0]), placement.turned(way * vessels.axes[0]));
@@ -173,8 +174,8 @@ void random_vessels(random_source &random) {
          "open ends, turned triangles and five ends were met");
 }
 
-// A tube of radius 1 along z, from 0 to `length`, with triangles outwards. Its ends lean by an angle whose tangent is `lean`.
-// The caps are fans around the last two vertices.
+// A tube of radius 1 along z, from 0 to `length`, with triangles outwards. The ends lean by an angle with the tangent `lean`. The
+// caps are fans around the last two vertices.
 Triangles tube(int n_around, int n_rings, double length, double lean = 0) {
   Triangles made;
   for (int j = 0; j <= n_rings; ++j)
@@ -291,7 +292,7 @@ void faults(random_source &random) {
   expect(n_ends() == 2, "a triangle in the file twice is counted once");
   expect_text(read_patient_wall(file()).remarks[0], {"1 triangle is in the file twice, and counted once"});
 
-  // A strip with half a turn. It is widened so that it is not an island.
+  // A strip with half a twist. The strip is widened, because a narrow strip would be ignored as an island.
   bad = Triangles();
   for (int i = 0; i < 40; ++i)
     for (const double side : {-0.4, 0.4}) {
@@ -307,7 +308,7 @@ void faults(random_source &random) {
   write(bad, random);
   expect_refused({"the surface has one side only, like a Moebius strip"});
 
-  // Vertices that rounding parted, and a triangle without an area in a joint.
+  // The file has vertices that rounding separated, and a triangle without area in a joint.
   bad = whole;
   bad.points.push_back(bad.points[500] + Vector3{2e-6, 0, 0});
   bad.corners[1000][0] =
@@ -335,7 +336,7 @@ void unclear_ends(random_source &random) {
     write(ball(n), random, Turned::none, draw_placement(random, 10, 100));
     expect_refused({"no flat end is clear, but blood needs two"});
   }
-  // Each side of a box may be an end, so two are asked for.
+  // Each side of a box could be an end, so the user must name two.
   write(box(6, {1, 1.2, 3}), random);
   expect_refused({"no flat end is clear, but blood needs two", "choose flat parts by --inlet=X,Y,Z --outlet=X,Y,Z",
                   "flat parts are ", "with area 3.6 of 72 triangles"});
@@ -363,7 +364,7 @@ void unclear_ends(random_source &random) {
   expect_refused({"--outlet=0.000,1.000,3.000: no flat part of " + file() + " is there; flat parts are "},
                  {Vector3{0, 0, 0}, {Vector3{0, 1, 3}}});
 
-  // The wall of a vessel with its thickness: two faces that flat rings join.
+  // A vessel's wall with its thickness has two faces, which flat rings join.
   Triangles thick = tube(40, 30, 6), inner = tube(40, 30, 6);
   thick.corners.resize(thick.corners.size() - 80);
   inner.corners.resize(inner.corners.size() - 80);
@@ -382,8 +383,8 @@ void unclear_ends(random_source &random) {
   expect_refused({"a flat ring shows that this is a wall with its thickness, so export the surface of the blood"});
 }
 
-// A flat place on a bulge of the wall meets the wall at an angle that grows with its size. Below 30 degrees it is wall, above 55
-// an end. Between them it is an end only if the user says so.
+// The wall bulges and has a flat place. This place meets the wall at an angle that grows with its size. Below 30 degrees the
+// place belongs to the wall, and above 55 degrees it is an end. Between these angles it is an end only if the user says so.
 void flat_places(random_source &random) {
   const auto bulge = [](const Vector3 &x) {
     return std::min(std::hypot(x[1], x[2]) - 1, norm(x - Vector3{0, 0, 1}) - 1.7);

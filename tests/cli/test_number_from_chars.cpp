@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The reader of numbers for macOS gives what this system's std::from_chars gives, for texts of numbers and for broken texts.
+// Compares the reader of numbers for macOS with this system's std::from_chars. Both readers must give equal results for texts of
+// numbers and for broken texts.
 #include <charconv>
 #include <cinttypes>
 #include <cstdio>
@@ -29,7 +30,7 @@ bool is_read_alike(const std::string &text) {
 }
 
 std::string random_text(random_source *random) {
-  // Parts in the order of a number. A broken text has any parts in any order.
+  // The parts of a number, in their order. A broken text has any parts in any order.
   static const std::vector<std::vector<std::string>> parts = {
       {"", "-", "+", " "},
       {"", "0", "7", "00120", "3141592653589793238462643", "0x1p3"},

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""test_openfoam_case.py WRITER: the case of OpenFOAM that riis patient writes: its dictionaries, its refusals, and its scripts.
+"""test_openfoam_case.py WRITER: tests the case of OpenFOAM that riis patient writes. The test checks the dictionaries, the
+refusals and the scripts.
 
-WRITER is write_solver_case. Stand-ins for OpenFOAM's programs run Allrun, so the test needs no OpenFOAM. If foamDictionary is
-installed, OpenFOAM's own parser reads the dictionaries also.
+WRITER is write_solver_case. Allrun runs stand-ins for OpenFOAM's programs, so the test does not need OpenFOAM. If foamDictionary
+is installed, OpenFOAM's parser also reads the dictionaries.
 """
 import json
 import math
@@ -23,7 +24,7 @@ TOOLS = "awk bash cat dirname env find grep mkdir readlink rm sed seq sh sort ta
 
 
 def parsed(text):
-    """Returns the entries of a dictionary of OpenFOAM: a dictionary or the words of an entry by each name."""
+    """Returns the entries of a dictionary of OpenFOAM by their names. An entry is a dictionary or a list of words."""
     text = re.sub(r"//[^\n]*", "", text)
     tokens = re.findall(r'"[^"]*"|[{}();]|[^\s{}();"]+', text)
 
@@ -61,7 +62,7 @@ class OpenfoamCase(unittest.TestCase):
         self.folder = pathlib.Path(folder.name)
 
     def write(self, status=0, placed=None, **changes):
-        """Writes a case, and returns its folder and what the writer said."""
+        """Writes a case. Returns the folder of the case, and the output of the writer."""
         root = {"valve": "coapting", "unit": "mm", "axes": "LPS", "rotate": [0, 0.6, 0.8, 30], "translate": [10, -20, 1000],
                 "parameters": {"root_radius": 1.31, "cusp_0.sector": 130, "cusp_1.sector": 115, "cusp_2.sector": 115},
                 "warp": {"sources": [[10, -8, 1000], [22, -20, 1000], [10, -32, 1004], [0, -20, 1010]],
@@ -113,13 +114,14 @@ class OpenfoamCase(unittest.TestCase):
         law = valve["opening"]
         self.assertEqual((law["law"], law["flowPatch"], law["forward"]), (["switch"], ["inlet"], ["in"]))
         self.assertGreater(numbers(law["openAbove"])[0], 0)
-        # A motion ends before the next may begin.
+        # A motion ends before the next motion may begin.
         self.assertGreaterEqual(numbers(law["dwellSeconds"])[0],
                                 max(numbers(law[name])[0] for name in ("openingSeconds", "closingSeconds")))
         self.assertEqual(numbers(law["upstream"]["centre"]), [0.01, -0.02, 0.985])
         patches = self.dictionary(case, "0/p")["boundaryField"]
         table = numbers(patches["inlet"]["p0"])
-        # The ventricle exceeds the pressure of the arteries, and returns to its first pressure, so beats can follow each other.
+        # The ventricle's pressure rises above that of the arteries, and returns to its first value. Beats can therefore follow
+        # each other.
         highest = max(table[1::2]) * RHO / MMHG
         self.assertTrue(110 < highest < 130, highest)
         self.assertEqual((table[0], table[-2], table[1]), (0, 0.8, table[-1]))
@@ -160,7 +162,7 @@ class OpenfoamCase(unittest.TestCase):
                              placed={"valve": "mitral", "parameters": {"skirt_length": 0.3}})
         valve = self.dictionary(case, "system/fvOptions")["mitral_valve"]
         self.assertEqual(valve["valve"], {"kind": ["mitral"], "skirt_length": ["0.3"]})
-        self.assertNotIn("skirt", valve)  # the valve keeps its own
+        self.assertNotIn("skirt", valve)  # the valve keeps its own value
         self.assertGreater(numbers(valve["opening"]["closeBelow"])[0], 0)
         patches = self.dictionary(case, "0/p")["boundaryField"]
         self.assertEqual(patches["inlet"]["p0"][0], "constant")
@@ -184,7 +186,7 @@ class OpenfoamCase(unittest.TestCase):
     # ---- Allrun and report.py ----
 
     def tools(self, *names):
-        """Makes a folder for PATH with tools of the system and stand-ins for the named programs of OpenFOAM."""
+        """Makes a folder for PATH. The folder has tools of the system, and stand-ins for the named programs of OpenFOAM."""
         folder = self.folder / "bin"
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir()
@@ -254,8 +256,8 @@ class OpenfoamCase(unittest.TestCase):
         self.assertIn("40000 cells, 800 steps of 0.001 s from 0 s to 0.8 s, on 1 process", done.stdout)
         self.assertIn("this takes about 3 minutes", done.stdout)  # 5e-6 s of 40,000 cells and 800 steps are 160 s
         self.assertIn("type wall;", (case / "constant/polyMesh/boundary").read_text(encoding="utf-8").split("wall\n")[1])
-        # The stand-in's beat: 100 ml/s for 0.2 s, then 10 ml/s back for 0.1 s, and at 90 mmHg for 0.5 s a leak of
-        # 1.01 times the forecast of 1.5 ml/s.
+        # The stand-in's beat has 100 ml/s for 0.2 s, then 10 ml/s back for 0.1 s. At 90 mmHg for 0.5 s, it has a leak of 1.01
+        # times the forecast of 1.5 ml/s.
         self.assertIn("the valve opens from 0.100 to 0.101 s\nthe valve closes from 0.400 to 0.401 s\n", done.stdout)
         for text in ("forward volume .* 20 ml +met", "backward volume .* 1.757 ml +met: below 12 %, 8.8",
                      "largest flow .* 100 ml/s", "mean gradient.* 5 mmHg", "leak at 90 mmHg",
@@ -290,7 +292,7 @@ class OpenfoamCase(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.assertIn("400 steps of 0.001 s from 0.4 s to 0.8 s", done.stdout)
         self.assertRegex(done.stdout, "forward volume .* 20 ml")
-        # A run that was cut off before it wrote a time begins there again, and its tables get another name.
+        # If a run was cut off before it wrote a time, the next run begins at the start. The old tables get another name.
         for table in list((case / "postProcessing").glob("*/0/*.dat")):
             table.rename(table.with_name(f"{table.stem}_0.dat"))
             table.write_text("", encoding="utf-8")
@@ -300,7 +302,7 @@ class OpenfoamCase(unittest.TestCase):
 
 
 def stand_in_beat():
-    """Writes the tables of a beat and a log as pimpleFoam with the plug-in does, from the last written time on."""
+    """Writes the tables of a beat and a log as pimpleFoam with the plug-in does. The tables begin at the last written time."""
     fault = os.environ.get("FAULT", "")
     start = max([float(path.name) for path in pathlib.Path().glob("0.*") if path.is_dir()] + [0])
     end = float(os.environ.get("CUT_AT", "0.8"))

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """test_patient.py PROGRAM MAKE_PATIENT.py: runs riis patient on small patients.
 
-They are a root of make_patient.py with few triangles, and a ventricle. Checks the results by other commands and by units and axes
-that must not matter, and each refusal by its status and text. Only one run draws pictures, and its mesh is the wall of another
-run. RIIS_TEST_LONG also runs random roots.
+The patients are a root of make_patient.py with few triangles, and a ventricle. Other commands check the results. Units and axes
+must not change the results. Each refusal is checked by its status and text. Only one run draws pictures, and its mesh is the wall
+of another run. RIIS_TEST_LONG also runs random roots.
 """
 import importlib.util
 import json
@@ -27,7 +27,7 @@ COARSE = ["--half-thickness", "1.6 mm", "--largest-edge", "5 mm"]  # cheap meshe
 
 
 def write_stl(path, triangles, factor=1.0, sign=1.0):
-    """Writes triangles in another unit, and with x and y reversed as between LPS and RAS if the sign is -1."""
+    """Writes triangles in another unit. If the sign is -1, reverses x and y, as between LPS and RAS."""
     with open(path, "wb") as file:
         file.write(b"wall".ljust(80) + struct.pack("<I", len(triangles)))
         for triangle in triangles:
@@ -36,7 +36,7 @@ def write_stl(path, triangles, factor=1.0, sign=1.0):
 
 
 def write_landmarks(path, points, factor=1.0, sign=1.0, unit="mm", axes="LPS", **more):
-    """Writes landmarks by name, given in mm and LPS."""
+    """Writes landmarks by name. The landmarks' coordinates are given in mm and LPS."""
     def turned(point):
         return [sign * factor * point[0], sign * factor * point[1], factor * point[2]]
     text = {"unit": unit, "axes": axes, **more, "landmarks": {
@@ -49,8 +49,8 @@ def volume_of(triangles):
 
 
 class Ventricle:
-    """A ventricle in mm: an ellipsoid with a tube to the atrium and a tube to the aorta, made by VTK. Both tubes are cut
-    flat. The mitral annulus is a saddle on the wall of the first tube. The module vtk must be there."""
+    """Makes a ventricle in mm by VTK: an ellipsoid with a tube to the atrium and a tube to the aorta. Both tubes are cut flat.
+    The mitral annulus is a saddle on the wall of the first tube. The module vtk must be installed."""
 
     CENTRE = (31.0, -142.0, 87.0)
     ENDS = [((0, 0, 16), (0, -0.3, 0.95)), ((0, 48, 14.7), (0, 0.62, 0.78))]  # a point of each plane, and its normal
@@ -133,13 +133,13 @@ class Patient(unittest.TestCase):
     def setUpClass(cls):
         cls.shared = pathlib.Path(tempfile.mkdtemp())
         cls.addClassCleanup(shutil.rmtree, cls.shared)
-        # A shorter root with fewer triangles than that of docs/patient.md.
+        # This root is shorter than that of docs/patient.md, and has fewer triangles.
         PATIENT.N_ANGLES, PATIENT.SPACING, PATIENT.N_RINGS, PATIENT.TOP = 72, 1.2, 5, 45.0
         cls.root = PATIENT.Root()
         rng = random.Random(1)
         cls.triangles = list(PATIENT.wall_triangles(cls.root, PATIENT.waves(rng)))
         cls.landmarks = {name: [x + rng.gauss(0, 0.3) for x in place] for name, place in cls.root.landmarks(0)}
-        # A PATH without the programs for pictures and movies, which take half of a run's time.
+        # This PATH lacks the programs for pictures and movies, which take half of a run's time.
         cls.undrawn = {"PATH": str(cls.shared / "bin"), "DISPLAY": ""}
         (cls.shared / "bin").mkdir()
         for program in "gmsh", "timeout":
@@ -147,7 +147,8 @@ class Patient(unittest.TestCase):
 
     @classmethod
     def root_case(cls):
-        """Returns the folder of a complete run in mm, its report, and the finished process. The run is made once."""
+        """Makes a complete run in mm once. Returns the run's folder, its report and the finished process. The run is made
+        once."""
         case = cls.shared / "root"
         if not case.exists():
             write_stl(cls.shared / "root.stl", cls.triangles)
@@ -176,14 +177,15 @@ class Patient(unittest.TestCase):
         return self.run_riis("patient", wall, landmarks, "--output", output, *words, **environment)
 
     def made(self, *words, output="case", **more):
-        """Runs the command, which must succeed. Draws nothing. Returns the report and the process."""
+        """Runs the command without pictures. It must succeed. Returns the report and the process."""
         done = self.patient(*words, output=output, **{**self.undrawn, **more})
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.assertFalse((self.folder / output / "UNFINISHED.txt").exists())
         return json.loads((self.folder / output / "patient.json").read_text(encoding="utf-8")), done
 
     def refused(self, status, text, *words, output="case", **more):
-        """Runs the command, which must fail with one line on stderr that has the text, and leave nothing that looks finished."""
+        """Runs the command, which must fail. The command must print one line on stderr with the text, and leave no folder that
+        looks finished."""
         done = self.patient(*words, output=output, **more)
         self.assertEqual(done.returncode, status, done.stdout + done.stderr)
         self.assertRegex(done.stderr, text)
@@ -192,7 +194,7 @@ class Patient(unittest.TestCase):
         return done
 
     def test_root(self):
-        """A root in mm: the report agrees with what other commands find in the folder."""
+        """Makes a run of a root in mm. The report agrees with the results of other commands in the folder."""
         case, report, done = self.root_case()
         self.assertFalse((case / "UNFINISHED.txt").exists())
         self.assertEqual((report["valve"], report["unit"], report["wall"]["axes"]), ("coapting", "mm", "LPS"))
@@ -202,7 +204,7 @@ class Patient(unittest.TestCase):
         below = {b["name"]: b["centre"] for b in report["boundaries"]}
         for name, z in ("inlet", PATIENT.BOTTOM), ("outlet", PATIENT.TOP):
             self.assertLess(math.dist(below[name], self.root.placed(0, 0, z)), 1.0, name)
-        # The points before and after the valve are on its sides, and their balls are in the blood.
+        # The points before and after the valve lie on the right sides, and the balls around them lie in the blood.
         height = {name: sum((x - c) * e for x, c, e in zip(report[name], self.root.centre, self.root.e3))
                   for name in ("upstream", "downstream")}
         self.assertLess(height["upstream"], -report["ball_radius"])
@@ -219,20 +221,20 @@ class Patient(unittest.TestCase):
             self.assertTrue((case / name).is_file(), name)
         for name, program in ("closed.png", "Xvfb"), ("open.png", "Xvfb"), ("beat.mp4", "ffmpeg"):
             self.assertTrue((case / name).is_file() or not shutil.which(program), name)
-        # The printed commands run again, as they stand, in the folder.
+        # The printed commands run again in the folder without changes.
         printed = re.findall(r"^  \$ (riis (?:place|size-field) .*)$", done.stdout, re.MULTILINE)
         self.assertEqual(len(printed), 2, done.stdout)
         before = {name: (case / name).read_bytes() for name in ("placed.json", "valve.dat")}
         for command in printed:
             subprocess.run([PROGRAM, *shlex.split(command)[1:]], cwd=case, check=True, capture_output=True)
         self.assertEqual(before, {name: (case / name).read_bytes() for name in before})
-        # The folder is taken again only on request.
+        # The folder is used again only on request.
         again = self.run_riis("patient", self.shared / "root.stl", self.shared / "landmarks.json", "--output", case)
         self.assertRegex(again.stderr, "--output: .*root: the folder has the results of an earlier run: .* --replace")
 
     def test_units_and_axes(self):
-        """Wall and landmarks in any unit and axes give the same valve and about the same mesh. So do triangles that face inwards,
-        and without the programs that draw only pictures are missing."""
+        """Wall and landmarks in any unit and axes give the same valve and about the same mesh. A wall whose triangles face
+        inwards also gives them. Missing programs for pictures change nothing."""
         def measures_of(report):
             mm = {"mm": 1, "cm": 10, "m": 1000}[report["unit"]]
             return report["n_nodes"], report["effective_area_cm2"], report["gap"]["most"] * mm, report["fit"]["rms"] * mm
@@ -263,7 +265,7 @@ class Patient(unittest.TestCase):
                 self.assertAlmostEqual(a, b, delta=1e-3 * abs(a), msg=name)
 
     def leaking_gmsh(self, n):
-        """Returns a PATH with a gmsh whose first n volumes have edges that are three times as long."""
+        """Returns a PATH with a changed gmsh. The first n volume meshes of this gmsh have edges that are three times as long."""
         tools = self.folder / f"bin{n}"
         tools.mkdir()
         (tools / "timeout").symlink_to(shutil.which("timeout"))
@@ -279,8 +281,8 @@ exec '{shutil.which("gmsh")}' "$@" $longer
         return {"PATH": str(tools)}
 
     def test_volume_mesh_again(self):
-        """A volume mesh is the wall. A run is killed while gmsh works, both meshes of the next run leak, and the last run makes a
-        second mesh, which does not leak."""
+        """A volume mesh serves as the wall. One run is killed while gmsh works. In the next run both meshes leak. The last run
+        makes a second mesh, which does not leak."""
         self.files()
         wall, first, _ = self.root_case()
         command = [PROGRAM, "patient", wall / "mesh.vtu", "landmarks.json", "--output", "case", *COARSE]
@@ -300,13 +302,13 @@ exec '{shutil.which("gmsh")}' "$@" $longer
                             *COARSE, wall=wall / "mesh.vtu", **self.leaking_gmsh(2))
         self.assertRegex(done.stdout, r"leaks? at 11 openings: the mesh is made once more, with edges of 0.855 half thicknesses")
 
-        # The gap of a sick valve takes seconds to measure, in each command.
+        # Each command needs seconds to measure the gap of a sick valve.
         sick = ["--valve", "aortic_regurgitation_severe"] if os.environ.get("RIIS_TEST_LONG") == "1" else []
         report, done = self.made(*COARSE, *sick, wall=wall / "mesh.vtu", **self.leaking_gmsh(1))
         self.assertRegex(done.stdout, r"leaks? at 11 openings: the mesh is made once more, with edges of 0.855 half thicknesses")
         self.assertEqual((report["n_leaking_edges"], report["open"]), (0, "open"))
         self.assertAlmostEqual(report["band_edge"], 0.9 * first["band_edge"])
-        # Pressures are read at the same places in both meshes, within an edge.
+        # In both meshes, pressures are read at the same places, up to an edge length.
         for name in "upstream", "downstream":
             self.assertLess(math.dist(report[name], first[name]), report["band_edge"] * report["half_thickness"], name)
         self.assertEqual(done.stdout.count("--band-edge 0.855"), 2, done.stdout)  # of riis size-field, and in the last lines
@@ -314,7 +316,7 @@ exec '{shutil.which("gmsh")}' "$@" $longer
         if sick:
             self.assertEqual(report["disease"], "aortic_regurgitation_severe")
             self.assertIn("because the band closes the gap of aortic_regurgitation_severe", done.stdout)
-        # The ends of the volume mesh are found again.
+        # The program finds the ends of the volume mesh again.
         before, after = ({b["name"]: b for b in one["boundaries"]} for one in (first, report))
         self.assertEqual(sorted(before), sorted(after))
         for name, boundary in after.items():
@@ -322,8 +324,8 @@ exec '{shutil.which("gmsh")}' "$@" $longer
             self.assertAlmostEqual(boundary["area"] / before[name]["area"], 1, delta=0.03, msg=name)
 
     def test_folds(self):
-        """If the warp folds, the message names one cure, and riis place confirms it. The sizes of a valve may also make it fold,
-        which no warp cures."""
+        """If the warp folds, the message names one cure, and riis place confirms it. Sizes of a valve may also make it fold, and
+        no change of the warp cures this."""
         self.files()
         places = dict(self.root.landmarks(3))
         aside = PATIENT.unit(PATIENT.cross(self.root.e3, [x - c for x, c in zip(places["nadir_left"], self.root.centre)]))
@@ -363,7 +365,7 @@ exec '{shutil.which("gmsh")}' "$@" $longer
         centre = {b["name"]: b["centre"] for b in report["boundaries"]}
         atrium = [1e-3 * x for x in ventricle.placed((0, 0, 16))]
         self.assertLess(math.dist(centre["inlet"], atrium), math.dist(centre["outlet"], atrium))
-        # The places of pressures are on the axis of the valve, and do not depend on the mesh.
+        # The places where pressures are read lie on the valve's axis, and do not depend on the mesh.
         for name, sign in ("upstream", -1), ("downstream", 1):
             away = [x - c for x, c in zip(report[name], report["centre"])]
             along = sum(x * f for x, f in zip(away, report["flow"]))
@@ -377,7 +379,7 @@ exec '{shutil.which("gmsh")}' "$@" $longer
                 self.assertLess(math.dist(report[name], finer[name]), 2e-5, name)
 
     def test_wrong_end(self):
-        """An end on the wrong side of the valve."""
+        """The only end is on the wrong side of the valve."""
         self.files()
         inlet = ",".join(map(str, self.root.placed(0, 0, PATIENT.TOP)))
         self.refused(1, "the end inlet at .* is after the valve: write --inlet X,Y,Z", *COARSE, "--inlet", inlet)
@@ -394,7 +396,7 @@ exec '{shutil.which("gmsh")}' "$@" $longer
         self.refused(2, "--valve: the aortic valve does not close: write --valve coapting", "--valve", "aortic")
         self.refused(2, "--valve: riis patient takes .* not bileaflet", "--valve", "bileaflet")
         self.assertIn("--output is required", self.run_riis("patient", "root.stl", "landmarks.json").stderr)
-        # Landmarks say their unit and axes themselves.
+        # A file of landmarks may state its unit and axes.
         text = json.loads((self.folder / "landmarks.json").read_text(encoding="utf-8"))
         for key, message in ("unit", "unit: it is missing; it must be m, cm or mm"), ("axes", "they must be LPS, RAS or mesh"):
             less = {name: value for name, value in text.items() if name != key}
@@ -410,7 +412,7 @@ exec '{shutil.which("gmsh")}' "$@" $longer
         self.assertEqual((case / "notes.txt").read_text(encoding="utf-8"), "mine")
         self.refused(1, "--output: no/case: cannot be made", output="no/case")
         self.refused(1, "--output: root.stl: is a file, not a folder", output="root.stl")
-        # A folder of a run that was cut off is taken again. What it would remove may not be read.
+        # The program uses the folder of a run that was cut off again. Files that the program would remove there cannot be inputs.
         (case / "UNFINISHED.txt").write_text("", encoding="utf-8")
         shutil.copy(self.folder / "root.stl", case / "wall.stl")
         self.refused(1, "its wall.stl is also read, and would be removed: copy it elsewhere", wall="case/wall.stl")
@@ -429,7 +431,7 @@ exec '{shutil.which("gmsh")}' "$@" $longer
                      "other units and axes.* same patient", wall="far.stl", output="none")
         self.refused(1, "they are .* mm from it with --wall-unit mm", "--wall-unit", "m", output="none")
         self.refused(1, "they are .* mm from it with --axes LPS", "--axes", "RAS", output="none")
-        # A wide vessel: the landmarks are near the wall on average, but the wall is not within the skirt.
+        # In a wide vessel, the landmarks are near the wall on average, but the skirt does not reach the wall.
         wide = PATIENT.Root()
         wide.annulus, wide.junction, wide.aorta_radius = (17.0, 16.0, 30.0), (17.0, 21.0), 18.0
         write_stl(here / "wide.stl", list(PATIENT.wall_triangles(wide, lambda degrees, z: 0.0)))
@@ -440,7 +442,7 @@ exec '{shutil.which("gmsh")}' "$@" $longer
         self.assertTrue((here / "none" / "UNFINISHED.txt").exists())
 
     def test_unclear_axes(self):
-        """A wall around the axis z fits in LPS and in RAS."""
+        """A wall around the axis z fits both in LPS and in RAS."""
         tube = [tuple((12.5 * math.cos(t), 12.5 * math.sin(t), z) for t, z in corners)
                 for i in range(48) for z0 in range(-15, 45, 3)
                 for a, b in [(2 * math.pi * i / 48, 2 * math.pi * (i + 1) / 48)]
@@ -462,7 +464,7 @@ exec '{shutil.which("gmsh")}' "$@" $longer
         self.assertFalse((self.folder / "case").exists())
 
     def test_full_disc(self):
-        """Files may have no more than 300 kB."""
+        """Limits the size of files to 300 kB."""
         self.files()
 
         def limit():
@@ -473,7 +475,7 @@ exec '{shutil.which("gmsh")}' "$@" $longer
         self.assertRegex(done.stderr, "cannot be written|File too large")
         self.assertTrue((self.folder / "case" / "UNFINISHED.txt").exists())
         self.assertFalse((self.folder / "case" / "patient.json").exists())
-        # The first file that the run writes is on a full disc.
+        # The disc is full when the run writes its first file.
         (self.folder / "full").mkdir()
         (self.folder / "full" / "UNFINISHED.txt").symlink_to("/dev/full")
         self.refused(1, "UNFINISHED.txt: cannot be written: .*The disc is full: free some space, .* by --output", output="full")

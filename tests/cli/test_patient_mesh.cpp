@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Meshes with named boundaries, by gmsh, in random vessels whose cut ends are known. The test reads the files itself. Each face
-// that has only one tetrahedron must be in exactly one boundary. Programs that stand for gmsh fail in several ways.
+// gmsh makes meshes with named boundaries in random vessels whose cut ends are known. The test reads the files itself. If a face
+// has only one tetrahedron, it must be in exactly one boundary. Programs that stand for gmsh fail in several ways.
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -46,7 +46,7 @@ std::string text_in(const std::string &path) {
 
 void write_text_file(const std::string &path, const std::string &text) { std::ofstream(path) << text; }
 
-// A size field with one edge length near the middle of a box, and three times that length at its corners.
+// A size field has one edge length near the middle of a box, and three times this length at the corners.
 void write_field(const std::string &path, const Vector3 &middle, double side, double edge) {
   std::ostringstream text;
   for (const double x : middle) text << x - side / 2 << " ";
@@ -190,7 +190,7 @@ void expect_files(const std::string &folder, const PatientMesh &mesh, double uni
   }
 }
 
-// Makes meshes in random vessels with the gmsh of PATH.
+// Makes meshes in random vessels by the gmsh in PATH.
 void random_meshes(random_source &random, const std::string &folder) {
   const int n = trials(2, 30);
   for (int trial = 0; trial < n; ++trial) {
@@ -228,7 +228,7 @@ void random_meshes(random_source &random, const std::string &folder) {
         expect((boundary.name == "inlet") == (&end == &vessels.ends[0]), "the inlet is upstream");
       }
       expect_files(folder, mesh, unit);
-      // The boundary of a volume mesh is a wall again.
+      // The boundary of a volume mesh can serve as a wall.
       const PatientWall again = read_patient_wall(folder + "/mesh.vtu");
       expect(again.ends.size() == wall.ends.size(), "the mesh has the ends of the wall");
       expect_near(again.volume / mesh.volume, 1, 1e-9, "volume within the boundary of the mesh");
@@ -256,7 +256,7 @@ void failing_programs(random_source &random, const std::string &folder) {
   name_ends(wall, vessels.axes[0], -1 * vessels.axes[0]);
   const PatientMeshOptions options{folder, folder + "/sizes.dat", 1, [](const std::string &) {}, 0};
   const auto mesh = [&] { mesh_patient(wall, options); };
-  // The log is the argument after -log, and the mesh the one after -o.
+  // The argument after -log is the log, and the argument after -o is the mesh.
   const std::string words = "while [ $# -gt 0 ]; do case $1 in -log) log=$2;; -o) mesh=$2;; esac; shift; done; ";
   stand_for_gmsh(
       folder,
@@ -274,7 +274,7 @@ void failing_programs(random_source &random, const std::string &folder) {
   hasty.surface_seconds = 1;
   expect_refused({"gmsh did not end within 1 seconds (" + folder + "/gmsh/surface.log)"},
                  [&] { mesh_patient(wall, hasty); });
-  // A second try has other nodes.
+  // The mesh of a second try has other nodes.
   stand_for_gmsh(folder, "mkdir '" + folder + "/first' && cp '" + folder + "/gmsh/wall.msh' '" + folder +
                              "/first' && exec sleep 1000\ncmp -s '" + folder + "/first/wall.msh' '" + folder +
                              "/gmsh/wall.msh' || echo 'other nodes' >&2\nexit 1");
@@ -284,7 +284,7 @@ void failing_programs(random_source &random, const std::string &folder) {
   stand_for_gmsh(folder,
                  words + "printf '$MeshFormat\\n2.2 0 8\\n$EndMeshFormat\\n$Nodes\\n2\\n1 0 0 0\\n2 1' > \"$mesh\"");
   expect_refused({folder + "/gmsh/surface.msh: ", "the file is not whole"}, mesh);
-  // A wall that goes through itself: a point near the first end is moved through the wall beyond.
+  // A wall goes through itself, because a point near the first end was moved through the wall behind it.
   PatientWall crossed = wall;
   const Vector3 axis = unit_vector(vessels.axes[0]), other = cross(axis, Vector3{axis[1], axis[2], axis[0]});
   for (std::size_t i = 0; i < crossed.xyz.size(); i += 3) {
@@ -297,7 +297,7 @@ void failing_programs(random_source &random, const std::string &folder) {
     stand_for_gmsh(folder, "exit 0");
     mesh_patient(crossed, options);
   });
-  // A surface with a hole, as gmsh makes it from overlapping triangles.
+  // A surface has a hole, like those that gmsh makes from overlapping triangles.
   stand_for_gmsh(folder,
                  words +
                      "printf '$MeshFormat\\n2.2 0 8\\n$EndMeshFormat\\n$Nodes\\n3\\n1 0 0 0\\n2 1 0 0\\n3 0 1 0\\n"

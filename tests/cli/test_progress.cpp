@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Progress in a log: a long stage prints whole lines, one after each silence, and a short or quiet one prints nothing.
+// Tests progress in a log. After each silence, a long stage prints one whole line. A short or quiet stage prints nothing.
 #include <unistd.h>
 
 #include <chrono>
@@ -64,7 +64,7 @@ int main() {
   long n_lines = 0;
   for (std::size_t begin = 0, end = 0; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1, ++n_lines)
     expect(text.compare(begin, 20, "riis: writing: step ") == 0, "each line begins with the stage");
-  // 50 steps take half a second or more. A busy machine gives more lines, because the steps take longer.
+  // The 50 steps take at least half a second. On a busy machine, steps take longer and give more lines.
   expect(n_lines >= 2 && n_lines <= 49, "there are some lines, not one a step");
   expect(!text.empty() && text.back() == '\n' && text.find('\r') == std::string::npos, "the lines are whole");
   expect(steps(5, milliseconds(10), false, long_silence).empty(), "a short stage of steps is silent");

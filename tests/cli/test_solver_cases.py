@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""test_solver_cases.py WRITE_SOLVER_CASE TEXTS: reads the folders of solvers back, and runs stand-ins of the solvers."""
+"""test_solver_cases.py WRITE_SOLVER_CASE TEXTS: reads the folders of solvers again, and runs stand-ins for the solvers."""
 import base64
 import importlib.util
 import json
@@ -21,7 +21,7 @@ WRITE, TEXTS = "", pathlib.Path()
 MMHG = 133.322
 LAST_Z = 3.0
 
-# The names that Parameters.cpp of svMultiPhysics b5fbed0 knows in each element, as far as a fluid and a valve have them.
+# The names that Parameters.cpp of svMultiPhysics b5fbed0 accepts in each element. Only names for a fluid and a valve are listed.
 KNOWN = {
     "svMultiPhysicsFile": "GeneralSimulationParameters Add_mesh Add_URIS_mesh Add_equation",
     "GeneralSimulationParameters":
@@ -118,7 +118,7 @@ class Cases(unittest.TestCase):
     def write(self, solver, numbers, status=0):
         path = self.folder / "case.json"
         path.write_text(json.dumps(numbers), encoding="ascii")
-        # The forecast of the drop would take seconds. It needs a Python, which this name is not.
+        # The forecast of the drop would take seconds. RIIS_PYTHON names no Python, so there is no forecast.
         done = subprocess.run([WRITE, solver, path], capture_output=True, text=True, check=False, timeout=300,
                               env={**os.environ, "RIIS_PYTHON": "/no/python"})
         self.assertEqual(done.returncode, status, done.stdout + done.stderr)
@@ -131,7 +131,7 @@ class Cases(unittest.TestCase):
     # ---- svMultiPhysics ----
 
     def read(self, numbers):
-        """Returns the parsed solver.xml, after a check of its names and files."""
+        """Checks the names and files in solver.xml. Returns the parsed file."""
         folder = pathlib.Path(numbers["solver"])
         tree = xml.parse(folder / "solver.xml").getroot()
         n_files = 0
@@ -177,7 +177,7 @@ class Cases(unittest.TestCase):
         for element in valve.iter("Open_motion_file_path"):
             n_frames = int((folder / element.text.strip()).read_text().split()[0])
             self.assertAlmostEqual((n_frames - 1) * step, 0.04)
-        # The ventricle drives the inlet, the body is behind the outlet, and blood rests at the wall.
+        # The ventricle drives the inlet, and the body lies behind the outlet. Blood rests at the wall.
         conditions = {condition.get("name"): condition for condition in tree.iter("Add_BC")}
         self.assertEqual(sorted(conditions), sorted(faces))
         self.assertEqual(conditions["wall"].find("Type").text.strip(), "Dir")
@@ -187,7 +187,8 @@ class Cases(unittest.TestCase):
         self.assertEqual(int(curve[0].split()[0]), len(keys))
         self.assertEqual((keys[0][0], keys[-1][0], keys[0][1]), (0, 0.8, keys[-1][1]))
         self.assertAlmostEqual(max(pressure for _, pressure in keys) / (10 * MMHG), 120, delta=0.01)
-        # A flow of 83 ml/s through the Windkessel leaves a mean pressure of 80 to 130 mmHg: the unit is dyn s/cm5.
+        # A flow of 83 ml/s through the Windkessel leaves a mean pressure of 80 to 130 mmHg. Such a pressure shows that the unit
+        # is dyn s/cm5.
         body = conditions["outlet"].find("RCR_values")
         mean = 83 * (self.value(body, "Proximal_resistance") + self.value(body, "Distal_resistance")) / (10 * MMHG)
         self.assertTrue(80 < mean < 130, mean)
@@ -225,7 +226,8 @@ class Cases(unittest.TestCase):
         self.write("svmultiphysics", numbers)
         folder = pathlib.Path(numbers["solver"])
         stand_in = self.folder / "solver"
-        # It has two steps of backward flow, and one of forward flow, which it writes twice as a continued run does.
+        # The stand-in has two steps of backward flow and one step of forward flow. The stand-in writes the last step twice, as a
+        # continued run does.
         stand_in.write_text("#!/bin/sh\ncp \"$1\" ran.xml && mkdir -p 1-procs && : >1-procs/stFile_last.bin\n"
                             "printf 'step time inlet outlet wall\\n\\n 1 .002 1.5 -1.5 0\\n 2 .004 0.5 -0.5 0\\n"
                             " 3 .006 -100 100 0\\n 3 .006 -400 400 0\\n' >1-procs/B_NS_Velocity_flux.txt\n"
@@ -276,7 +278,8 @@ class Cases(unittest.TestCase):
         (folder / "solver.xml").write_text(text.replace("<Add_URIS_mesh", "<!-- area of the leaflets in the mesh, 9.5; -->"
                                                         "<Add_URIS_mesh", 1))
         results.mkdir()
-        # The valve opens after step 24 and closes after step 75, each in 20 steps. Then it leaks 1.25 times the ideal leak.
+        # The valve opens after step 24 and closes after step 75, each in 20 steps. The closed valve leaks 1.25 times the ideal
+        # leak.
         eps, resistance, drop, n_steps = 0.3, 1e5, 80 * 10 * MMHG, 400
         leak = 1.25 * drop * eps * 9.5 / resistance
         flows, pressures = (["face areas: 1 1 1", "step time inlet outlet wall"] for _ in range(2))
@@ -312,7 +315,7 @@ class Cases(unittest.TestCase):
                      r"fastest node while the valve moves, in 4 files +2.5 m/s\n",
                      r"fastest node while it is at rest, in 36 files +1.5 m/s\n"):
             self.assertRegex(done.stdout, line)
-        # Twice the leak brings too much blood back, and the status says so.
+        # With twice the leak, too much blood flows back, and the status reports this.
         (results / "B_NS_Velocity_flux.txt").write_text("\n".join(flows[:2] + [
             re.sub(r"^( \d+ \S+).*", rf"\1 {4 * leak:e} {-4 * leak:e} 0.0", row) if int(row.split()[0]) > 95 else row
             for row in flows[2:]]) + "\n")
@@ -369,14 +372,15 @@ class Cases(unittest.TestCase):
         self.assertEqual((sorted(case["pressures"]), case["windkessels"]), (["inlet", "outlet"], {}))
         law = case["law"]
         self.assertEqual(law["close_below"], 1e-4)
-        # The closing leaflets push blood back, which raises the pressure before them: the valve must not open again for that.
+        # The closing leaflets push blood back, which raises the pressure before them. The valve must not open again because of
+        # this.
         self.assertGreaterEqual(law["dwell_time"], max(law["opening_duration"], law["closing_duration"]))
         self.assertFalse((pathlib.Path(numbers["solver"]) / "wall.stl").exists())
 
     def test_missing_packages(self):
         numbers = self.numbers("fenicsx")
         self.write("fenicsx", numbers)
-        # The empty modules stand for packages that are there.
+        # Empty modules stand for installed packages.
         there = self.folder / "modules"
         there.mkdir()
         (there / "basix.py").write_text("raise ImportError('none', name='basix')\n", encoding="ascii")
@@ -386,7 +390,7 @@ class Cases(unittest.TestCase):
         self.assertRegex(done.stderr, r"^run.py: .* lacks basix. Debian 13 has it: sudo apt-get install --no-install-recommends ")
 
     def program(self):
-        """Returns run.py as a module, with empty modules in place of dolfinx."""
+        """Returns run.py as a module. Empty modules take the place of dolfinx."""
         if not importlib.util.find_spec("numpy"):
             self.skipTest("there is no NumPy")
         numbers = self.numbers("fenicsx")
@@ -415,7 +419,7 @@ class Cases(unittest.TestCase):
 
     def test_program(self):
         run = self.program()
-        # Both forms of STL have the same triangles.
+        # Both forms of STL have equal triangles.
         corners = [(0.5, 0.25, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 2.0)]
         binary, text = self.folder / "binary.stl", self.folder / "text.stl"
         binary.write_bytes(b"solid".ljust(80) + struct.pack("<I", 2)
@@ -425,7 +429,7 @@ class Cases(unittest.TestCase):
         text.write_text("solid w\n" + 2 * facet + "endsolid w\n", encoding="ascii")
         for path in (binary, text):
             self.assertEqual(run.read_stl(path).tolist(), [[list(corner) for corner in corners]] * 2)
-        # The curve repeats, and is linear between its keys.
+        # The curve repeats and is linear between its keys.
         pressure = run.curve([[0, 10], [0.2, 30], [0.8, 10]])
         for now, expected in ((0.1, 20), (0.9, 20), (0.5, 20), (1.6, 10)):
             self.assertAlmostEqual(float(pressure(now)), expected)
@@ -443,8 +447,8 @@ class Cases(unittest.TestCase):
         self.write("fenicsx", numbers)
         folder = pathlib.Path(numbers["solver"])
         case = json.loads((folder / "case.json").read_text())
-        # A valve opens in 20 steps after 0.1 s, lets 200 ml/s pass, closes in 20 steps after 0.4 s while 50 ml/s return, and then
-        # leaks at 80 mmHg half as much again as an ideal valve of 9 cm2.
+        # After 0.1 s the valve opens in 20 steps, and 200 ml/s pass. After 0.4 s the valve closes in 20 steps, while 50 ml/s
+        # return. The valve then leaks at 80 mmHg half as much again as an ideal valve of 9 cm2.
         drop, area = -80 * MMHG, 9e-4
         leak = 1.5 * drop * case["half_thickness"] * area / case["resistance"]
 
@@ -476,7 +480,7 @@ class Cases(unittest.TestCase):
                      r"at the closed band +0.3 m/s +met: at most 2",
                      rf"leak at 80 mmHg +{-1e6 * leak:.4g} ml/s\n", r"leak over the ideal leak +1.5\n"):
             self.assertRegex(said, line)
-        # A valve that never moves has, so early, no steady leak, and nothing is judged.
+        # At this early time, a valve that never moves has no steady leak. Nothing is judged.
         said = report(20)
         self.assertIn("0.04 s of a beat of 0.8 s: what follows is preliminary\nthe valve does not move\n", said)
         for word in ("leak", "met", "MISSED"):

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""test_uris_flow.py PATH_OF_URIS_FLOW tests uris_flow.py by itself. Exits with 77 if Python lacks NumPy or SciPy.
+"""test_uris_flow.py PATH_OF_URIS_FLOW tests uris_flow.py alone. Exits with 77 if Python lacks NumPy or SciPy.
 
-Oracles: the same equations by loops over single functions and a dense matrix, the flow through a square duct in closed form, and
-sides that the shape of the mesh determines.
+Three oracles check the program: the equations by loops over single functions and a dense matrix, the flow through a square duct
+in closed form, and sides that follow from the shape of the mesh.
 """
 import importlib
 import importlib.util
@@ -57,7 +57,7 @@ def bricks(cells, lower, upper):
 
 
 def tetrahedra(xyz, hexahedra):
-    """Cuts each hexahedron along its diagonal, so that the faces of neighbours agree."""
+    """Cuts each hexahedron along its diagonal, so that the cuts of neighbours' faces agree."""
     cuts = [[0, *[sum(1 << k for k in order[:n]) for n in (1, 2)], 7] for order in itertools.permutations(range(3))]
     by_bits = [0, 1, 3, 2, 4, 5, 7, 6]  # the corner whose coordinates are these bits
     found = np.concatenate([hexahedra[:, [by_bits[bits] for bits in cut]] for cut in cuts])
@@ -78,7 +78,7 @@ def problem_of(xyz, elements, element, eps, numbers, reach=math.inf, height=0.0)
 
 
 def dense_flow(problem, is_wall, is_inlet):
-    """The flow by loops, without scaled units, times R / eps."""
+    """Computes the flow by loops, without scaled units, times R / eps."""
     R, rho, mu, dt, eps = problem.numbers
     n = len(problem.xyz)
     a, b = np.zeros((4 * n, 4 * n)), np.zeros(4 * n)
@@ -138,7 +138,7 @@ class Flow(unittest.TestCase):
                         self.assertAlmostEqual(self.flow(problem) / expected, 1, delta=1e-6)
 
     def test_duct(self):
-        """Without a valve, the resistances of two lengths of a square duct differ by the closed form."""
+        """Without a valve, the difference between the resistances of two square ducts has a closed form."""
         R, eps, mu = 1e-3, 0.5, 0.04
         flows = []
         for n in 24, 36:
@@ -158,7 +158,7 @@ class Flow(unittest.TestCase):
         is_wall = abs(region.xyz[:, :2]).max(axis=1) > 0.999
         self.assertTrue((region.is_wall == is_wall).all())
         self.assertTrue((region.is_inlet == ((region.xyz[:, 2] < low + 1e-9) & ~is_wall)).all())
-        # The region ends at the mesh on one side, or lies within the flow.
+        # The region ends at the mesh on one side, or lies inside the flow.
         self.assertIsNone(uris_flow.region_of(problem_of(xyz, elements, hex_element(), 0.8, (1e4, 1, 0.04, 0.01), 1.5, 2.5)))
         ball = (np.linalg.norm(xyz[elements].mean(axis=1), axis=1) < 0.5).astype("u1")
         self.assertTrue(ball.any())

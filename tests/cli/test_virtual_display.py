@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""test_virtual_display.py PROGRAM: the program draws without a display. It starts Xvfb itself, and no Xvfb remains.
+"""test_virtual_display.py PROGRAM: checks that the program draws without a display. The program starts Xvfb itself, and no Xvfb
+remains.
 
-A script named Xvfb on the PATH notes its process and becomes the real Xvfb, or fails in the way that a test needs.
+A script named Xvfb on the PATH notes its process. The script then becomes the real Xvfb, or fails as a test needs.
 """
 import os
 import pathlib
@@ -27,7 +28,7 @@ def is_alive(process):
 
 
 def eventually(condition, seconds=20.0):
-    """Returns whether a condition becomes true in time."""
+    """Returns whether a condition becomes true before a time limit."""
     end = time.monotonic() + seconds
     while not condition():
         if time.monotonic() > end:
@@ -44,7 +45,7 @@ class VirtualDisplay(unittest.TestCase):
         self.server(f'exec {REAL} "$@"')
 
     def server(self, ending):
-        """Makes the script Xvfb. It notes its process, then runs these lines."""
+        """Makes the script Xvfb. The script notes its process, then runs these lines."""
         script = self.folder / "Xvfb"
         script.write_text(f"#!/bin/sh\necho $$ >>{self.folder}/servers\n{ending}\n", encoding="utf-8")
         script.chmod(0o755)
@@ -97,14 +98,14 @@ class VirtualDisplay(unittest.TestCase):
         self.assertFalse((self.folder / "a.png").exists())
 
     def test_a_server_without_abstract_sockets(self):
-        """An Xvfb that cannot listen on an abstract socket alone is started again with a file."""
+        """If Xvfb cannot listen on an abstract socket alone, the program starts it again with a file."""
         self.server(f'case "$*" in *"-nolisten unix"*) exit 1;; esac\nexec {REAL} "$@"')
         self.draw()
         self.expect_picture()
         self.assertEqual(len(self.servers()), 2)
 
     def test_a_killed_run(self):
-        """Xvfb ends with the program, also if a signal that cannot be caught ends the program."""
+        """Xvfb ends with the program, even after a signal that cannot be caught."""
         self.server("exec sleep 300")
         for ending in signal.SIGKILL, signal.SIGSEGV:
             with self.subTest(ending=ending):
@@ -117,7 +118,8 @@ class VirtualDisplay(unittest.TestCase):
                 self.assertTrue(eventually(lambda: not is_alive(self.servers()[-1])))
 
     def test_ctrl_c(self):
-        """Ctrl-C reaches the program and all its processes in the terminal, but not Xvfb, which the picture still needs."""
+        """In a terminal, Ctrl-C reaches the program and all its processes. Ctrl-C does not reach Xvfb, which the picture still
+        needs."""
         self.server(f'sleep 1\nexec {REAL} "$@"')
         running = self.start(start_new_session=True)
         self.assertTrue(eventually(self.servers))

@@ -9,8 +9,8 @@
 
 #include "scratch.h"
 
-/* Copies the value of the first <element> after `from`, without blanks, as the solver's reader of parameters does. Returns the
- * position after it, or NULL if there is none before `end`. */
+/* Copies the value of the first <element> after `from` without blanks, like the solver's reader of parameters. Returns the
+ * position after the element, or NULL if `end` comes first. */
 static const char *value_of(const char *from, const char *end, const char *element, char *value, size_t size) {
   char tag[80];
   snprintf(tag, sizeof tag, "<%s>", element);
@@ -130,7 +130,7 @@ uris_valve uris_read(const char *block) {
     assert_int_equal(face->n_close, valve.face[0].n_close);
     at = face_end;
   }
-  /* The solver would add the scaffold's K to that of the faces. */
+  /* The solver would add a scaffold's K to the K of the faces. */
   assert_false(value_of(block, end, "Scaffold_file_path", path, sizeof path));
   valve.thickness = uris_number(block, "Thickness");
   valve.closed_thickness = uris_number(block, "Closed_thickness");
@@ -164,7 +164,7 @@ static void add_to_box(uris_state *state, const double *xyz, int n_nodes) {
   }
 }
 
-/* The solver starts with 0, adds the corners in their order, and then divides. The test needs the same bits, because they
+/* The solver starts with 0, adds the corners in their order, and then divides. The test needs the solver's bits, because they
  * decide which of two middles is nearer. */
 static void add_triangles(uris_state *state, const uris_face *face, const double *xyz) {
   const size_t n = (size_t)(state->n + face->n_triangles);
@@ -189,7 +189,7 @@ static uris_state empty_state(void) {
   return (uris_state){.lower = {INFINITY, INFINITY, INFINITY}, .upper = {-INFINITY, -INFINITY, -INFINITY}};
 }
 
-/* The box grows by a tenth on each side, or by a tenth of its diagonal if it has no thickness. */
+/* The box grows by a tenth on each side. A box without thickness grows by a tenth of its diagonal. */
 static void widen(uris_state *state) {
   double side[3], square = 0;
   for (int j = 0; j < 3; ++j) side[j] = state->upper[j] - state->lower[j], square += side[j] * side[j];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// write_solver_case svmultiphysics|fenicsx|openfoam CASE.json: writes a solver's folder from the numbers of a SolverCase, and
-// ends as the program riis does. test_solver_cases.py and test_openfoam_case.py call it.
+// write_solver_case svmultiphysics|fenicsx|openfoam CASE.json: writes a solver's folder from the numbers of a SolverCase. The
+// program ends as riis does. test_solver_cases.py and test_openfoam_case.py call it.
 #include <iostream>
 #include <string>
 

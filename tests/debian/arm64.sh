@@ -2,14 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 # arm64.sh root FOLDER                   unpacks Debian's packages for 64-bit ARM in FOLDER/root, on the first call only
 # arm64.sh build SOURCE FOLDER           compiles everything for ARM in FOLDER/build
-# arm64.sh test SOURCE FOLDER [WORD...]  runs the tests whose names match a WORD, or the default suite, and judges the results
-# arm64.sh count SOURCE FOLDER           prints the instructions of a marking, by NEON and by the portable code
-# An emulator runs the programs for ARM. It needs 7 to 20 times as long as a processor. apt fetches the packages and dpkg unpacks
-# them. This system's own packages stay as they are, and no step needs root rights.
+# arm64.sh test SOURCE FOLDER [WORD...] runs the tests whose names match a WORD, or the default suite, and judges the results
+# arm64.sh count SOURCE FOLDER prints the instructions of a marking, by NEON and by the portable code An emulator runs the
+# programs for ARM. The emulator needs 7 to 20 times as long as a processor. apt fetches the packages and dpkg unpacks them. This
+# system's packages stay as they are, and no step needs root rights.
 set -euo pipefail
 
 triplet=aarch64-linux-gnu
-# What the tests of ./run test need, as in the lists of run, and the C and Fortran libraries.
+# The packages that the tests of ./run test need, as the lists of `run` name them, and the C and Fortran libraries.
 packages=(libstdc++-12-dev libgfortran-12-dev
   libembree-dev libtbb-dev
   libvtk9-dev libx11-dev nlohmann-json3-dev libcli11-dev libhdf5-dev libgl1-mesa-dri
@@ -25,7 +25,7 @@ make_root() {
     -o Dir::State::status="$folder/apt/status" -o Dir::Cache="$folder/apt/cache" -o APT::Sandbox::User=root)
   apt-get "${options[@]}" -qq update
   apt-get "${options[@]}" -q install --download-only --yes --no-install-recommends "${packages[@]}"
-  # In this system these folders are links too. A folder for ARM covers one of this system, so both need the same layout.
+  # In this system these folders are also links. A folder for ARM covers one of this system, so both need one layout.
   for link in bin lib sbin; do ln -s "usr/$link" "$part/$link"; done
   for package in "$folder"/apt/cache/archives/*.deb; do
     dpkg-deb --fsys-tarfile "$package" | tar -x --keep-directory-symlink --no-same-owner -C "$part"
@@ -34,7 +34,7 @@ make_root() {
   find "$part" -type l -lname '/*' | while read -r link; do
     ln -sfnr "$part$(readlink "$link")" "$link"
   done
-  # CMake does not look for a library whose path a package's file states.
+  # CMake does not search for a library if a package's file states its path.
   grep -rlE --include='*argets*.cmake' "$stated" "$part/usr/lib/$triplet/cmake" | xargs sed -i -E "s,$stated,\\1$folder/root\\2,g"
   # Debian's alternatives, which the packages' scripts would set.
   ln -s blas/libblas.so.3 lapack/liblapack.so.3 "$part/usr/lib/$triplet"
@@ -64,7 +64,8 @@ set(CMAKE_DISABLE_FIND_PACKAGE_nanobind ON)
 EOF
 }
 
-# write_tools FOLDER: tests that call compilers or ldd by their short names get these, which know ARM. mpiexec is this system's.
+# write_tools FOLDER: writes compilers and ldd that know ARM, for tests that call them by their short names. mpiexec is this
+# system's.
 write_tools() {
   local bin=$1/bin libraries=$1/root/usr/lib/$triplet name compiler
   rm -rf "$bin"
@@ -87,7 +88,7 @@ EOF
 #!/bin/sh
 for file; do LD_TRACE_LOADED_OBJECTS=1 /usr/lib/ld-linux-aarch64.so.1 "$file" || exit; done
 EOF
-  # pkg-config writes ARM's root before each path, also before that of a riis that a test installed outside it.
+  # pkg-config writes ARM's root before each path, also for a riis that a test installed outside this root.
   cat >"$bin/pkg-config" <<EOF
 #!/bin/sh
 found=\$(/usr/bin/pkg-config "\$@") || exit
@@ -112,7 +113,7 @@ build() {
 }
 
 # instructions FOLDER PROGRAM STEPS prints the instructions that the program executed, and its own line. The emulator lists each
-# block of instructions when it first meets the block. Then it writes a line for each execution of a block.
+# block of instructions when it first meets the block. Later it writes a line for each execution of the block.
 instructions() {
   local libraries=$1/root/usr/lib/$triplet
   qemu-aarch64-static -L "$1/root" -E LD_LIBRARY_PATH="$libraries" -d in_asm,nochain,exec -D /dev/stdout \
@@ -129,7 +130,7 @@ instructions() {
     END { printf "%d %s\n", n, marked }'
 }
 
-# count SOURCE FOLDER: the difference of 5 and 3 markings leaves out the start, the first marking and its preparation.
+# count SOURCE FOLDER: takes the difference of 5 and 3 markings, which excludes the start, the first marking and its preparation.
 count() {
   local folder=$2 program n_few n_many few many marked=
   local -A of_marking
@@ -151,18 +152,18 @@ count() {
   }'
 }
 
-# run_tests SOURCE FOLDER [WORD...]: PRoot shows the tests ARM's libraries where they stand in a Debian for ARM, and starts each
-# program for ARM by the emulator, also if a script or another such program calls it. Programs of this system run as usual.
+# run_tests SOURCE FOLDER [WORD...]: PRoot shows the tests ARM's libraries at the places that a Debian for ARM has. PRoot starts
+# each program for ARM by the emulator, even if a script or another such program calls it. Programs of this system run as usual.
 run_tests() {
   local source=$1 folder=$2 select=(-LE slow) libraries=/usr/lib/$triplet status=0 start=$SECONDS
   shift 2
   (($# == 0)) || select=(-R "$(IFS='|' && echo "$*")")
   cd "$folder/build"
   rm -f "$folder/results.xml"
-  # Random tests make few trials: same_bits compares all results with those of other processors anyhow.
-  # If a process starts programs by posix_spawn at the same time, they crash under PRoot. So ninja starts one compiler at a time.
-  # Threads that wait would otherwise take the processors from the threads that compute. Mesa draws without LLVM, whose machine
-  # code crashes in the emulator. Rarely, qemu 7.2 waits for its own locks for ever. Such a test reaches its time limit, and then
+  # Random tests make few trials, because same_bits compares all results with those of other processors. If one process starts
+  # several programs by posix_spawn at once, they crash under PRoot. Ninja therefore starts one compiler at a time. Without this
+  # setting, threads that wait would take the processors from threads that compute. Mesa draws without LLVM, whose machine code
+  # crashes in the emulator. Rarely, qemu 7.2 waits for its own locks for ever. A test that waits so reaches its time limit, and
   # runs again.
   env PATH="$folder/bin:$PATH" CMAKE_TOOLCHAIN_FILE="$folder/toolchain.cmake" \
     RIIS_TEST_SHORT=1 CMAKE_BUILD_PARALLEL_LEVEL=1 OMP_WAIT_POLICY=passive GALLIUM_DRIVER=softpipe \

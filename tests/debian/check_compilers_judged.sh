@@ -1,14 +1,14 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_compilers_judged.sh SOURCE_FOLDER SCRATCH_FOLDER
-# The parts of ./run compilers must notice other bits, a warning, and wrong words.
+# The parts of ./run compilers must notice changed bits, a warning, and wrong words.
 set -euo pipefail
 sources=$(readlink -f "$1") scratch=$2
 rm -rf "$scratch"
 mkdir -p "$scratch"
 cd "$scratch"
 
-# ends STATUS TEXT COMMAND...: the command must end so, and its output must contain the text.
+# ends STATUS TEXT COMMAND...: the command must end with this status, and its output must contain the text.
 ends() {
   local status=$1 text=$2 said ended=0
   shift 2
@@ -20,7 +20,7 @@ ends 2 "./run compilers: 'g++' is neither an option nor compilers with versions,
 ends 2 "'--quick' is neither an option" "$sources/run" compilers --all --quick
 ends 1 "none of these compilers is installed: g++-1" "$sources/tests/debian/compilers.sh" "$sources" "$PWD/none" '' g++-1
 
-# The bits: a program that gives other bits on 3 threads, and refuses AVX-512.
+# For the bits: a program that gives other bits on 3 threads, and refuses AVX-512.
 printf ' 0 aortic 0123\nall 4567\n' >expected.txt
 cat >program <<'END'
 #!/bin/bash
@@ -39,7 +39,7 @@ ends 1 "4 threads: the same bits" "$same_bits" ./program expected.txt all
 ends 1 "AVX-512: not tested: riis_mark_nodes: RIIS_UNAVAILABLE" "$same_bits" ./program expected.txt all
 ends 1 "AVX2: killed" "$same_bits" ./program expected.txt all
 
-# The files: one with a warning, and one that only C++20 has.
+# For the files: one has a warning, and one is valid only in C++20.
 commands() {
   printf '[{"directory": "%s", "file": "%s", "command": "c++ -Wall -Werror -o a.o -c %s"}]' "$PWD" "$1" "$1" \
     >compile_commands.json

@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 # compilers.sh SOURCE FOLDER all|quick|musl|'' [COMPILER...]
 # Builds the core with every compiler and standard library that is installed here, or with the named compilers. Prints a line for
-# each: whether 60 states have the bits of tests/process/state_digests.txt in every run, and whether the core compiles as C++20
-# and C++23. Warnings are errors. With the word all, each compiler also reads all files of the preset default: program, tests and
-# benchmarks. With the word quick, the core is compiled with -O1 and as C++17 only, and the states are made only three times.
-# With the word musl, clang only reads the core's files, with the headers of the C library musl.
-# FOLDER keeps the compiled files and a log for each line.
+# each compiler. The line says whether 60 states have the bits of tests/process/state_digests.txt in every run, and whether the
+# core compiles as C++20 and C++23. Warnings are errors. With the word all, each compiler also reads all files of the preset
+# default: program, tests and benchmarks. With the word quick, the core is compiled only as C++17 with -O1, and the states are
+# made only three times. With the word musl, clang only reads the core's files, with the headers of the C library musl. FOLDER
+# keeps the compiled files and a log for each line.
 # shellcheck disable=SC2317 # functions are called by their names
 set -euo pipefail
 source=$1 folder=$2 mode=$3
@@ -19,7 +19,7 @@ status=0 n_rows=0
 system=$(. /etc/os-release && echo "${ID^} ${VERSION_ID:-}")
 read -r _ libc < <(getconf GNU_LIBC_VERSION)
 
-# configure FOLDER PRESET: with the compiler $cxx. Reading the files must not need precompiled headers.
+# configure FOLDER PRESET: configures with the compiler $cxx. Reading the files must not need precompiled headers.
 configure() {
   local level=-O3
   [[ $mode != quick ]] || level=-O1
@@ -43,7 +43,8 @@ bits() {
 # all_files FOLDER: reads all files of the preset default.
 all_files() { configure "$1" default && "$source/tests/debian/read_sources.py" "$1" c++17 c++20 c++2b; }
 
-# tried LOG COMMAND...: runs the command with its output in a log. Returns its status, and prints where the log is if it fails.
+# tried LOG COMMAND...: runs the command with its output in a log. Returns the status. If the command fails, prints the log's
+# path.
 tried() {
   local log=$1
   shift
@@ -64,7 +65,7 @@ row() {
     status=1
   fi
   if [[ $mode != quick ]]; then
-    # clang 14 knows C++23 by its earlier name only, and all compilers know that.
+    # clang 14 knows C++23 only by its earlier name, which all compilers know.
     more=$(tried "$name.standards.log" "$source/tests/debian/read_sources.py" "$name" c++20 c++2b) || status=1
     more=" | ${more:-C++20 and C++23: no warning}"
   fi
@@ -77,7 +78,7 @@ row() {
     "$same" "$more"
 }
 
-# musl FOLDER: reads the core's files with musl's headers, libc++, and Embree's and TBB's headers of this system.
+# musl FOLDER: reads the core's files with the headers of musl and libc++. The headers of Embree and TBB are this system's.
 musl() {
   local name llvm
   configure "$1" library || return

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 # darwin.sh SOURCE FOLDER
 # Compiles the library, its VTK component, the program and the core's tests for macOS on arm64, and links them as the linker of
-# macOS would. Nothing runs. The headers of macOS and libc++ come from the package ziglang. These are stand-ins: the headers of
-# Embree, TBB, VTK and the other libraries are Debian's, VTK's thus those of a VTK for X. Functions of all these libraries stay
-# undefined. The status is 77 if pip does not get the package.
+# macOS would. Nothing runs. The headers of macOS and libc++ come from the package ziglang. Some parts are stand-ins: the headers
+# of Embree, TBB, VTK and the other libraries are Debian's. VTK's headers are therefore those of a VTK for X. Functions of all
+# these libraries stay undefined. The status is 77 if pip does not get the package.
 set -euo pipefail
 source=$1 folder=$2
 version=0.13.0 # with clang 18, like Xcode 16
@@ -21,13 +21,13 @@ if [[ ! -e $zig ]]; then
 fi
 zig=$(echo "$zig"/lib/python3*/site-packages/ziglang)
 
-# newest PATTERN: prints the path whose numbers are the highest.
+# newest PATTERN: prints the path with the highest numbers.
 newest() { compgen -G "$1" | sort -V | tail -n 1; }
 
 llvm=$(newest '/usr/lib/llvm-*/bin/ld64.lld')
 ln -sfn "${llvm%/*}" "$folder/llvm"
 
-# The linker gets no libraries of Linux.
+# The linker must not get libraries of Linux.
 cat >"$folder/bin/ld64.lld" <<'END'
 #!/bin/bash
 words=()
@@ -37,7 +37,7 @@ done
 exec "${0%/*}/../llvm/ld64.lld" "${words[@]}"
 END
 
-# compiler NAME OPTION...: makes a compiler for macOS. Headers of Linux's C library are not searched.
+# compiler NAME OPTION...: makes a compiler for macOS. The compiler does not search headers of Linux's C library.
 compiler() {
   local name=$1
   shift
@@ -57,7 +57,7 @@ exec "$zig/zig" clang -target arm64-apple-macos13.3 $* -nostdlibinc -isystem "$z
 END
 }
 compiler clang
-# zig has no __config_site of libc++.
+# zig lacks the file __config_site of libc++.
 compiler clang++ --driver-mode=g++ -nostdinc++ -D_LIBCPP_ABI_VERSION=1 -D_LIBCPP_ABI_NAMESPACE=__1 \
   -D_LIBCPP_HARDENING_MODE=_LIBCPP_HARDENING_MODE_NONE -D_LIBCPP_PSTL_CPU_BACKEND_SERIAL \
   "-isystem '$zig/lib/libcxx/include' -isystem '$zig/lib/libcxxabi/include'"
@@ -89,7 +89,7 @@ stand_in omp /opt/homebrew/opt/libomp/lib/libomp.dylib
 cp "$zig/lib/libc/darwin/libSystem.tbd" "$folder/lib"
 for name in m pthread dl; do ln -sfn libSystem.tbd "$folder/lib/lib$name.tbd"; done
 
-# CMake's batches of files and a low optimisation take the least time.
+# CMake's batches of files and a low optimisation save time.
 PATH=$folder/bin:$PATH cmake -S "$source" -B "$folder/build" -G Ninja \
   -D FOLDER="$folder" -D CMAKE_TOOLCHAIN_FILE="$source/tests/debian/darwin_toolchain.cmake" \
   -D CMAKE_BUILD_TYPE=Debug -D CMAKE_INSTALL_PREFIX="$folder/installed" -D RIIS_WARNINGS_AS_ERRORS=ON \
@@ -99,7 +99,7 @@ PATH=$folder/bin:$PATH cmake -S "$source" -B "$folder/build" -G Ninja \
 cmake --build "$folder/build" --target riis riis_vtk riis_program riis_core_tests
 cmake --install "$folder/build" >"$folder/install.log"
 
-# Checks: the exported names, the imported names, and how installed files name their libraries.
+# The checks are: the exported names, the imported names, and how installed files name their libraries.
 nm() { "$folder/llvm/llvm-nm" -jg "$@" | sort -u; }
 fault() {
   echo "$1" >&2

@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # in_root.sh SUITE FOLDER WORD...: runs ./run WORD... on a bare Debian of the given suite (trixie, bookworm). The system's root is
-# FOLDER/root, which debootstrap makes on the first call. Every call copies the working tree's tracked files there. Packages and
-# build folders stay for the next call. If RIIS_ROOT_INPUT names a folder, its files are copied to /riis.input in the root.
+# FOLDER/root, which debootstrap makes on the first call. Every call copies the working tree's tracked files into this root.
+# Packages and build folders stay for the next call. If RIIS_ROOT_INPUT names a folder, its files are copied to /riis.input in the
+# root.
 #
-# The mounts are in a separate namespace, which ends with its last process. So nothing stays mounted, however this script ends,
-# and FOLDER can be removed at any time.
+# The mounts are in a separate namespace, which ends with its last process. However this script ends, nothing stays mounted, and
+# FOLDER can be removed at any time.
 set -euo pipefail
 
 suite=$1 folder=$(realpath -m -- "$2")
@@ -24,9 +25,9 @@ if ((EUID != 0)); then
   command -v sudo >/dev/null || give_up "$suite: making a root and entering it takes root rights, and there is no sudo"
   as_root=(sudo)
 fi
-# in_namespace COMMAND...: runs the command in a namespace, where other processes do not see its mounts. All processes in the
-# namespace end with the command or with this script. The first process in it waits for a lock that this script holds, so it does
-# not matter how the script ends.
+# in_namespace COMMAND...: runs the command in a namespace. Other processes do not see its mounts. All processes in the namespace
+# end with the command or with this script. The first process waits for a lock that this script holds, so every end of this script
+# frees it.
 in_namespace() {
   # shellcheck disable=SC2016
   "${as_root[@]}" unshare --mount --pid --fork --kill-child bash -c '
@@ -54,7 +55,7 @@ find_mirror() {
   local release uri entry file line host_codename
   # shellcheck source=/dev/null
   host_codename=$(. /etc/os-release && [[ ${ID:-} == debian ]] && echo "${VERSION_CODENAME:-}") || host_codename=
-  # Uses the first of apt's sources that has this suite, or else the source from which the host itself was installed.
+  # Uses the first of apt's sources that has this suite. If there is none, uses the source from which the host was installed.
   while read -r release uri entry; do
     [[ $uri =~ ^https?:// ]] || continue # a disc or a folder of the host is not visible inside the root
     [[ $release == "$suite" || ($host_codename && $release =~ ^($host_codename|stable|oldstable|testing)$) ]] || continue
@@ -82,7 +83,7 @@ find_mirror() {
   [[ $proxy != DIRECT ]] || proxy=
 }
 
-# Prints the host's apt settings for fetching. Other settings (hooks, kept files) concern only the host.
+# Prints the host's apt settings for fetching. Other settings, such as hooks and kept files, matter only on the host.
 apt_settings() {
   command -v apt-config >/dev/null || return 0
   apt-config dump Acquire | grep -E '^Acquire::(http|https|Retries|ForceIPv4|ForceIPv6|Check-Date|Check-Valid-Until)\b' |
@@ -160,7 +161,7 @@ configure_root() {
   fi
 }
 
-# Copies the tracked files as they are in the working tree, with their times, so that only changed files are built again.
+# Copies the tracked files of the working tree with their times, so that only changed files are built again.
 copy_tree() {
   local files=() file fresh=$root/riis.part
   if [[ -e .git ]]; then

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""judge_arm64.py RESULTS SKIPPED: counts the results of CTest in the file RESULTS (JUnit), and refuses failures and skips that
-the file SKIPPED does not expect. A test that passes may have skipped some of its cases."""
+"""judge_arm64.py RESULTS SKIPPED: counts the results of CTest in the file RESULTS (JUnit). Refuses failures, and skips that the
+file SKIPPED does not expect. A test that passes may have skipped some of its cases."""
 
 import re
 import sys
@@ -9,7 +9,7 @@ import xml.etree.ElementTree
 
 
 def expected_skips(lines):
-    """Returns what may be skipped, TEST or TEST/CASE, and for each a text that a skipped test must print, or None."""
+    """Returns the expected skips, TEST or TEST/CASE. Each has the text that a skipped test must print, or None."""
     expected = {}
     for number, line in enumerate(lines, 1):
         if not line.strip() or line.startswith("#"):
@@ -22,7 +22,8 @@ def expected_skips(lines):
 
 
 def judge(results, expected):
-    """Returns the numbers of tests that passed and were skipped, the skipped cases of tests that passed, and the faults."""
+    """Returns the number of tests that passed, the number of skipped tests, the skipped cases of tests that passed, and the
+    faults."""
     passed, skipped, cases, faults = 0, 0, [], []
     for test in results.iter("testcase"):
         name, output = test.get("name"), test.findtext("system-out") or ""

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """read_sources.py BUILD_FOLDER STANDARD... [-FLAG...]
 
-Lets the compiler of a configured folder read every C and C++ file that the folder would compile, in each of these standards of
-C++, with the flags. The compiler makes no code. Warnings are errors if the folder was configured so. Files of C are read once.
+Lets the compiler of a configured folder read every C and C++ file that the folder would compile, with its flags. Each file is
+read in each of these standards of C++. The compiler makes no code. If the folder was configured so, warnings are errors. Files of
+C are read once.
 """
 import concurrent.futures
 import json

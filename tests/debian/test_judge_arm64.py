@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests judge_arm64.py: it must refuse a failure, an unexpected skip, another reason, and a list that it cannot read. ./run arm64
-must refuse other processors, and systems without apt-get."""
+"""Tests judge_arm64.py: it must refuse a failure, an unexpected skip, a skip for another reason, and a list that it cannot read.
+./run arm64 must refuse other processors, and systems without apt-get."""
 
 import os
 import pathlib
@@ -59,7 +59,7 @@ class Judge(unittest.TestCase):
         self.refused("test_new was skipped, which is not expected: there is no AVX2 here", [PASSED, other])
         other = SETS.replace("AVX2", "gmsh")
         self.refused("test_sets was skipped for another reason than expected: there is no gmsh here", [PASSED, other])
-        # A test whose executable is missing is not run either.
+        # A test without an executable also does not run.
         self.refused("test_new was skipped", [PASSED, case("test_new", "notrun")])
         self.refused("test_environment skipped its case new", [TRAPS, case("test_environment", output="[  SKIPPED ] new\n")])
 

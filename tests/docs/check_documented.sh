@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # check_documented.sh DOXYGEN SOURCE_DIR SCRATCH
 # Every public function, struct, field, value, macro and typedef of the C headers must have a description in Doxygen's output. The
-# names are read from the headers, not from Doxygen, so names that Doxygen overlooks are also found. Then the check runs on copies
-# of the headers, each without one comment, to show that it can fail.
+# names come from the headers, so the check also finds names that Doxygen overlooks. Copies of the headers, each without one
+# comment, then show that the check can fail.
 set -euo pipefail
 doxygen=$1 source=$2 scratch=$3
 rm -rf "$scratch"
@@ -81,7 +81,8 @@ if [ -n "$missing" ]; then
   exit 1
 fi
 
-# without HEADER BEFORE AFTER NAME: removes the comment between BEFORE and AFTER from the header. The check must then report NAME.
+# without HEADER BEFORE AFTER NAME: removes the comment between BEFORE and AFTER from the header. Afterwards the check must report
+# NAME.
 without() {
   local header=include/riis/$1 before=$2 after=$3 expected=$4 to=$scratch/mutated found
   rm -rf "$to"

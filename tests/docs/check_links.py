@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""check_links.py FOLDER: everything to which the documents and the sources below the folder refer must exist.
+"""check_links.py FOLDER: documents and sources below the folder may refer only to things that exist.
 
 Links in Markdown documents lead to existing files and headings. Sources and documents name pages in the form docs/*.md, or
-docs/*.md, "Heading". A number of a section is refused, because such numbers change. Files of the repository that documents
-name must exist. A formula begins and ends on one line. A page of docs/theory or docs/design has at most 4000 words.
+docs/*.md, "Heading". A section's number is refused, because such numbers change. If documents name files of the repository, the
+files must exist. A formula begins and ends on one line. A page of docs/theory or docs/design has at most 4000 words.
 """
 import functools
 import pathlib
@@ -59,8 +59,8 @@ def problems(folder):
 
 
 def wrong_references(folder):
-    """Yields the pages and headings that a source or a document names and that do not exist. CHANGELOG.md may name pages of the
-    past, and the test of this script names pages that it invents."""
+    """Yields the missing pages and headings that a source or a document names. CHANGELOG.md may name pages of the past, and the
+    test of this script names invented pages."""
     files = [path for part in FOLDERS for path in (folder / part).rglob("*")] + list(folder.glob("*"))
     for path in files:
         if path.name in ("CHANGELOG.md", "test_check_pages.py") or not path.is_file():
@@ -82,7 +82,7 @@ def wrong_references(folder):
 
 
 def broken_formulas(folder):
-    """Yields the lines on which a formula has only one dollar sign. Code has no formulas."""
+    """Yields the lines on which a formula has only one dollar sign. Code contains no formulas."""
     for document in documents_of(folder):
         text = re.sub(r"^( *)```.*?^\1```", lambda block: "\n" * block[0].count("\n"),
                       document.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
@@ -99,9 +99,9 @@ def long_pages(folder):
 
 
 def missing_sources(folder):
-    """Yields the files of this repository that documents name in code and that do not exist. A name may be a pattern, or have
-    words in capitals that the reader replaces. A source named without its folder counts only in pages about the sources.
-    CHANGELOG.md may name files of the past."""
+    """Yields the missing files of this repository that documents name in code. A name may be a pattern, or have words in capitals
+    that the reader replaces. A source that is named without its folder counts only in pages about the sources. CHANGELOG.md may
+    name files of the past."""
     parts = ("include", "src", "fortran", "tests")
     sources = [path.relative_to(folder).as_posix() for part in parts for path in (folder / part).rglob("*")]
     about_sources = [folder / "CONTRIBUTING.md", folder / "docs/walks.md", *pages_of_books(folder)]

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""check_messages.py ROOT: every command that a message prints is in messages.txt, with the test that runs it.
+"""check_messages.py ROOT: every command that a message prints must be in messages.txt, with the test that runs it.
 
-A command is a word of a shell in a literal of the sources, or an option that a message tells to write. The texts of --help and
-the descriptions of options are no messages. Prints how many commands the messages of each part have.
+A command is a word of a shell in a literal of the sources, or an option that a message recommends. The texts of --help and the
+descriptions of options do not count as messages. Prints how many commands the messages of each part have.
 """
 import ast
 import collections
@@ -32,7 +32,7 @@ def literals_of_cpp(text):
 
 
 def literals_of_python(text):
-    """Yields the literals except docstrings. A formatted value is {}."""
+    """Yields the literals without docstrings. {} stands for a formatted value."""
     tree = ast.parse(text)
     skipped = set()
     for node in ast.walk(tree):
@@ -66,7 +66,7 @@ def commands(root):
 
 
 def problems_of(root, text):
-    """Compares the sources with the lines of messages.txt. Returns what is wrong."""
+    """Compares the sources with the lines of messages.txt. Returns the differences."""
     listed, problems = collections.Counter(), []
     tests = {path.name for folder in ("tests", "python/tests") for path in (root / folder).rglob("*")}
     for line in text.splitlines():
@@ -82,7 +82,7 @@ def problems_of(root, text):
 
 
 def check_itself():
-    """Shows that each fault is found, in sources of two files."""
+    """Shows that each fault is found. Two files stand for the sources."""
     with tempfile.TemporaryDirectory() as folder:
         root = pathlib.Path(folder)
         for name, text in (("src/program/a.cpp", '// "riis mark" in a comment\nfail("it leaks: "\n     "write --" "scale 2");\n'),

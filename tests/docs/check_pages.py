@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""check_pages.py FOLDER: the HTML pages in the folder must need nothing outside the folder.
+"""check_pages.py FOLDER: the HTML pages in the folder must not need anything outside it.
 
 Everything that a page loads (style sheets, scripts, pictures, fonts) must be a file in the folder, never on a server. Links
 to other pages must lead to a file in the folder and to an existing place in it. Links to web sites are not followed.

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""check_paper.py ROOT: the paper's numbers must be in the documents that it names, and its citations in its bibliography.
+"""check_paper.py ROOT: the documents that the paper names must contain its numbers, and its bibliography must contain its
+citations.
 
-A table of numbers has the columns document and command. Each other cell with a number must occur in the document, as it is
-written there. Without an argument the script tests itself on invented texts.
+A table of numbers has the columns document and command. A number in any other cell must occur in the document, in the form of the
+cell. Without an argument the script tests itself on invented texts.
 """
 import pathlib
 import re
@@ -10,7 +11,7 @@ import sys
 
 
 def tables(text):
-    """Yields the rows of the tables, as mappings from the names of the columns."""
+    """Yields the rows of the tables. A row maps the names of the columns to the cells."""
     names = None
     for line in text.splitlines():
         cells = [cell.strip() for cell in line.strip().strip("|").split("|")] if line.startswith("|") else None
@@ -32,7 +33,7 @@ def faults(paper, bibliography, read):
         if not row.get("command"):
             yield f"the row of {row['quantity']} has no command"
         value = row.get("deviation") or row.get("value")
-        # A value is a cell of its own, or the beginning of a cell, or is followed by a word such as the bar.
+        # A value fills a cell, begins a cell, or stands before a word such as "the bar".
         if not re.search(rf"(?<![\d.,]){re.escape(value)}(?![\d.,]\d|\d)", read(row["document"])):
             yield f"{value} ({row['quantity']}) is not in {row['document']}"
     if n_rows < 10:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """check_patient.py MAKE_PATIENT.py SCRATCH: checks the files of the synthetic patient.
 
-The surface must be closed, with normals outwards, with the volume that follows from the radii, and the same in each run.
+The surface must be closed, with normals outwards and the volume that follows from the radii. Each run must give the same surface.
 Landmarks without noise must lie on it, and noise must be as large as stated.
 """
 import importlib.util
@@ -41,7 +41,7 @@ def check_surface(patient, root, triangles):
         volume += sum(x * y for x, y in zip(a, patient.cross(b, c))) / 6
     for (a, b), n in edges.items():
         assert n == 1 and edges.get((b, a)) == 1, f"the edge from {a} to {b} has {n} triangles, its reverse {edges.get((b, a))}"
-    # The volume from the radii: 1/2 r^2, integrated over angles and heights. The waves of the wall change it by a thousandth.
+    # The volume is 1/2 r^2, integrated over angles and heights. The waves of the wall change it by a thousandth.
     n_angles, n_heights = 120, 100
     height = patient.TOP - patient.BOTTOM
     expected = sum((root.tube_radius(angle, z) + root.sinus(angle, z)) ** 2 / 2

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Checks examples/valves: its script must reproduce the file of the bicuspid valve, and the table in its README must equal the
-program's results. The least ratios in the table are the ratios over 101 openings. The check measures a tenth of these
-openings, which can only give a larger least ratio. With RIIS_TEST_LONG=1 it measures all.
+program's results. The least ratios in the table are the ratios over 101 openings. The check measures a tenth of these openings,
+so its least ratio can only be larger. With RIIS_TEST_LONG=1 it measures all.
 
-Checks docs/diseases.md: its table must have all diseases of the program, with their areas, and the areas must be met within 3 %.
+Checks docs/diseases.md: its table must have all diseases of the program with their areas. Measured areas must agree within 3 %.
 
     check_valves.py EXAMPLES_VALVES PROGRAM DISEASES.md
 """
@@ -27,7 +27,7 @@ MOST_ABOVE = 0.0051 if COUNT == 101 else 0.02  # of a least ratio
 
 
 def measured(program, folder, arguments):
-    """Returns the least ratio of a free edge to its closed length, and the last orifice."""
+    """Returns the least ratio of a free edge's length to its closed length. Also returns the last orifice."""
     command = [program, "states", "-", "--count", str(COUNT), *arguments]
     run = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=True)
     rows = list(csv.DictReader(io.StringIO(run.stdout)))

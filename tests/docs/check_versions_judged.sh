@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_versions_judged.sh SOURCE_FOLDER SCRATCH_FOLDER VERSION
-# All places have one version. A wrong version in any place must be refused with the place's name. The same holds for the symbols
-# files of Debian's packages.
+# All places state one version. The check must refuse a wrong version in any place, and name the place. The check also covers the
+# symbols files of Debian's packages.
 set -euo pipefail
 source=$1 scratch=$2 version=$3
 "$source/packaging/check_versions.sh" "$source" "$version" >"$scratch.table" 2>"$scratch.said" ||
@@ -18,7 +18,7 @@ plant() {
   tar -c -C "$source" "${names[@]}" | tar -x -C "$scratch"
 }
 
-# refuses NAME COMMAND...: after the command was run in the copy, the check must name the place.
+# refuses NAME COMMAND...: runs the command in the copy. The check must then name the place.
 refuses() {
   local name=$1
   shift

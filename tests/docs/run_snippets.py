@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """run_snippets.py SCRATCH PROGRAM_FOLDER: runs the commands of README, docs and examples as their reader would.
 
-Each document has a folder of its own, which looks like the top folder of the sources after ./run demo. The documents' commands
-run there in order, and must succeed. snippets.txt lists the others, each with its reason. The meshes of the demo are coarser than
-the reader's, unless RIIS_TEST_LONG is 1. GIVEN makes the files that a document expects of its reader.
+Each document has a separate folder, which looks like the top folder of the sources after ./run demo. The document's commands run
+there in order, and must succeed. snippets.txt lists the commands that do not run, each with a reason. The meshes of the demo are
+coarser than the reader's, except with RIIS_TEST_LONG=1. GIVEN makes the files that a document expects of its reader.
 """
 import os
 import pathlib
@@ -14,7 +14,8 @@ import unittest
 
 import snippets
 
-# What a document expects of its reader, in commands. The first snippet of the tutorial makes a tube, here with coarser edges.
+# These commands make the files that a document expects of its reader. The first snippet of the tutorial makes a tube, here with
+# coarser edges.
 TUBE = next(one.text for one in snippets.snippets() if one.document == "docs/tutorial.md")
 COARSE = TUBE[:TUBE.index("gmsh")] + """
 sed 's/= 0.09/= 0.2/; s/1.6}/1.4}/' tube.geo > coarse.geo
@@ -45,7 +46,7 @@ cp examples/demo/mitral_cycle.csv beat.csv""",
 
 
 def top_folder(folder, programs, demo):
-    """Makes a folder that looks like the sources' top folder, in which the program is built."""
+    """Makes a folder that looks like the sources' top folder. The program is built in it."""
     (folder / "build").mkdir(parents=True)
     (folder / "out").mkdir()
     for path in snippets.ROOT.iterdir():

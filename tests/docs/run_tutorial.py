@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """run_tutorial.py check|write TUTORIAL.md SCRATCH PROGRAM_FOLDER RIIS: runs the tutorial as its reader would.
 
-Every block of ```sh is run in the scratch folder, in order, and must succeed. A following block of ```text holds the commands'
-output. `check` compares it; `write` puts the new output into the tutorial. Seconds and numbers of threads are not compared.
-Another version of gmsh makes other meshes. In this case only the first two words of each line are compared, without numbers:
+Every block of ```sh is run in the scratch folder, in order, and must succeed. The output of its commands follows in a block of
+```text. `check` compares it; `write` puts the new output into the tutorial. Seconds and numbers of threads are not compared.
+Another version of gmsh makes other meshes. For such meshes only the first two words of each line are compared, without numbers:
 "1 edge crosses" may become "3 edges cross".
 """
 import os

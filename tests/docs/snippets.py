@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The snippets of the documents: the blocks of ```sh and ```python, and the list of those that run only under a condition.
+"""The snippets of the documents: the blocks of ```sh and ```python, and the list of snippets that run only under a condition.
 
-python/tests/test_docs.py runs the snippets in Python, run_snippets.py those in sh, and run_tutorial.py the pages whose output is
-compared.
+python/tests/test_docs.py runs the snippets in Python, and run_snippets.py those in sh. run_tutorial.py runs the pages whose
+output is compared.
 """
 import collections
 import json
@@ -17,14 +17,14 @@ BLOCK = re.compile(r"^([ ]*)```(\w+)\n(.*?)^[ ]*```\n(?:\n```text\n(.*?)^```\n)?
 
 Snippet = collections.namedtuple("Snippet", "document line language text condition")
 
-# The points of the paper's aortic valve in millimetres, in place of a patient's.
+# The points of the paper's aortic valve in millimetres, which stand for a patient's.
 LANDMARKS = {"nadir-right": (12.9, 0, -10), "nadir-left": (-6.35, 11.23, -10), "nadir-non_coronary": (-6.74, -11, -10),
              "commissure-right-left": (6.62, 11.94, 0.2), "commissure-left-non_coronary": (-14.4, 0, 0.2),
              "commissure-non_coronary-right": (6.62, -11.94, 0.2)}
 
 
 def landmarks():
-    """Returns the content of root.mrk.json: these points as 3D Slicer writes them."""
+    """Returns the content of root.mrk.json: these points in 3D Slicer's format."""
     control = [{"label": name, "position": position} for name, position in LANDMARKS.items()]
     return json.dumps({"markups": [{"type": "Fiducial", "coordinateSystem": "RAS", "coordinateUnits": "mm",
                                     "controlPoints": control}]})
@@ -37,7 +37,7 @@ def documents():
 
 
 def conditions(list_file=None):
-    """Returns the list as a dict from a document and a first line to all conditions of such snippets."""
+    """Returns the list as a dict, which maps a document and the first line of snippets to their conditions."""
     found = collections.defaultdict(list)
     for line in (list_file or pathlib.Path(__file__).with_name("snippets.txt")).read_text(encoding="utf-8").splitlines():
         if line and not line.startswith("#"):
@@ -49,7 +49,7 @@ def conditions(list_file=None):
 
 
 def snippets(list_file=None):
-    """Returns all snippets in sh and Python. Ends with an error if the list names a snippet that is gone."""
+    """Returns all snippets in sh and Python. Ends with an error if the list names a snippet that no longer exists."""
     listed, made = conditions(list_file), []
     unused = set(listed)
     for document in documents():
@@ -70,11 +70,11 @@ def snippets(list_file=None):
 
 
 def is_run(condition):
-    """Returns whether a snippet with this condition runs now. Its modules are the caller's matter."""
+    """Returns whether a snippet with this condition runs now. The caller checks the modules that the snippet needs."""
     return not condition.startswith(("never", "elsewhere")) and (condition != "long" or os.environ.get("RIIS_TEST_LONG") == "1")
 
 
 def run_commands(commands, folder, environment, *before):
-    """Runs the commands of a snippet as a reader's bash would, but ends at the first that fails."""
+    """Runs the commands of a snippet as a reader's bash would. The first command that fails ends the run."""
     return subprocess.run([*before, "bash", "-euo", "pipefail", "-c", commands], cwd=folder, env=environment, text=True,
                           stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tests which faults check_pages.py and check_links.py refuse, on invented files."""
+"""Tests which faults in invented files check_pages.py and check_links.py refuse."""
 import os
 import pathlib
 import subprocess

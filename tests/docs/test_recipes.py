@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The recipes for other package managers fit the sources: versions, options of CMake, files, compilers' sources, workflows.
+"""The recipes for other package managers must agree with the sources: versions, options of CMake, files, compilers' sources,
+workflows.
 
-Run in the repository's root. The workflows and conda's recipe need the module yaml, without which their tests are skipped.
+This test runs in the repository's root. The tests of the workflows and of conda's recipe need the module yaml. These tests are
+skipped without yaml.
 """
 import ast
 import hashlib
@@ -133,7 +135,7 @@ class Recipes(unittest.TestCase):
         self.assertEqual(manifest["version"], version())
         self.assertEqual(manifest["license"], "Apache-2.0")
         self.assertEqual(manifest["build"]["link"], ["riis"])
-        # fpm compiles all sources below its folder. CMake must compile the same.
+        # fpm compiles all sources below its folder. CMake must compile the same files.
         folder = ROOT / manifest["library"]["source-dir"]
         library = text_of("fortran/CMakeLists.txt").partition("add_library(riis_fortran")[2].partition(")")[0]
         sources = {str(file.relative_to(folder)) for file in folder.rglob("*.f90")}
@@ -154,7 +156,7 @@ class Recipes(unittest.TestCase):
                     called.add(words.split()[0])
                 for command in commands:
                     called |= {word for word in re.findall(r"\./run ([a-z0-9_-]+)", command)}
-                    # Other commands only install what ./run itself needs, or publish.
+                    # Other commands only publish, or install packages that ./run itself needs.
                     self.assertRegex(command.strip(), r"^(\./run |apt-get update|gh release create )", file.name)
         self.assertLessEqual(called, verbs)
         self.assertLessEqual({"lint", "test", "sanitize", "tsan", "fuzz", "docs", "python"}, called)

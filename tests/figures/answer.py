@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Calls a script's main again and again, because importing matplotlib or VTK takes longer than most calls.
+"""Calls a script's main many times in one process, because importing matplotlib or VTK takes longer than most calls.
 
-answer.py SCRIPT PRINTED: each line of the standard input has the words of one call. The file PRINTED gets the text that the
-call prints, and the standard output gets the call's exit status."""
+answer.py SCRIPT PRINTED: each line of the standard input has the words of one call. The file PRINTED gets the text that the call
+prints, and the standard output gets its exit status."""
 
 import contextlib
 import importlib

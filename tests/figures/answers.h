@@ -3,8 +3,8 @@
 #ifndef RIIS_TEST_ANSWERS_H
 #define RIIS_TEST_ANSWERS_H
 
-/* Calls the script with words that a shell would read. Returns the exit status. The printed text is in scratch_path("printed").
- * All calls of a test name the same script. */
+/* Calls the script with words, which are split as by a shell. Returns the exit status. The printed text is in
+ * scratch_path("printed"). All calls of a test must name one script. */
 int answer_of(const char *script, const char *words);
 
 /* Ends the process, if there is one. */

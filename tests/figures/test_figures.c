@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The page of figures has every figure, each with a caption. Every picture is a PNG of the size that the page gives, with more
- * than one colour. Tables of states hold the numbers of `riis states`. The page loads nothing from elsewhere. */
+ * The page of figures must have every figure, each with a caption. Every picture must be a PNG of the size that the page gives,
+ * with more than one colour. Tables of states must have the numbers of `riis states`. The page must not load anything from
+ * elsewhere. */
 #include <math.h>
 #include <riis/riis.h>
 #include <stdint.h>
@@ -16,14 +17,14 @@
 
 enum { n_of_paper = 11, n_kinds = 4, n_figures = n_of_paper + n_kinds };
 
-/* The kinds of valves with a table of states, and the number of openings in each table. For the fifth kind, aortic, the page
- * says that there is no table. */
+/* The kinds of valves with a table of states, and the number of openings in each table. For the fifth kind, aortic, the page says
+ * that it has no table. */
 static const char *const kinds[n_kinds] = {"trileaflet", "coapting", "mitral", "bileaflet"};
 static const int n_openings[n_kinds] = {3, 2, 2, 2};
 
 static char *page;
 
-/* Returns a program's exit status. Its output goes to a file in the scratch folder. */
+/* Returns a program's exit status. The program's output goes to a file in the scratch folder. */
 static int run(const char *program, const char *arguments) {
   char command[4096];
   const int n = snprintf(command, sizeof command, "'%s' %s >%s 2>&1", program, arguments, scratch_path("printed"));
@@ -113,7 +114,7 @@ static int base64_digit(char c) {
   return found ? (int)(found - digits) : -1;
 }
 
-/* Decodes the text up to the closing quote into a file of the scratch folder. */
+/* Decodes the text up to the closing quote, and writes it to a file of the scratch folder. */
 static void write_decoded(const char *text, const char *name) {
   const size_t length = strcspn(text, "\"");
   assert_true(length > 0 && length % 4 == 0);
@@ -176,7 +177,7 @@ TEST(test_every_figure) {
   assert_null(strstr(page, beyond));
 }
 
-/* Returns the section of the figure of this number, and its end. */
+/* Returns the section of the figure with this number, and the section's end. */
 static const char *section_of(int number, const char **end) {
   char start[64];
   snprintf(start, sizeof start, "<section id=\"figure-%d\">", number);
@@ -187,7 +188,7 @@ static const char *section_of(int number, const char **end) {
   return section;
 }
 
-/* Reads a column of a table of `riis states`. Returns the number of lines, or 0 if there is no such column. */
+/* Reads a column of a table of `riis states`. Returns the number of lines, or 0 if the column is missing. */
 static int read_column(const char *kind, const char *name, double *values) {
   char *csv = scratch_read(table_path(kind), NULL), *rest = NULL;
   int column = -1, n = 0;
@@ -206,7 +207,7 @@ static int read_column(const char *kind, const char *name, double *values) {
   return n;
 }
 
-/* Expects that the row's cells are the column's numbers, and the changes of these numbers since the first number. */
+/* Checks that the row's cells are the column's numbers, and the changes of these numbers since the first one. */
 static void expect_row(const char *kind, int figure, const char *row, const char *column) {
   double values[8];
   const int n = read_column(kind, column, values);
@@ -247,7 +248,7 @@ TEST(test_page_stands_alone) {
   assert_non_null(strstr(page, "</html>"));
 }
 
-/* Figures from the JSON file follow the program's own figures. */
+/* The page has the figures from the JSON file after the program's own figures. */
 TEST(test_given_figures) {
   char start[64];
   snprintf(start, sizeof start, "<section id=\"figure-%d\">", n_figures + 1);
@@ -263,7 +264,7 @@ TEST(test_given_figures) {
   expect_picture(second, end);
 }
 
-/* Faults of these figures are reported before anything is drawn. */
+/* Faults of these figures are reported before the program draws anything. */
 TEST(test_given_figures_refused) {
   const struct {
     const char *json, *text;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The drawings that explain the parameters. Each valve's drawing names its parameters that riis_valve_get_parameter lists, up to
- * "skirt_length". So does the copy in docs/. The script refuses to draw if a parameter would be missing or have a different
- * value. The test is skipped where Python lacks matplotlib. */
+ * Tests the drawings that explain the parameters. Each valve's drawing must name the parameters that riis_valve_get_parameter
+ * lists, up to "skirt_length". The copy in docs/ must also name them. The script must refuse to draw if a parameter is missing or
+ * has another value. The test is skipped if Python lacks matplotlib. */
 #include <ctype.h>
 #include <riis/riis.h>
 #include <stdlib.h>
@@ -15,7 +15,7 @@
 enum { n_valves = 5 };
 static const char *const valves[n_valves] = {"aortic", "trileaflet", "coapting", "mitral", "bileaflet"};
 
-/* Returns the exit status of a program. Its output goes to a file in the scratch folder. */
+/* Returns the exit status of a program. The program's output goes to a file in the scratch folder. */
 static int run(const char *command, const char *word, const char *other_word, const char *kind) {
   char line[2048];
   const int n =
@@ -51,8 +51,8 @@ static int setup(void **state) {
   return -1;
 }
 
-/* Calls visit with every parameter of the valve up to "skirt_length". The drawings do not show later ones, which change single
- * cusps, commissures and places. */
+/* Calls visit with every parameter of the valve up to "skirt_length". Later parameters change single cusps, commissures and
+ * places, so the drawings omit them. */
 static void for_each_parameter(const char *kind, void (*visit)(const riis_parameter *, void *), void *what) {
   riis_valve *valve = NULL;
   assert_int_equal(riis_valve_create(kind, &valve), RIIS_OK);
@@ -124,7 +124,7 @@ TEST(test_pictures_of_the_documents) {
   }
 }
 
-/* Replaces the first `old` after `mark` by `text`. A drawing of the kind must then be refused with the message. */
+/* Replaces the first `old` after `mark` by `text`. The script must then refuse to draw this kind, with the message. */
 static void expect_refused_drawing(const char *kind, const char *mark, const char *old, const char *text,
                                    const char *message) {
   char *json = scratch_read(scratch_path("curves.json"), NULL);
@@ -174,7 +174,7 @@ static char *after(char *json, const char *kind, const char *text) {
   return found + strlen(text);
 }
 
-/* Expects that a drawing is refused if a parameter's value differs. This holds for every parameter whose value is not 0. */
+/* Checks that a drawing is refused if a parameter has another value. Tries every parameter whose value is not 0. */
 static void expect_compared(const char *kind, const char *quoted_kind, const char *name) {
   char *json = scratch_read(scratch_path("curves.json"), NULL), text[256];
   snprintf(text, sizeof text, "\"name\": \"%s\"", name);

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tests bench/figures/parameters: it finds labels that overlap or leave the sheet, and lengths along curves are right."""
+"""Tests bench/figures/parameters. The drawings' check must find labels that overlap or leave the sheet. Lengths along curves must
+be right."""
 
 import math
 import importlib.util

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Counts the allocations of Fortran code: their caller is the program, which contains the Fortran modules, or gfortran's
- * run-time library. All allocations of the process call these functions, because a program's symbols precede those of
- * libraries. */
+ * Counts the allocations of Fortran code. The caller of such an allocation is gfortran's run-time library or the program, which
+ * contains the Fortran modules. All allocations of the process call these functions, because symbols of a program come before
+ * those of libraries. */
 #ifndef _GNU_SOURCE
 #define _GNU_SOURCE /* for dladdr, RTLD_DEFAULT */
 #endif
@@ -16,7 +16,7 @@ void *__libc_realloc(void *p, size_t size);
 void allocations_begin(void);
 int64_t allocations_end(void);
 
-static const void *program, *run_time; /* base addresses of the counted callers; NULL: nothing is counted */
+static const void *program, *run_time; /* base addresses of the counted callers; NULL counts nothing */
 static int64_t n_counted;
 
 static void *counted(void *p, const void *caller_address) {

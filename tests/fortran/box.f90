@@ -1,6 +1,5 @@
 ! SPDX-License-Identifier: Apache-2.0
-! Makes a box of nodes around the aortic valve, which the tests of module riis mark, and the expected marks, which riis_c
-! gives.
+! Makes a box of nodes around the aortic valve, which the tests of module riis mark. Also makes the expected marks, by riis_c.
 module box
   use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_loc, c_null_ptr, c_ptr
   use, intrinsic :: iso_fortran_env, only: int64
@@ -37,7 +36,7 @@ contains
     call valve%destroy()
   end subroutine free_box
 
-  ! Computes the reference, without module riis if possible.
+  ! Computes the reference marks, without module riis where possible.
   subroutine mark_from_c()
     type(c_mark_list) :: list
     type(c_ptr) :: mesh, result
@@ -65,7 +64,7 @@ contains
     deallocate (target_xyz)
   end subroutine mark_from_c
 
-  ! Checks that marking a mesh gives the same marks as riis_c.
+  ! Checks that a mesh gets the marks that riis_c gives.
   subroutine check_marking(mesh, what, search)
     type(riis_mesh), intent(in) :: mesh
     character(len=*), intent(in) :: what

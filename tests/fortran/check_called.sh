@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # check_called.sh HEADER OBJECT_FILES...
 # Module riis and the subroutines for Fortran 77 must call every function of the header and of the headers that it includes by
-# name. check_procedures.sh checks that the tests call each of their procedures.
+# name. check_procedures.sh checks that the tests call each procedure of both.
 set -euo pipefail
 header=$1
 mapfile -t headers < <("$(dirname "$0")/../abi/headers.sh" "$header")
@@ -13,7 +13,7 @@ if [ "$(wc -l <<<"$functions")" -ne "$(grep -h -v '^#define' "${headers[@]}" | g
   echo "$header has declarations that this script does not understand" >&2
   exit 1
 fi
-# The functions that the object files call are their undefined symbols.
+# The undefined symbols of the object files are the functions that they call.
 called=$(nm -u "$@" | awk '$1 == "U" && $2 ~ /^riis_/ { print $2 }' | sort -u)
 uncalled=$(comm -23 <(sort <<<"$functions") <(echo "$called"))
 if [ -n "$uncalled" ]; then

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """check_declarations.py SOURCES FORTRAN_COMPILER C_COMPILER: riis_c.f90 must declare what riis.h declares. gfortran writes the C
-declarations of its types and functions (-fc-prototypes). The C compiler compares the fields of the structs, their types and
-places, and the constants. This script compares the names, order and types of the arguments. Planted faults must be refused.
+declarations of its types and functions (-fc-prototypes). The C compiler compares the constants, and the fields of the structs
+with their types and places. This script compares the names, order and types of the arguments. The check must refuse planted
+faults.
 
 Other Fortran compilers do not write C declarations, so the test is skipped with them (77). The comparison does not
 depend on the compiler, because the types and functions are BIND(C)."""
@@ -50,7 +51,7 @@ def declarations(compiler, source):
 
 
 def structs_compared(header, text):
-    """Returns a C program that compiles only if the structs of both sides are the same."""
+    """Returns a C program that compiles only if both sides have equal structs."""
     structs = re.findall(r"typedef struct (\w+) \{\n(.*?)\} \1;\n", text, re.DOTALL)
     fields = {name: re.findall(r"(\w+)(?:\[\d+\])?;", body) for name, body in structs}
     lines = ["#include <riis/riis.h>", "#include <stddef.h>"]
@@ -89,16 +90,16 @@ def in_c(type_):
 
 
 def reader_compared(header):
-    """Returns assertions that the C compiler reads the types of the functions as the reader of the header does. The generator of
-    riis_c.f90 has the same reader, and could repeat its mistakes."""
+    """Returns assertions in C. The assertions show that the C compiler and the reader of the header understand the types of the
+    functions alike. The generator of riis_c.f90 uses this reader, and could repeat its mistakes."""
     types = [(function, ", ".join(in_c(argument.type) for argument in function.arguments)) for function in header.functions]
     return [f"_Static_assert(_Generic(&{function.name}, {in_c(function.result)}(*)({arguments or 'void'}): 1, default: 0), "
             f'"{function.name} was read wrongly");' for function, arguments in types]
 
 
 def types_of(type_, is_value):
-    """Returns the C types that gfortran may write for an argument. An address in a type(c_ptr) is passed by value. The address of
-    a type(c_ptr) that the library writes is not. gfortran writes both as void *."""
+    """Returns the C types that gfortran may write for an argument. The address in a type(c_ptr) is passed by value. If the
+    library writes a type(c_ptr), its address is passed instead. gfortran writes both as void *."""
     if type_.stars == 0:
         return [f"{kind} " for kind in TYPES.get(type_.base, ())] or ["int (*"]
     bases = TYPES.get(type_.base, (type_.base,))

@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_error_stop.sh PROGRAM
-# error_stop.f90 makes errors in calls without a status argument, and copies handles. Each case must end with a message on the
-# error unit and an exit status.
+# error_stop.f90 makes errors in calls without a status argument, and copies handles. Each case must print a message on the error
+# unit and end with an exit status.
 set -euo pipefail
 program=$1
 failed=0

@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_flang.sh FLANG SOURCE_DIR WORK_DIR LIBRARY
-# Compiles the Fortran sources with another compiler, as that compiler's users do, and links them with the same C library. The
-# test programs must pass.
+# Compiles the Fortran sources with another compiler, in the way of its users. Links them with the same C library. The test
+# programs must pass.
 set -euo pipefail
 flang=$1 source=$2 work=$3 library=$4
 flags=(-O0 -Werror)
@@ -16,7 +16,7 @@ for name in "${fortran_sources[@]}"; do
 done
 link=("$library" "-Wl,-rpath,$(dirname "$library")")
 tests=$source/tests/fortran
-# The interface intentionally takes pointers to arrays without the target attribute, and flang warns about this.
+# The interface intentionally accepts pointers to arrays without the target attribute. flang warns about this.
 for name in checks box; do
   "$flang" -O0 -c "$tests/$name.f90"
 done

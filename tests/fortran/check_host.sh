@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_host.sh FC MODULES INCLUDE WORK FORTRAN_LIBRARY LIBRARY
-# Checks the table of flags in docs/building.md: which declarations of a caller in fixed form are right with which flags of
-# gfortran, and that `use riisf` refuses the others. Then it checks that riis owns no name that does not begin with riis.
+# Checks the table of flags in docs/building.md. The table says which declarations of a caller in fixed form are right with which
+# flags of gfortran. `use riisf` must refuse wrong declarations. Also checks that all names of riis begin with riis.
 set -euo pipefail
 fc=$1 modules=$2 include=$3 work=$4
 libraries=("${@:5}" "-Wl,-rpath,$(dirname "${!#}")")
@@ -29,8 +29,8 @@ source_of() {
     '      N = 1' "      CALL RIISF_VALVE_GET(VALVE, 'opening', N, SEEN, STATUS)" '      END'
 }
 
-# judged WANTED INTEGER REAL FLAGS...: with `use riisf` the caller must compile, print 0.500 and do so without `use riisf`
-# (right), or must not compile (refused).
+# judged WANTED INTEGER REAL FLAGS...: if WANTED is `right`, the caller must compile and print 0.500, with and without `use
+# riisf`. If it is `refused`, the caller must not compile with `use riisf`.
 judged() {
   local wanted=$1 integer=$2 real=$3 found=refused
   shift 3
@@ -63,12 +63,12 @@ done
 judged refused INTEGER 'DOUBLE PRECISION' -freal-8-real-16
 judged refused INTEGER 'REAL*8' -freal-8-real-16
 
-# Without `use riisf` a wrong kind goes unnoticed: the caller compiles, and the library gets another value.
+# Without `use riisf` a wrong kind has no message: the caller compiles, and the library gets another value.
 source_of INTEGER REAL '' >unnoticed.f
 "$fc" -std=legacy -I "$include" unnoticed.f "${libraries[@]}" -o unnoticed
 [[ $(./unnoticed) != 0.500 ]] || problem "REAL is right without use riisf"
 
-# A host may give its own variables and procedures any name that does not begin with riis.
+# A host may give its variables and procedures any name, if the name does not begin with riis.
 others=$(nm -g --defined-only "$5" | awk 'NF == 3 && tolower($3) !~ /riis/ { print $3 }')
 [[ ! $others ]] || problem "the library of Fortran defines" "$others"
 printf '%s\n' 'program host' '  use riis' '  use riisf' '  use riis_c' '  implicit none' \

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """check_keywords.py SOURCES: in riis.h, the arguments of every released function must have the same names as in abi/riis-*.xml.
-In C, argument names mean nothing to a caller. But riis_c.f90 takes them from riis.h, and in Fortran they are keywords."""
+In C, argument names mean nothing to a caller. But riis_c.f90 takes the names from riis.h, and in Fortran they are keywords."""
 
 import glob
 import os

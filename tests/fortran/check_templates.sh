@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_templates.sh FORTRAN_FOLDER SCRATCH
-# The generated sources must equal their templates' expansion and fit the line length. The comparison must refuse damaged copies.
-# Skipped (77) where fypp is not installed.
+# The generated sources must equal the expanded templates and fit the line length. The comparison must refuse damaged copies. The
+# test is skipped (77) if fypp is not installed.
 set -euo pipefail
 folder=$1 scratch=$2
 if ! command -v fypp >/dev/null; then

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: Apache-2.0
-! Helpers of the Fortran tests: checks that count failures, and a comparison of bits.
+! Helps the Fortran tests with checks that count failures, and with a comparison of bits.
 module checks
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
   use, intrinsic :: iso_fortran_env, only: error_unit
@@ -42,7 +42,8 @@ contains
       riis_c_text(riis_last_error()))
   end subroutine check_refused
 
-  ! Returns whether two numbers have the same bits. As values, -0 would equal 0, and NaN would differ from itself.
+  ! Returns whether two numbers have the same bits. A comparison of values would not do: -0 would equal 0, and NaN would differ
+  ! from itself.
   elemental function same(a, b)
     real(c_double), intent(in) :: a, b
     logical :: same

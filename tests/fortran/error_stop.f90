@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: Apache-2.0
-! error_stop CASE: makes a mistake that module riis answers with an error stop. check_error_stop.sh runs it.
+! error_stop CASE: makes a mistake, to which module riis responds with an error stop. check_error_stop.sh runs this program.
 program error_stop
   use, intrinsic :: iso_c_binding, only: c_double
   use riis

@@ -10,8 +10,8 @@ C     Ends the test if the call failed.
       CALL FAILED(TEXT)
       END
 
-C     Ends the test unless the call was refused with this status, and
-C     with a message that contains these words.
+C     Checks that the call was refused with this status, and that the
+C     message contains these words. Otherwise ends the test.
       SUBROUTINE WANT(STAT, WANTED, WORDS)
       INTEGER STAT, WANTED
       CHARACTER*(*) WORDS

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: Apache-2.0
-! In a step of a moving valve, module riis allocates nothing, and its pointers point to the library's own arrays.
+! In a step of a moving valve, module riis allocates nothing. The module's pointers point to arrays of the library.
 program test_allocations
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
   use, intrinsic :: iso_fortran_env, only: int8, int32, int64
@@ -92,7 +92,7 @@ contains
       lbound(fields%velocity, 2) == 1 .and. size(fields%velocity, 2) == size(node_id), 'pointers count from 1')
   end subroutine one_step
 
-  ! Calls that do copy must be counted, to show that the count can fail.
+  ! Calls that do copy must be counted, which shows that the count can fail.
   subroutine test_counting()
     integer, allocatable :: node_num(:)
     call allocations_begin()

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tests fortran/bindings/generate.py on copies of riis.h and bindings.table with planted changes. The generator must write the
-right lines, or refuse, name the line and leave the files alone. check_keywords.py is tested in the same way."""
+"""Tests fortran/bindings/generate.py with planted changes in copies of riis.h and bindings.table. The generator must write the
+right lines, or refuse. A refusal names the line and changes no files. check_keywords.py is also tested in this way."""
 
 import contextlib
 import glob
@@ -44,8 +44,8 @@ class Planted(unittest.TestCase):
         return [self.text(path) for path in generate.WIDTHS]
 
     def plant(self, path, old, new):
-        """Replaces the only occurrence of the old text. Returns its line number. HEADER stands for the header with the text.
-        Afterwards self.planted has its path."""
+        """Replaces the only occurrence of the old text. Returns its line number. HEADER stands for the header that contains the
+        text. self.planted gets the path of this header."""
         if path == HEADER:
             path = next((header for header in HEADERS if old in self.text(header)), HEADER)
             self.planted = path
@@ -69,7 +69,8 @@ class Planted(unittest.TestCase):
         return status, out.getvalue()
 
     def writes(self):
-        """First checks that the generator reports outdated files without writing. Then lets it write them."""
+        """First the generator must report outdated files without writing them. Then the function lets the generator write the
+        files."""
         status, text = self.run_it("--check")
         self.assertEqual(status, 1, text)
         self.assertIn("; ./run bindings writes it anew", text)
@@ -268,7 +269,7 @@ class Functions(Planted):
         self.assertIn("function riis_planted(n)", self.text(MODULE))
 
     def test_what_c_leaves_open_is_asked_for(self):
-        """If riis.h leaves something open, the refusal lists all gaps at once, with the lines to fill in."""
+        """If riis.h does not determine a binding, the refusal lists all gaps at once, with the lines to fill in."""
         line = self.plant_function("int64_t *n, const double *x,\n    const int64_t **ids, const riis_csr *csr, int32_t k")
         place = f"{self.planted}:{line}: riis_valve_planted: {TABLE} does not say of"
         pointer = "'required', or 'optional' where it may be NULL, with 'scalar', (*) or (3); or else 'borrowed'"
@@ -359,7 +360,7 @@ riis_valve_planted  What it does not say elsewhere.
 
 
 class Words(Planted):
-    """Faulty entries of the table."""
+    """Tests faulty entries of the table."""
 
     def refused(self, old, new, *messages):
         self.setUp()
@@ -418,7 +419,7 @@ class Words(Planted):
 
 
 class Subroutines(Planted):
-    """The table of the external subroutines."""
+    """Tests the table of the external subroutines."""
 
     ENTRY = "riisf_mesh_prepare = riis_mesh_prepare\n"
 
@@ -459,7 +460,7 @@ class Subroutines(Planted):
 
 
 class Page(Planted):
-    """The page of all calls in Fortran, by calls.py."""
+    """Tests the page of all calls in Fortran, by calls.py."""
 
     def setUp(self):
         super().setUp()

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: Apache-2.0
-! Uses riis_c directly, as its first comment shows: texts, handles, structs with their sizes, arguments that are left out, arrays
-! of the library, log functions. check_declarations.py compares every declaration with riis.h, and the tests of module riis and of
-! the subroutines for Fortran 77 call every function.
+! Uses riis_c directly, as its first comment shows. The tests cover texts, handles, structs with their sizes, arguments that are
+! left out, arrays of the library, and log functions. check_declarations.py compares every declaration with riis.h. The tests of
+! module riis and of the subroutines for Fortran 77 call every function.
 module log_capture
   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_int32_t, c_ptr
   use riis_c
@@ -92,7 +92,7 @@ contains
     call check(.not. c_associated(marks) .and. .not. c_associated(valve), 'destroying sets handles to NULL')
   end subroutine test_marking
 
-  ! A triangle without area that the options accept gives a warning.
+  ! A triangle without area causes a warning if the options accept it.
   subroutine test_log()
     type(captured), target :: log
     type(riis_surface_arrays) :: arrays

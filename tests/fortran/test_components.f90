@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: Apache-2.0
-! Tests of module riis: velocities and K u_surface in three arrays of rank 1, 3 and 4. The sums must have the bits of the calls
-! with arrays (3, n).
+! Tests module riis: velocities and K u_surface in three arrays of rank 1, 3 and 4. The sums must have the bits that arrays (3, n)
+! give.
 program test_components
   use, intrinsic :: iso_c_binding, only: c_double
   use, intrinsic :: iso_fortran_env, only: int64
@@ -100,7 +100,7 @@ contains
     call check(all(same(reshape(K3, [n_nodes]), K)) .and. all(same(reshape(K4, [n_nodes]), K)), 'K alone')
   end subroutine test_resistance
 
-  ! A structured code has a halo around its nodes, and passes its arrays as they are.
+  ! A structured code has a halo around its nodes, and passes its arrays with the halo.
   subroutine test_halo()
     type(riis_mesh) :: grid
     type(riis_marks) :: found
@@ -121,7 +121,7 @@ contains
       all(abs(y - 2 * held) < 1d-9 * (1 + held)) .and. all(abs(z + 3 * held) < 1d-9 * (1 + held)), 'K u_surface')
     held(1:m, 1:m, 1:m) = 0
     call check(maxval(abs(held)) <= 0, 'nothing in the halo')
-    ! The interior is a section that is not contiguous. Its nodes are those of the mesh without a halo.
+    ! The interior is a section of the arrays that is not contiguous. The section's nodes are those of the mesh without a halo.
     call marks%add_resistance(R, held(1:m, 1:m, 1:m))
     call check(all(same(reshape(held(1:m, 1:m, 1:m), [n_nodes]), K)), 'a section of the array with a halo')
     call found%destroy()

@@ -40,7 +40,7 @@ program test_f2003
   call surface%closest_points(xyz, distance=distance, point_id=node_id)
   if (count(distance >= 0) /= size(node_id)) stop 4
 
-  ! Laws of opening, and a surface that moves by frames.
+  ! Tests laws of opening, and a surface that moves by keyframes.
   call riis_opening_from_times(riis_opening_times(0.45d0, 0.05d0, 0.9d0, 0.1d0, period=1d0), 3.7d0, opening)
   if (opening < 1d0) stop 5
   call riis_opening_advance(riis_opening_switch(0.04d0, 0.08d0), state, 0.1d0, 1d0, 1d0)

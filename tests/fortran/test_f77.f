@@ -2,7 +2,7 @@ C     SPDX-License-Identifier: Apache-2.0
 C     Tests the external subroutines as a Fortran 77 code calls them,
 C     with fixed form, implicit interfaces and the include file. A box
 C     of nodes around the valve is marked in several ways, and all
-C     results have to agree.
+C     results must agree.
       PROGRAM TF77
       IMPLICIT NONE
       INCLUDE 'riisf.h'
@@ -200,7 +200,8 @@ C     and there are no triangles.
      &  0D0, ZERO, RIIS_MEASURE_MINIMIZATION, 7D0, STAT)
       CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'measure_tolerance is 7')
 
-C     A band that steps aside marks other nodes. A limit must hold it.
+C     A band with an offset marks other nodes. A distance limit must
+C     include the whole band.
       CALL RIISF_SURFACE_OFFSET(SURF, VALVE, 0.12D0, 0.05D0, 1D0, AXIS,
      &  0D0, ZERO, 0.5D0, STAT)
       CALL OK(STAT)
@@ -727,7 +728,7 @@ C     The surface moves upwards.
      &  0.05D0, 1D0, AXIS, 0D0, ZERO, 1D0, AXIS, 0D0, BELOW, STAT)
       CALL OK(STAT)
 
-C     Two directions upwards, of the same derivatives.
+C     Two directions lead upwards, and have the same derivatives.
       CALL RIISF_SURFACE_ADD_DIRECTION(SURF, VALVE, TWIN, 0D0, STAT)
       CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'dp is 0')
       CALL RIISF_SURFACE_ADD_PLACED(SURF, VALVE, TWIN, 1D-2, -1D0, AXIS,
@@ -913,7 +914,7 @@ C     Tests K, K u, and the reaction to a flow upwards with speed 6.
      &  STAT)
       CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'rim is 7')
 
-C     K of the nodes in the lists is K in the array of all nodes.
+C     The lists give each node the K that the array of all nodes has.
       CALL RIISF_MARKED_RESISTANCE(RES, NN, I, K2, KU, STAT)
       CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'the nodes have no K')
       CALL RIISF_MARK_WITH_RESISTANCE(SURF, MESH, 0.3D0,

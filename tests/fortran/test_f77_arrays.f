@@ -1,8 +1,8 @@
 C     SPDX-License-Identifier: Apache-2.0
 C     Tests the external subroutines for velocities and momentum in
-C     three arrays, as a Fortran 77 code with a halo has them. They must
-C     give the bits of the calls with arrays (3, n). The triangles of a
-C     surface must have the areas of its leaflets.
+C     three arrays, as a Fortran 77 code with a halo has them. The bits
+C     must be those that calls with arrays (3, n) give. The triangles of
+C     a surface must have the areas of its leaflets.
       PROGRAM TF77A
       IMPLICIT NONE
       INCLUDE 'riisf.h'
@@ -322,6 +322,7 @@ C     their ids.
         IF (FOUND(I) .EQ. TRI(I) .AND. DIST(I) .LT. 1D-12)
      &    NEAR = NEAR + 1
    40 CONTINUE
-C     Where leaflets meet at a commissure, a query may find another one.
+C     Leaflets meet at a commissure, so a query there may find another
+C     leaflet.
       IF (NEAR .LT. N - N / 100) CALL FAILED('the ids of queries')
       END

@@ -1,6 +1,6 @@
 C     SPDX-License-Identifier: Apache-2.0
-C     Tests laws of opening, frames in time and surfaces from arrays, as
-C     a Fortran 77 code calls them, against closed forms.
+C     Tests laws of opening, keyframes and surfaces from arrays, as a
+C     Fortran 77 code calls them. Compares them with closed forms.
       PROGRAM TF77M
       CALL TABLE
       CALL TIMES
@@ -21,8 +21,8 @@ C     Checks that two numbers are equal.
       IF (ABS(A - B) .GT. 1D-12) CALL FAILED(TEXT)
       END
 
-C     A warp whose landmarks shift takes the vertices with them. The
-C     shift over the step is the velocity.
+C     If the landmarks of a warp shift, the vertices shift with them.
+C     The velocity is the shift divided by the step.
       SUBROUTINE WARPS
       INCLUDE 'riisf.h'
       INTEGER MAXV
@@ -143,8 +143,8 @@ C     shift over the step is the velocity.
       CALL NEAR(OPEN, 0.5D0, 'a refused call writes nothing')
       END
 
-C     A switch gives the same states in one run and after a restart from
-C     a file.
+C     A switch gives the same states without a restart and after a
+C     restart from a file.
       SUBROUTINE SWITCH
       INCLUDE 'riisf.h'
       DOUBLE PRECISION S(7), ALL(7), T
@@ -248,7 +248,7 @@ C     the square show its height and its speed.
      &  STAT)
       CALL OK(STAT)
       CALL ABOVE(SURF, 0.6D0, 2.4D0)
-C     A band that steps aside leaves the distances as they are.
+C     An offset of the band does not change the distances.
       OTHER = 0
       CALL RIISF_SURFACE_OFFSET_KEYFRAMES(KEYS, 0.25D0, 0.25D0, 0.5D0,
      &  0.05D0, 2D0, AXIS, 0D0, ZERO, 0.5D0, OTHER, STAT)
@@ -348,7 +348,8 @@ C     A band that steps aside leaves the distances as they are.
      &  XYZ(3,1), 3, ZERO, ZERO, V, 1, 4, 1, QUAD, 2, STAT)
       CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'index_base is 2')
       CALL RIISF_SURFACE_DESTROY(SURF2)
-C     Four strips around the square. The library chooses or takes them.
+C     The skirt has four strips around the square. The library chooses
+C     the attached vertices, or uses those of the caller.
       DO 20 I = -1, 1, 2
         HELD(1) = INT(I, 1)
         CALL RIISF_SURFACE_WITH_SKIRT(4, X, Y, Z, 1, 4, 1, QUAD, 0,

@@ -1,7 +1,6 @@
 ! SPDX-License-Identifier: Apache-2.0
-! Tests of module riis: surfaces from frames in time, warps, velocities of the caller's vertices, closest points of a mask and of
-! a list.
-! The results are compared with closed forms and with riis_c.
+! Tests module riis: surfaces from keyframes, warps, velocities of the caller's vertices, and closest points of a mask and of a
+! list. The results are compared with closed forms and with riis_c.
 program test_frames
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_loc, c_null_ptr, c_ptr
   use, intrinsic :: iso_fortran_env, only: int8, int32, int64
@@ -86,7 +85,7 @@ contains
     call surface%update_from_keyframes(keyframes, 9d0)
     call check_height(surface, 0d0, 0d0, 'at rest behind the last key')
 
-    ! The velocities have the same address as the library's array.
+    ! The pointer to the velocities has the address of the library's array.
     n = 0
     of_c = c_null_ptr
     call surface%get_triangles(all_triangles)
@@ -96,12 +95,12 @@ contains
     call check(from_c%n_vertices == 4 .and. c_associated(own_velocities, from_c%velocity), 'no copy of velocities')
     call surface%destroy()
 
-    ! The second keyframes also have leaflet ids and cubic interpolation. Their vertex ids are of the other integer kind and count
-    ! from 0.
+    ! The second keyframes also have leaflet ids and cubic interpolation. The vertex ids of these keyframes are of the other
+    ! integer kind and count from 0.
     call others%create(time, frames, int(halves - 1, int64), [7, 8], index_base=0, interpolation=RIIS_INTERPOLATION_CUBIC)
     call surface%create_from_keyframes(others, 0.25d0, 0d0, .true., 0.2d0, 0.1d0, 1d0, [0d0, 0d0, 1d0], 0d0, &
       [0d0, 0d0, 0d0], .false., 1)
-    ! The slope is the weighted harmonic mean of the slopes on both sides.
+    ! The slope at a key is the weighted harmonic mean of the slopes on both sides.
     call check_height(surface, 0.1d0, 2 / (1 / 0.4d0 + 1 / 0.8d0), 'cubic')
     call surface%destroy()
     call surface%create_from_keyframes(keyframes, 0.25d0)
@@ -195,10 +194,10 @@ contains
     call keyframes%destroy()
   end subroutine test_bad_keyframes
 
-  ! Velocities are given as xyz or as x, y, z, with ids of either kind, when the surface is made and later. The placement turns
-  ! the velocities about z and doubles them.
+  ! Velocities are given as xyz or as x, y, z, with ids of either kind. The call that makes the surface gives the velocities, or a
+  ! later call does. The placement turns the velocities about z and doubles them.
 
-  ! Landmarks on the attachment of a placed valve are widened and lifted. The warped valve is larger by the same factors.
+  ! Landmarks on the attachment of a placed valve are widened and lifted. The warped valve is larger by these factors.
   subroutine test_warps()
     type(riis_valve) :: valve, before, again
     type(riis_warp) :: warp, in_place
@@ -428,7 +427,7 @@ contains
     call of%get_triangles(all_triangles)
     xyz => all_triangles%xyz
     is_same = size(xyz, 2) == 8
-    ! The order of the outer vertices follows the attached edges.
+    ! The outer vertices have the order of the attached edges.
     if (is_same) is_same = all([(minval(norm2(expected - spread(xyz(:, i), 2, 4), dim=1)) < 1d-13, i=5, 8)])
     call check(is_same, 'the skirt, ' // what)
   end subroutine check_outer
@@ -462,7 +461,7 @@ contains
     call check(.not. surface%is_created(), 'a refused surface is empty')
   end subroutine test_bad_velocities
 
-  ! Only the points of a mask or a list get answers. A query of all points gives the same answers.
+  ! Only the points of a mask or a list get results. These results equal those of a query of all points.
   subroutine test_masks()
     real(c_double), allocatable :: all_distances(:), distance(:), point(:, :), expected_distance(:)
     integer(int8), allocatable :: bytes(:)
@@ -502,7 +501,7 @@ contains
     call surface%closest_points(xyz, distance=distance, point_id=list(:0))
     call check(all(same(distance, -7d0)), 'a list of none is not a list of all')
 
-    ! Reads the marked nodes through the result's pointer. Nothing is gathered or scattered.
+    ! Reads the marked nodes through the result's pointer. The call gathers and scatters nothing.
     call mesh%create(xyz)
     call riis_mark_nodes(surface, mesh, result, fields=RIIS_FIELD_POINT)
     call result%marked(node_id)

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: Apache-2.0
-! Uses riisf.h in free form. test_f77.f uses it in fixed form. generate.py writes its constants from riis.h.
+! Uses riisf.h in free form. test_f77.f uses it in fixed form. generate.py writes the constants of riisf.h from riis.h.
 program test_include
   use, intrinsic :: iso_c_binding, only: c_double
   use checks

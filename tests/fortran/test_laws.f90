@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: Apache-2.0
-! Tests laws of opening in module riis. Results equal those of riis_c bit for bit, and a restart in mid-motion changes
+! Tests laws of opening in module riis. Results equal those of riis_c bit for bit. A restart in the middle of a motion changes
 ! nothing.
 program test_laws
   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
@@ -222,8 +222,8 @@ contains
       of_c%pressure_difference, of_c%flow]))
   end function is_same_angle
 
-  ! An aortic and a mitral valve follow laws. A restart file holds only the states of the laws. After the restart, K and K
-  ! u_surface must have the same bits as without the restart, to the end of the cycle.
+  ! An aortic and a mitral valve follow laws. A restart file holds only the states of the laws. From the restart to the end of the
+  ! cycle, K and K u_surface must have the bits of a run without the restart.
   subroutine test_restart()
     type(riis_opening_switch_state) :: aortic
     type(riis_opening_angle_state) :: mitral
@@ -260,7 +260,7 @@ contains
     call free_box()
   end subroutine test_restart
 
-  ! Runs from the state before the step `first` to the step `last`.
+  ! Runs the steps from `first` to `last`, starting from the state before.
   subroutine run(mesh, aortic, mitral, first, last, fields)
     type(riis_mesh), intent(in) :: mesh
     type(riis_opening_switch_state), intent(inout) :: aortic

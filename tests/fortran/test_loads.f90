@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: Apache-2.0
-! Tests module riis: forces of the flow at the vertices of a surface, and the forces of its leaflets at nodes of tissue. Sums and
-! moments must be those of the leaflets.
+! Tests module riis: forces of the flow at the vertices of a surface, and the forces of its leaflets at nodes of tissue. The sums
+! and moments at the nodes must be those of the leaflets.
 program test_loads
   use, intrinsic :: iso_c_binding, only: c_double
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -94,7 +94,7 @@ contains
     end do
     half = n / 2
 
-    ! Two ranks have a part of the nodes each. Their sums are added.
+    ! Each of two ranks has a part of the nodes. The sums of both ranks are added.
     sums = 0
     call riis_loads_add_sums(tissue(:, :half), radius, held%edges, sums, held%leaflet_id, share(:half))
     call riis_loads_add_sums(tissue(:, half + 1:), radius, held%edges, sums, held%leaflet_id, share(half + 1:), n_threads=2)
@@ -112,7 +112,7 @@ contains
     call riis_loads_add_forces(tissue, radius, held%edges, force, moment, sums, alone, about, held%leaflet_id, share)
     call check(all(abs(alone - at) < 1d-12 * maxval(abs(at))), 'one rank has the same forces')
 
-    ! Without leaflets, weights and a point, all edges hold each leaflet.
+    ! If leaflets, weights and a point are left out, all edges hold each leaflet.
     sums = 0
     call riis_loads_add_sums(tissue, radius, held%edges, sums)
     call check(all(same(sums(:, 2), sums(:, 1))) .and. sums(1, 1) > 100, 'all edges hold all leaflets')

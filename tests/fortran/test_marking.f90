@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: Apache-2.0
-! Tests of marking by module riis: its results in every form, and several threads.
+! Tests marking by module riis: its results in every form, and with several threads.
 program test_marking
   use, intrinsic :: iso_c_binding, only: c_associated, c_double
   use, intrinsic :: iso_fortran_env, only: int8, int32, int64
@@ -50,7 +50,7 @@ contains
     call check(all(node_id == expected) .and. all(same(distance, expected_distance)), 'its pointers')
     call check(minval(triangle_id) >= 0 .and. any(leaflet_id == RIIS_LEAFLET_NON_CORONARY), 'its triangles and leaflets')
 
-    ! Copies into arrays that are not allocated, too short, too long, or of the right size.
+    ! Copies the results into arrays that are not allocated, too short, too long, or of the right size.
     call result%marked_nodes(node_num, distances, triangles, leaflets)
     call check(all(node_num == expected + 1) .and. all(same(distances, distance)) .and. all(triangles == triangle_id) &
       .and. all(leaflets == leaflet_id), 'its copies, counted from 1')
@@ -188,7 +188,7 @@ contains
     call result%destroy()
   end subroutine test_dense
 
-  ! The box leaks along its edges through a thin valve. The result equals riis_c's.
+  ! The box leaks along its edges through a thin valve. The leaks equal those of riis_c.
   subroutine test_leaks()
     type(riis_surface) :: thin
     type(riis_mesh) :: joined
@@ -259,7 +259,7 @@ contains
     n = list%n_edges
   end function n_of
 
-  ! Passages in the box, with masks, and with numbers of every kind. A lone node is a region of its own.
+  ! Tests passages in the box, with masks, and with numbers of every kind. A node without neighbours is a separate region.
   subroutine test_passages()
     type(riis_surface) :: thin
     type(riis_mesh) :: joined
@@ -397,7 +397,7 @@ contains
     call check(.not. (a%is_created() .or. c%is_created() .or. e%is_created()), 'an empty copy is empty')
   end subroutine test_assignment
 
-  ! All threads read one surface and one mesh. Each has its own result and its own error message.
+  ! All threads read one surface and one mesh. Each thread has a separate result and a separate error message.
   subroutine test_threads()
     integer, parameter :: n_parts = 8
     logical :: is_right(n_parts)
@@ -411,7 +411,7 @@ contains
     call check(all(is_right), 'threads do not disturb each other')
   end subroutine test_threads
 
-  ! Recursive, so that its variables are local to a thread under any -fcheck or -fno-automatic.
+  ! The procedure is recursive, so that its variables are local to a thread under any -fcheck or -fno-automatic.
   recursive subroutine work(part, is_right)
     integer, intent(in) :: part
     logical, intent(out) :: is_right

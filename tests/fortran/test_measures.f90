@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: Apache-2.0
-! Tests module riis: leaflets, orifice, leak, first passage, cells across and swept volume, against closed forms and other
-! calls.
+! Tests module riis: leaflets, orifice, leak, first passage, cells across and swept volume. All results are compared with closed
+! forms and other calls.
 program test_measures
   use, intrinsic :: iso_c_binding, only: c_double
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -139,7 +139,7 @@ contains
   end subroutine test_walls
 
   ! The halves of a disc turn, and a triangle translates.
-  ! The opening and the scale at which the orifice of a valve has an area.
+  ! Finds the opening and the scale at which the orifice of a valve has an area.
   subroutine test_by_area()
     type(riis_valve) :: valve, empty
     type(riis_surface) :: surface
@@ -194,7 +194,7 @@ contains
     call valve%destroy()
   end subroutine test_swept_volumes
 
-  ! The valve reaches the walls of this box, so the closed valve parts the box.
+  ! The valve reaches the walls of this box, so the closed valve divides the box.
   subroutine test_passages()
     integer, parameter :: n_side = 17, n_along = 41, n_nodes = n_side * n_side * n_along
     type(riis_valve) :: valve, empty

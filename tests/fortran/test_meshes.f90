@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: Apache-2.0
-! Tests of module riis: meshes without copies, and adjacencies of all kinds.
+! Tests module riis: meshes without copies, and adjacencies of all kinds.
 program test_meshes
   use, intrinsic :: iso_c_binding, only: c_associated, c_double
   use, intrinsic :: iso_fortran_env, only: int32, int64, real32, real64
@@ -54,7 +54,7 @@ contains
     call check_marking(mesh, 'x, y, z')
     call mesh%destroy()
 
-    ! The coordinates are every second column. The rows are in another order and not adjacent.
+    ! The coordinates are every second column. The rows have another order, and other rows lie between them.
     allocate (wide(6, 2 * n_nodes))
     wide = ieee_value(0d0, ieee_quiet_nan)
     wide(6:2:-2, 2::2) = xyz
@@ -97,7 +97,7 @@ contains
     call check_refused(status, RIIS_INVALID_MESH, 'node 0')
   end subroutine test_sections
 
-  ! Nothing is copied: coordinates that change in place change the mesh.
+  ! Nothing is copied: if the caller's coordinates change in place, the mesh changes.
   subroutine test_in_place()
     type(riis_mesh) :: mesh
     type(riis_marks) :: result
@@ -117,7 +117,7 @@ contains
     call check(size(node_num) == size(expected) + 1 .and. node_num(1) == node .and. abs(distance(1) - 0.01d0) < 1d-9, &
       'a node that moved in place is marked')
     xyz(:, node) = -1.4d0
-    ! The coordinates changed without an update of the mesh, but the mesh borrows their memory.
+    ! The mesh borrows the coordinates' memory, so it has the new coordinates without an update.
     call riis_mark_nodes(surface, mesh, result, search=RIIS_SEARCH_EXHAUSTIVE)
     call check(result%n_marked() == size(expected), 'a node that moved back is not')
     call result%destroy()
@@ -201,7 +201,8 @@ contains
     call marks%destroy()
   end subroutine test_copies
 
-  ! Tests meshes from axes: the marks are those of the box, also with a halo, in another order and in single precision.
+  ! Tests meshes from axes. The marks of such a mesh are those of the box, also with a halo, in another order and in single
+  ! precision.
   subroutine test_grids()
     type(riis_mesh) :: mesh
     type(riis_marks) :: marks
@@ -434,7 +435,7 @@ contains
     type(riis_mark_stats) :: stats
     call mesh%set_adjacency(adjacency)
     call check_marking(mesh, what, RIIS_SEARCH_NEIGHBOR)
-    ! The walk along neighbours reached all nodes, except the nodes that the search's final check finds.
+    ! The walk along neighbours reached all nodes. The search's final check finds any other nodes.
     call riis_mark_nodes(surface, mesh, result, search=RIIS_SEARCH_NEIGHBOR)
     call result%get_stats(stats)
     call check(stats%search == RIIS_SEARCH_NEIGHBOR .and. stats%complete == 1 .and. &

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: Apache-2.0
-! Tests of module riis: valves, surfaces, closest points, errors and log. Results equal those of riis_c bit for bit.
+! Tests module riis: valves, surfaces, closest points, errors and log. Results equal those of riis_c bit for bit.
 module log_lines
   use, intrinsic :: iso_fortran_env, only: int32
   use riis, only: RIIS_LOG_WARNING
@@ -173,7 +173,7 @@ contains
     call valve%destroy()
   end subroutine test_valve
 
-  ! Sizes are set by a surgeon's names, in every order, and other sizes follow from them.
+  ! A surgeon's names set sizes in every order, and other sizes follow from them.
   subroutine test_named_sizes()
     character(len=*), parameter :: names(3) = [character(len=16) :: 'annulus', 'stj', 'effective_height']
     integer, parameter :: orders(3, 6) = reshape([1, 2, 3, 1, 3, 2, 2, 1, 3, 2, 3, 1, 3, 1, 2, 3, 2, 1], [3, 6])
@@ -249,7 +249,7 @@ contains
     call valve%destroy()
   end subroutine test_named_sizes
 
-  ! The sizes of the coapting valve, its refusals, and the length of its free edges at two openings.
+  ! Tests the sizes of the coapting valve, its refusals, and the length of its free edges at two openings.
   subroutine test_coapting()
     type(riis_valve) :: valve
     type(riis_surface) :: surface
@@ -306,7 +306,7 @@ contains
     call check(size(leaflets) > 0 .and. all(leaflets == 5) .and. all(patches == 0), 'the leaflet and patch ids')
     call valve%destroy()
 
-    ! The same patch is given in another way: one side is reversed, and curves and sides are integers of the other kind that count
+    ! The patch is given again in another way. One side is reversed. Curves and sides are integers of the other kind, which count
     ! from 0.
     control(:, 3:4) = square(:, [3, 4])
     reversed = .false.
@@ -404,7 +404,7 @@ contains
     call check_address(xyz, c_xyz, 'the vertices are the library''s own')
     call check(size(vertex_id, 2) == n .and. minval(vertex_id) == 0, 'the corners count from 0')
 
-    ! Options that a call leaves out stay as they were. Options that a call gives replace the surface's options.
+    ! An update keeps the options that its call leaves out, and replaces those that the call gives.
     call surface%update(valve)
     call surface%get_info(again)
     call check(same(again%half_thickness, info%half_thickness) .and. all(same(again%lower, info%lower)), 'all options stay')
@@ -430,7 +430,7 @@ contains
     call valve%destroy()
   end subroutine test_surface
 
-  ! Another method for distances is chosen when a surface is made, or later. The surface keeps it.
+  ! Another way to measure distances is chosen when a surface is made, or later. The surface keeps it.
   subroutine test_distances()
     type(riis_valve) :: valve
     type(riis_surface) :: by_triangles, by_other
@@ -574,7 +574,7 @@ contains
     end do
     call check(all_same, 'closest points are those of riis_c')
 
-    ! Closest points with leaflets, separate coordinates and a limit.
+    ! Tests closest points with leaflets, separate coordinates and a limit.
     sections = -1
     call surface%closest_points(xyz(1, :), xyz(2, :), xyz(3, :), distance_limit=0.2d0, far_distance=-5d0, &
       distance=sections(2, :), n_threads=2)
@@ -623,7 +623,7 @@ contains
     call surface%destroy()
   end subroutine test_log
 
-  ! Calls refuse handles that were not created.
+  ! A call refuses handles that were not created.
   subroutine test_empty()
     type(riis_triangles) :: all_triangles
     type(riis_valve) :: valve
@@ -679,7 +679,7 @@ contains
     call valve%destroy()
   end subroutine test_empty
 
-  ! Empty handles may be assigned, also inside other types. error_stop.f90 tests assignments of other handles.
+  ! Empty handles may be assigned, even inside other types. error_stop.f90 tests assignments of created handles.
   subroutine test_assignment()
     type :: holder
       type(riis_valve) :: valve

@@ -1,6 +1,5 @@
 ! SPDX-License-Identifier: Apache-2.0
-! Tests module riis: a valve's sizes and placement from landmarks, against landmarks that are made from known sizes and a
-! known placement.
+! Tests module riis: a valve's sizes and placement from landmarks. The landmarks are made from known sizes and a known placement.
 program test_placing
   use, intrinsic :: iso_c_binding, only: c_double
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -56,7 +55,7 @@ contains
     ! The valve's own translation is -1.2 along z, which is -y of the mesh.
     call check(all(abs(placement%translation - [30d0, -32d0, 7d0]) < 1d-8), 'the translation')
 
-    ! Landmarks in an array section give the same placement, and a held size keeps its value.
+    ! Landmarks in an array section give the same placement. A held size keeps its value.
     wide = 0
     wide(2:4, 1:11:2) = landmarks()
     call valve%set('leaflet_height', 1.6d0)
@@ -103,7 +102,7 @@ contains
     call test_wrong_landmarks()
   end subroutine test_refusals
 
-  ! These are the usual faults at a person's first try.
+  ! These faults are usual at a first try.
   subroutine test_wrong_landmarks()
     type(riis_valve) :: valve
     type(riis_placement) :: placement

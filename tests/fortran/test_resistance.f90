@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: Apache-2.0
-! Tests of module riis: surfaces that move, the fields at closest points, and the resistance. The results are compared with closed
+! Tests module riis: surfaces that move, the fields at closest points, and the resistance. The results are compared with closed
 ! forms and other queries.
 program test_resistance
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_loc, c_ptr
@@ -40,7 +40,7 @@ program test_resistance
 
 contains
 
-  ! Makes the square from -1 to 1 at z = 0. It comes from z = -0.01 in 2 ms, so u is 5 upwards.
+  ! Makes the square from -1 to 1 at z = 0. The square comes from z = -0.01 in 2 ms, so u is 5 upwards.
   subroutine make_plate()
     type(riis_valve) :: square
     real(c_double) :: corners(3, 4)
@@ -67,7 +67,7 @@ contains
     call copy%destroy()
   end subroutine test_copy
 
-  ! If a valve opens, each vertex's velocity is its displacement between the two openings, divided by the time.
+  ! While a valve opens, a vertex's velocity is its displacement between the two openings, divided by the time.
   subroutine test_velocities()
     type(riis_triangles) :: all_triangles
     type(riis_valve) :: before, now
@@ -91,8 +91,8 @@ contains
     call still%get_triangles(all_triangles)
     from => all_triangles%xyz
     call check(size(velocity, 2) == size(to, 2) .and. size(from, 2) == size(to, 2), 'a velocity for every vertex')
-    ! The parameters u and v of a vertex depend on the opening. The displacements therefore follow the same vertex only to second
-    ! order.
+    ! The parameters u and v of a vertex depend on the opening. The displacements therefore belong to one point of the leaflet
+    ! only to second order.
     call check(maxval(abs(velocity - (to - from) / 0.25d0)) < 0.02d0 * maxval(abs(velocity)), 'the way by the time')
     allocate (forth, source=velocity)
     call moving%update_moving(now, before, -0.25d0)
@@ -116,7 +116,7 @@ contains
     call before%destroy()
   end subroutine test_velocities
 
-  ! The placement turns the surface about z and enlarges it. Each vertex x comes from its position in the earlier placement.
+  ! The placement turns the surface about z and enlarges it. Each vertex x comes from a position in the earlier placement.
   subroutine test_placement_before()
     type(riis_triangles) :: all_triangles
     type(riis_surface) :: moving
@@ -138,7 +138,7 @@ contains
         maxval(abs(velocity(2, :) - (at(2, :) - (s * x + c * y)) / 0.5d0)) < 1d-12 .and. &
         maxval(abs(velocity(3, :) - (at(3, :) - z) / 0.5d0)) < 1d-12, 'turned, grown and moved')
     end associate
-    ! Parts of the earlier placement that are left out equal the present ones.
+    ! If a part of the earlier placement is left out, it equals the present part.
     call moving%update_moving(valve, valve, 0.5d0, translation_before=[1d0, 2d0, 2d0])
     call moving%get_triangles(all_triangles)
     velocity => all_triangles%velocity
@@ -146,7 +146,7 @@ contains
     call moving%destroy()
   end subroutine test_placement_before
 
-  ! The triangulation stays the same while a valve opens. Its triangles equal those of riis_c.
+  ! The triangulation stays the same while a valve opens. The triangles equal those of riis_c.
   subroutine test_fixed_triangles()
     type(riis_triangles) :: all_triangles
     type(riis_valve) :: mitral, before
@@ -213,7 +213,7 @@ contains
     call moving%destroy()
   end subroutine test_motion_errors
 
-  ! Derivatives in two directions of the placement follow from closest points on a rigid body.
+  ! For two directions of the placement, derivatives follow from closest points on a rigid body.
   subroutine test_directions()
     type(riis_surface) :: moving
     type(riis_valve) :: mitral, none
@@ -273,7 +273,7 @@ contains
     call moving%destroy()
   end subroutine test_directions
 
-  ! Every field is compared with closest points, and with the triangles' vertices.
+  ! Every field is compared with closest points, and with the vertices of the triangles.
   subroutine test_fields()
     type(riis_triangles) :: all_triangles
     type(riis_surface) :: moving
@@ -321,7 +321,7 @@ contains
       if (any(abs(matmul(velocity(:, vertex_id(:, j) + 1), barycentric(:, i)) - fields%velocity(:, i)) >= 1d-10)) &
         n_means = n_means + 1
     end do
-    ! If two patches are equally near, as in a cusp's plane of symmetry, the velocity is their mean.
+    ! If two patches are equally near, as in a cusp's plane of symmetry, the velocity is the mean of the patches' velocities.
     call check(is_interpolated .and. n_means < size(node_id) / 20 .and. any(abs(fields%velocity) > 0.1d0), &
       'patches, u, v and velocities are the triangles''')
     call check(any(fields%rim == 1) .and. any(fields%rim == 0) .and. all(fields%rim == 0 .or. fields%rim == 1), 'the rim')
@@ -384,7 +384,7 @@ contains
       k = R / half_thickness * (1 + cos(pi * d / half_thickness)) / (2 * half_thickness)
   end function resistance_at
 
-  ! The band steps aside along the normals, which flip_normals turns.
+  ! An offset shifts the band along the normals, and flip_normals reverses these.
   subroutine test_offset()
     type(riis_valve) :: square
     type(riis_surface) :: surface
@@ -464,7 +464,7 @@ contains
     call result%destroy()
   end subroutine test_reaction
 
-  ! Sums by leaflet and by edge add up to the whole, also in sections of larger arrays.
+  ! Sums by leaflet and sums by edge add up to the whole, also in sections of larger arrays.
   subroutine test_sums_of_parts(result, velocity, weight)
     type(riis_marks), intent(inout) :: result
     real(c_double), intent(in) :: velocity(:, :), weight(:)

@@ -15,7 +15,8 @@ riis_crossing_list list_of(const riis_crossings *crossings) {
   return list;
 }
 
-// Checks that the pairs are in ascending order and agree with the summary. test_self_crossings.c checks that they are right.
+// Checks that the pairs are in ascending order and agree with the summary. test_self_crossings.c checks whether the pairs are
+// right.
 void check_pairs(const riis_surface *surface, const riis_crossing_list &p, double depth) {
   riis_surface_info info;
   EXPECT_OK(riis_surface_get_info(surface, &info, sizeof info));

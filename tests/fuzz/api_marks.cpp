@@ -45,7 +45,7 @@ void expect_part(const std::vector<Found> &found, const std::vector<Found> &whol
            static_cast<long long>(one.node), one.distance);
 }
 
-// Returns every node within the limit, by a query for each node's closest point.
+// Returns every node within the limit. A query finds each node's closest point.
 std::vector<Found> expected_of(const riis_surface *surface, const Nodes &nodes, double limit,
                                const std::uint8_t *mask) {
   const riis_triangles t = triangles_of(surface);
@@ -78,7 +78,7 @@ void check_dense(const riis_marks *result, std::int64_t n_nodes, const std::vect
     expected_distance[static_cast<std::size_t>(one.node)] = one.distance;
     expected_triangle[static_cast<std::size_t>(one.node)] = one.triangle_id;
   }
-  // The far distance is -1, because limits go up to 1e60, and a far distance within the limit would be refused.
+  // The far distance is -1. Limits go up to 1e60, and a positive far distance within the limit would be refused.
   if (dense_of(result, n_nodes, -1, mark.data(), distance.data(), triangle.data(), nullptr) != RIIS_OK)
     EXPECT(false, "%s", riis_last_error());
   std::replace(expected_distance.begin(), expected_distance.end(), RIIS_FAR_DISTANCE, -1.0);
@@ -86,7 +86,7 @@ void check_dense(const riis_marks *result, std::int64_t n_nodes, const std::vect
          "dense arrays differ");
 }
 
-// Checks that the requested fields equal those of riis_closest_point, and that no other field is there.
+// Checks that the requested fields equal those of riis_closest_point, and that all other fields are missing.
 void check_fields(const riis_surface *surface, const Nodes &nodes, std::int32_t fields, const riis_marks *result) {
   riis_mark_list made;
   EXPECT_OK(riis_marks_get_list(result, RIIS_LIST_WITHIN_LIMIT, &made, sizeof made));
@@ -139,7 +139,7 @@ void check_marking(Input &in, const riis_surface *surface, const MeshSlot &mesh,
   for (std::size_t i = 0; i < marked.size(); ++i) EXPECT(marked[i].distance <= info.half_thickness, "%zu", i);
   if (mesh.was_told) check_fields(surface, *mesh.nodes, options.fields, slot.handle);
 
-  // The node moved without an update, so no result can be compared.
+  // The node moved without an update, so its result cannot be compared.
   for (std::int64_t i = 0; i < mesh.nodes->n; ++i)
     for (const double x : (*mesh.nodes)[i])
       if (!(std::abs(x) <= 1e60)) return;
@@ -147,7 +147,7 @@ void check_marking(Input &in, const riis_surface *surface, const MeshSlot &mesh,
   std::vector<Found> expected_marked;
   for (const Found &one : expected)
     if (one.distance <= info.half_thickness) expected_marked.push_back(one);
-  // Clusters use their own copies of coordinates, which may be out of date.
+  // Clusters use copies of the coordinates, which may be out of date.
   if (!mesh.was_told && stats.search == RIIS_SEARCH_CLUSTERS) return;
   if (is_of_paper || !mesh.was_told) {
     expect_part(within, expected, "within the limit");
@@ -266,8 +266,8 @@ riis_leak_list list_of(const riis_leaks *leaks) {
   return list;
 }
 
-// Checks that the edges are in ascending order, join unmarked nodes and agree with the summary. test_leaks.c checks that no
-// leaking edge is missing.
+// Checks that the edges are in ascending order, join unmarked nodes and agree with the summary. test_leaks.c checks that all
+// leaking edges are listed.
 void check_leaks(const riis_marks *result, std::int64_t n_nodes, const riis_leak_list &list) {
   const std::vector<Found> marked = copy_of(marked_list(result));
   const auto is_marked = [&](std::int64_t node) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Calls of riis_surface_get_leaflet, _orifice and _leak, riis_find_first_passage, riis_marks_get_cells_across, and
+// Calls riis_surface_get_leaflet, _orifice and _leak, riis_find_first_passage, riis_marks_get_cells_across, and
 // riis_valve_get_swept_volume.
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 namespace fuzz {
 namespace {
 
-// Returns a struct of bytes 0x5a. A refused call must not change it.
+// Returns a struct of bytes 0x5a. A refused call must not change this struct.
 template <class Struct>
 Struct filled() {
   Struct made;
@@ -125,7 +125,7 @@ void measure_valve(Input &in, State &state) {
   else
     EXPECT(volume == -7, "a refused volume was written");
 
-  // Each trial makes a surface, so the surfaces are coarse and the trials are few.
+  // Each trial makes a surface. The surfaces are therefore coarse, and the trials are few.
   const MeshSlot &mesh_slot = state.meshes[in.slot()];
   const Given<riis_mesh> mesh = given(in, state, State::mesh, mesh_slot.handle);
   options.tolerance = 1;

@@ -10,7 +10,7 @@ namespace {
 
 MeshSlot &slot_of(Input &in, State &state) { return state.meshes[in.slot()]; }
 
-// Returns the positions of a few single nodes, of a lattice, or of a cloud.
+// Returns the positions of a few separate nodes, of a lattice, or of a cloud.
 std::vector<std::array<double, 3>> places_of(Input &in) {
   std::vector<std::array<double, 3>> places;
   switch (in.below(3)) {
@@ -88,7 +88,7 @@ void make_mesh(Input &in, State &state) {
 void move_mesh(Input &in, State &state) {
   MeshSlot &slot = slot_of(in, state);
   if (slot.handle && in.one_in(2)) {
-    // Moves nodes in place, sometimes to non-finite coordinates, sometimes without an update.
+    // Moves nodes in place. Some coordinates become infinite or NaN, and some moves come without an update.
     const double shift = in.sound_place();
     for (double &x : slot.nodes->buffer) x += shift;
     if (in.one_in(8)) slot.nodes->buffer[static_cast<std::size_t>(in.byte()) % slot.nodes->buffer.size()] = in.number();
@@ -146,8 +146,8 @@ void give_rows(Input &in, State &state) {
     }
     offsets.push_back(base + static_cast<std::int64_t>(columns.size()));
   }
-  // Offsets may be out of order. But the last offset never exceeds the number of columns, because the library takes this number
-  // from it.
+  // Offsets may be out of order. The last offset never exceeds the number of columns, because the library takes this number from
+  // it.
   if (in.one_in(12) && n > 1)
     offsets[1 + static_cast<std::size_t>(in.byte()) % (offsets.size() - 2)] =
         in.one_in(2) ? in.raw<std::int64_t>() : in.below(64) - 8;

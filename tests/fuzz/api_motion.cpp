@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Calls of riis_marks_add_*, riis_marks_get_band_sums, riis_loads_*, riis_opening_* and riis_keyframes_*.
+// Calls riis_marks_add_*, riis_marks_get_band_sums, riis_loads_*, riis_opening_* and riis_keyframes_*.
 #include <cmath>
 
 #include "api_state.hpp"

@@ -16,8 +16,8 @@ std::vector<std::uint8_t> marks_of(const riis_marks *result, std::int64_t n_node
   return marks;
 }
 
-// Checks that each label is the lowest node of its region, and that marked nodes have no label. test_open_regions.c checks labels
-// against a flood fill.
+// Checks that each label is the lowest node of its region, and that marked nodes have no label. test_open_regions.c compares
+// labels with a flood fill.
 void check_labels(const riis_marks *result, const std::vector<std::int64_t> &label, std::int64_t n_regions) {
   const std::vector<std::uint8_t> marks = marks_of(result, static_cast<std::int64_t>(label.size()));
   std::int64_t n_lowest = 0;

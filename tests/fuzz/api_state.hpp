@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The handles of a sequence of calls, the memory that the handles borrow, and the functions that make the calls. Each call runs
-// in some floating-point environment. After each call, the promises that hold for all calls are checked.
+// Has the handles of a sequence of calls, the memory that the handles borrow, and the functions that make the calls. The
+// floating-point environment differs between calls. After each call, the harness checks the promises that hold for all calls.
 #pragma once
 
 #include <riis/riis.h>
@@ -53,7 +53,7 @@ inline void check_status(riis_status status, const std::string &text_before) {
     EXPECT(text == text_before, "a successful call changed the text of the last error to '%s'", text);
     return;
   }
-  // RIIS_UNAVAILABLE is returned for instructions that this processor lacks.
+  // A call returns RIIS_UNAVAILABLE for instructions that this processor lacks.
   EXPECT((status >= RIIS_INVALID_ARGUMENT && status <= RIIS_OUT_OF_MEMORY) || status == RIIS_UNAVAILABLE,
          "status %d: %s", status, text);
   EXPECT(std::strcmp(riis_status_name(status), "unknown status") != 0, "status %d", status);
@@ -75,14 +75,14 @@ riis_status call(Input &in, const Call &make_call) {
   return status;
 }
 
-// Makes a call that must succeed in any state, however little memory there is.
+// Makes a call that must succeed in any state, even with little memory.
 #define EXPECT_OK(call_)                                                                \
   do {                                                                                  \
     const riis_status status_ = (call_);                                                \
     EXPECT(status_ == RIIS_OK, "%s: %s", riis_status_name(status_), riis_last_error()); \
   } while (0)
 
-// Makes a call that creates an object. If it succeeds, it must write the handle, otherwise not.
+// Makes a call that creates an object. The call must write the handle if it succeeds, and only then.
 template <class Handle, class Make>
 Handle *made_by(Input &in, const Make &make) {
   auto *const untouched = reinterpret_cast<Handle *>(0x5a5a5a5a5a5a5a50);
@@ -106,7 +106,7 @@ Struct initialised(Input &in, riis_status (*init)(Struct *, int64_t)) {
 
 constexpr int n_slots = 3;
 
-// An adjacency that the library made. Meshes that borrow it keep it alive.
+// An adjacency that the library made. Meshes that borrow the adjacency keep it alive.
 struct OwnedAdjacency {
   riis_adjacency *handle = nullptr;
   explicit OwnedAdjacency(riis_adjacency *made) : handle(made) {}
@@ -115,7 +115,7 @@ struct OwnedAdjacency {
   ~OwnedAdjacency() { riis_adjacency_destroy(&handle); }
 };
 
-// Coordinates in one of several layouts, in a buffer that ends with the last coordinate.
+// Coordinates in one of several layouts. The buffer ends with the last coordinate.
 struct Nodes {
   std::int64_t n = 0, stride = 1;
   std::vector<double> buffer;
@@ -155,12 +155,13 @@ struct State {
   State &operator=(const State &) = delete;
   ~State();
 
-  // Returns a handle of another kind than the given handle, to be passed in the wrong place. Returns NULL if there is none.
+  // Returns a handle of another kind than the given handle, so that a call gets a wrong handle. Returns NULL if no such handle
+  // exists.
   enum Kind { valve, surface, mesh, adjacency, result, leak, crossing, n_kinds };
   void *handle_of_another_kind(Input &in, Kind but) const;
 };
 
-// Returns the right handle, or sometimes NULL or a handle of another kind. `is_right` tells whether it is the right one.
+// Returns the right handle. Sometimes returns NULL or a handle of another kind. `is_right` tells whether the handle is right.
 template <class Handle>
 struct Given {
   Handle *handle;
@@ -174,7 +175,7 @@ Given<Handle> given(Input &in, const State &state, State::Kind kind, Handle *rig
   return {right, right != nullptr};
 }
 
-// Each function makes some calls, with choices from the input.
+// Each function makes some calls. The input decides about the details.
 void call_status_functions(Input &in);
 void call_init_functions(Input &in);
 void make_valve(Input &in, State &state);
@@ -212,13 +213,12 @@ void measure_valve(Input &in, State &state);
 void advance_laws(Input &in, State &state);
 void move_by_keyframes(Input &in, State &state);
 
-// The closest triangle and its distance, found by a loop over all triangles. The position is -1 if no triangle is within the
-// limit.
+// A loop over all triangles finds the closest triangle and its distance. The position is -1 if no triangle is within the limit.
 struct Closest {
   double distance;
   std::int64_t triangle;
 };
-// Returns whether the surface itself reports that its distances are to triangles.
+// Returns whether the surface reports that it measures distances to triangles.
 bool is_by_triangles(const riis_surface *surface);
 Closest closest_by_loop(const riis_triangles &triangles, const std::array<double, 3> &point);
 // Returns whether n_points loops over all triangles are fast enough.

@@ -55,7 +55,7 @@ riis_surface_options options_of(Input &in) {
   return options;
 }
 
-// Makes a fine sampling of distances coarse, because it takes as long as fine triangles do.
+// Makes a fine sampling of distances coarse, because it would take as long as fine triangles.
 void make_distance_coarse(double size, riis_surface_options &options) {
   if (options.measure == RIIS_MEASURE_TRIANGLES || options.measure_tolerance == RIIS_AUTO) return;
   const double half_thickness = options.half_thickness == RIIS_AUTO ? 0.1 * options.scale : options.half_thickness;
@@ -63,7 +63,7 @@ void make_distance_coarse(double size, riis_surface_options &options) {
   if (ratio > 1e-12 && ratio < 0.03) options.measure_tolerance = 1;
 }
 
-// Returns an upper bound on the valve's size before placement.
+// Returns an upper bound of the valve's size before its placement.
 double size_of(const ValveSlot &slot) {
   if (!slot.handle) return 1;
   double size = 0;
@@ -76,8 +76,8 @@ double size_of(const ValveSlot &slot) {
   return size > 0 ? size : slot.size;
 }
 
-// Millions of triangles would waste the fuzzer's time. The tolerance is therefore made coarse, or so fine that it must be
-// refused.
+// Millions of triangles would waste the fuzzer's time. The tolerance is therefore made coarse, or so fine that the library must
+// refuse it.
 void make_coarse(Input &in, double size, riis_surface_options &options) {
   const double half_thickness = options.half_thickness == RIIS_AUTO ? 0.1 * options.scale : options.half_thickness;
   const double ratio = options.tolerance * half_thickness / options.scale / size;
@@ -99,7 +99,7 @@ std::vector<double> picture_of(const riis_surface *surface) {
   return all;
 }
 
-// Calls update(surface) if there is a surface, and create(&surface) otherwise.
+// Calls update(surface) if the surface exists, and create(&surface) otherwise.
 template <class Create, class Update>
 void make(Input &in, State &state, const Create &create, const Update &update) {
   riis_surface *&slot = slot_of(in, state);

@@ -69,7 +69,7 @@ std::vector<double> values_of(const riis_valve *valve) {
     std::int32_t is_set = -1;
     EXPECT_OK(riis_valve_is_set(valve, parameter.name, &is_set));
     EXPECT(is_set == 0 || is_set == 1, "%s: is_set is %d", parameter.name, is_set);
-    // A value that follows a rule may be out of range. No surface can then be made.
+    // A value that follows a rule may be out of range. The valve then cannot make a surface.
     for (std::int64_t k = 0; k < parameter.n_values && (is_set || !*parameter.rule); ++k)
       EXPECT(values[k] >= parameter.minimum && values[k] <= parameter.maximum, "%s is %g", parameter.name, values[k]);
     all.insert(all.end(), values, values + 3);
@@ -104,7 +104,7 @@ void set_parameter(Input &in, State &state) {
   const std::int64_t n = in.one_of(lengths);
   const std::vector<double> before = slot.handle ? values_of(slot.handle) : std::vector<double>{};
   std::vector<double> values(static_cast<std::size_t>(std::max<std::int64_t>(n, 1)));
-  // New values are near the old one, within the range, or arbitrary.
+  // A new value is near the old value, within the range, or arbitrary.
   for (double &value : values) value = in.number();
   riis_parameter parameter;
   if (slot.handle && in.one_in(2) &&
@@ -127,7 +127,8 @@ void set_parameter(Input &in, State &state) {
   }
 }
 
-// Places a valve by landmarks of a trileaflet valve, by points on a circle, or by any points. A refused call changes nothing.
+// Places a valve by landmarks. The landmarks are those of a trileaflet valve, points on a circle, or any points. A refused call
+// changes nothing.
 void place_valve(Input &in, State &state) {
   ValveSlot &slot = slot_of(in, state);
   const Given<riis_valve> valve = given(in, state, State::valve, slot.handle);
@@ -180,7 +181,8 @@ void place_valve(Input &in, State &state) {
   }
 }
 
-// Warps a valve by landmarks on a ring around it, or by any points, and reads its patches. Then gives it a skirt to a wall.
+// Warps a valve by landmarks on a ring around it, or by any points. Reads the valve's patches, and then gives the valve a skirt
+// to a wall.
 void warp_valve(Input &in, State &state) {
   ValveSlot &slot = slot_of(in, state);
   const Given<riis_valve> valve = given(in, state, State::valve, slot.handle);
@@ -272,7 +274,8 @@ void set_open_state(Input &in, State &state) {
 
 namespace {
 
-// A strip of patches between two rails. Curves across the strip, the rungs, end each patch, so its boundary is closed.
+// Makes a strip of patches between two rails. Rungs, which are curves across the strip, end each patch, so its boundary is
+// closed.
 struct Strip {
   std::vector<std::int32_t> degree, curve_id, reversed, leaflet_id;
   std::vector<double> control;
@@ -284,7 +287,7 @@ struct Strip {
     std::array<std::vector<Point>, 2> corner;
     for (auto &rail : corner)
       for (int i = 0; i <= n_patches; ++i) rail.push_back({in.place(), in.place(), in.place()});
-    // The curves are rungs 0 to n, then the first rail's pieces, then the second's.
+    // The curves are rungs 0 to n, then the spans of the first rail, then those of the second.
     for (std::size_t i = 0; i < corner[0].size(); ++i) add(in, corner[0][i], corner[1][i]);
     for (const auto &rail : corner)
       for (std::size_t i = 0; i + 1 < rail.size(); ++i) add(in, rail[i], rail[i + 1]);

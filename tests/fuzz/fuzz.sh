@@ -18,8 +18,9 @@ declare -A shares=([api]=8 [grid]=2 [vtk]=4 [vtu]=3 [vtp]=3 [vti]=2 [vtr]=2 [vts
   [json]=3 [stl]=2 [obj]=1 [ply]=2 [command_line]=2 [cycle]=1 [msh]=2 [xdmf]=1 [foam]=2)
 harnesses=(api grid vtk vtu vtp vti vtr vts pvd pvtu json stl obj ply command_line cycle msh xdmf foam)
 
-# options HARNESS SECONDS: prints the options for every run of a harness. They limit the seconds for a single input, and
-# the memory, most of which the address sanitizer needs itself. No input of the allowed size should reach these limits.
+# options HARNESS SECONDS: prints the options for every run of a harness. The options limit the seconds for a single input. The
+# options also limit the memory, most of which the address sanitizer needs. An input of the allowed size should not reach these
+# limits.
 options() {
   local max_len=4096 dictionary=$1
   case $1 in
@@ -33,15 +34,15 @@ options() {
       ;;
     vtu | vtp | vti | vtr | vts | pvd | pvtu | xdmf) dictionary=xml ;;
   esac
-  # VTK's readers leak on inputs that they refuse. A check for leaks after each such input would take all of the time, so leaks
-  # are checked only at the end.
+  # VTK's readers leak memory on inputs that they refuse. Checking for leaks after each such input would take all of the time, so
+  # leaks are checked only at the end.
   [[ $1 != vt? && $1 != pvd && $1 != pvtu && $1 != stl ]] || echo -detect_leaks=0
   printf '%s\n' -max_total_time="$2" -max_len=$max_len -timeout=300 -rss_limit_mb=4000 -malloc_limit_mb=4000 -print_final_stats=1
   [[ ! -f $here/$dictionary.dict ]] || echo -dict="$here/$dictionary.dict"
 }
 
 # fuzz HARNESS SECONDS FINDINGS CORPUS...: runs a harness and adds new inputs to the first corpus. The run is split into several
-# processes, each with its own seed, because VTK's leaks add up.
+# processes with different seeds, because VTK's leaks add up.
 fuzz() {
   local name=$1 left=$2 findings=$3 arguments now number=0
   shift 3
@@ -83,7 +84,7 @@ run_all() {
     ((mine >= 1)) || mine=1
     given[$name]=$mine
     mkdir -p "$out/$name/corpus" "$out/$name/findings"
-    # The run begins with the earlier findings. It reports them again, unless their faults were corrected.
+    # The run begins with the earlier findings. The run reports a finding again if the fault still exists.
     find "$out/$name/findings" -type f -exec mv -t "$out/$name/corpus" {} +
     echo "$name: $mine s"
     fuzz "$name" "$mine" "$out/$name/findings" "$out/$name/corpus" "$here/corpus/$name" >"$out/$name/log" 2>&1 </dev/null &
@@ -96,7 +97,7 @@ run_all() {
     printf '%-13s %11s %6s %6s %6s %7s %9s\n' "$name" "$executions" $((executions / given[$name])) \
       "$(numbers cov "$out/$name/log" | tail -n 1)" "$(numbers ft "$out/$name/log" | tail -n 1)" \
       "$(find "$out/$name/corpus" -type f | wc -l)" "$n_findings"
-    # If a harness did not reach its end, it did not start, or it found a fault such as a leak at the end.
+    # A harness may end early because it did not start, or because it found a fault such as a leak at the end.
     if ((n_findings > 0)) || ! grep -q "^all of $name done" "$out/$name/log"; then
       status=1
       echo "  $out/$name/log:"

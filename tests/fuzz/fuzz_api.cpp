@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fuzzes the C interface. The input is a sequence of calls with right and wrong arguments, on a few handles of each kind. After
-// every call, the harness checks the promises that the header makes for all calls. It also checks results that it can compute in
-// another way.
+// every call, the harness checks the promises that the header makes for all calls. The harness also checks results that it can
+// compute in another way.
 #include <cstdio>
 
 #include "api_state.hpp"
@@ -47,7 +47,7 @@ void call_status_functions(Input &in) {
 
 namespace {
 
-// Checks that an init function fills exactly as much as the caller has room for, or nothing.
+// Checks that an init function fills either exactly the caller's room or nothing.
 template <class Struct>
 void init(Input &in, riis_status (*init_function)(Struct *, int64_t)) {
   static const int64_t sizes[] = {sizeof(Struct),     0,         8,        -8, sizeof(Struct) - 8, sizeof(Struct) + 8,
@@ -152,7 +152,7 @@ void destroy_something(Input &in, State &state) {
 
 namespace {
 
-// An input without choices, which consists of zero bytes, makes all these calls in this order, and all succeed.
+// An input of zero bytes has no choices. Such an input makes all these calls in this order, and all succeed.
 void (*const calls[])(Input &, State &) = {make_valve,
                                            make_surface,
                                            make_mesh,

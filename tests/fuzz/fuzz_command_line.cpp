@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fuzzes the program's command line. Each line of the input is an argument. No file is opened. The parameters of --set are set.
+// Fuzzes the program's command line. Each line of the input is an argument. The harness opens no file, and sets the parameters of
+// --set.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fuzzes files of meshes, surfaces and motions in the format fuzz_ending. A file is read completely, or refused with the
-// file's name and a reason. The content must be usable: nodes make a mesh or are refused because of their coordinates, cells
-// make an adjacency, faces make a surface, and frames make keyframes.
+// Fuzzes files of meshes, surfaces and motions in the format fuzz_ending. A file is read completely, or refused with its name and
+// a reason. The content must be usable. Nodes make a mesh, or are refused because of their coordinates. Cells make an adjacency,
+// faces make a surface, and frames make keyframes.
 #include <riis/riis_vtk.h>
 
 #include <cstddef>
@@ -21,7 +21,7 @@ const fuzz::ScratchFile &file() {
   return scratch;
 }
 
-// Returns how messages name the file.
+// Returns the name by which messages must call the file.
 const char *named() {
   static const std::string name = std::string("input.") + fuzz_ending + ": ";
   return name.c_str();
@@ -91,7 +91,7 @@ void read_motion() {
   use_motion(status, read, named());
 }
 
-// Reads the list of a mesh in pieces. A piece that it names is refused, because the folder has no grid.
+// Reads the list of a mesh in pieces. A piece that the list names is refused, because the folder has no grid.
 void read_pieces() {
   riis_vtk_pieces *read = nullptr;
   if (!is_fine(riis_vtk_pieces_read(file().path().c_str(), &read), RIIS_FILE_ERROR)) {

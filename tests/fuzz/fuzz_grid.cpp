@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fuzzes meshes that are the axes of a grid. A grid is made, or refused with a reason. It gives the marks, leaks and open regions
-// of its nodes as points, and a number without a node is in none of them.
+// Fuzzes meshes that are the axes of a grid. A grid is made, or refused with a reason. The grid gives the marks, leaks and open
+// regions that its nodes as points give. None of these results contains a number without a node.
 #include <riis/riis.h>
 
 #include <array>
@@ -32,7 +32,7 @@ struct Surface {
   }
 };
 
-// A grid with its axes, and the numbers of its nodes in ascending order.
+// A grid with its axes. The numbers of the nodes are in ascending order.
 struct Case {
   riis_grid grid;
   std::array<std::vector<double>, 3> axes;
@@ -85,7 +85,7 @@ Case case_of(Input &in) {
   return made;
 }
 
-// Fails unless a refusal names the grid.
+// Fails if a refusal does not name the grid.
 bool is_made(riis_status status) {
   if (status == RIIS_OK) return true;
   const char *const text = riis_last_error();
@@ -95,7 +95,7 @@ bool is_made(riis_status status) {
   return false;
 }
 
-// The nodes of the grid as points, with the number of each.
+// The nodes of the grid as points. Each point has its number.
 struct Points {
   std::vector<double> xyz;
   std::vector<std::int64_t> number;
@@ -103,7 +103,7 @@ struct Points {
   riis_adjacency *edges = nullptr;
 };
 
-// Counts the numbers from the grid's fields, with a node for each number, and orders the nodes by it.
+// Counts the numbers of the grid's nodes from its fields, and orders the nodes by their numbers.
 Points points_of(const Case &of, std::int64_t n_numbers) {
   const riis_grid &grid = of.grid;
   const std::int64_t n[3] = {grid.ni, grid.nj, grid.nk};
@@ -154,7 +154,7 @@ Points points_of(const Case &of, std::int64_t n_numbers) {
   return made;
 }
 
-// What riis finds in a mesh.
+// The results of riis for a mesh.
 struct Found {
   riis_marks *marks = nullptr;
   riis_leaks *leaks = nullptr;

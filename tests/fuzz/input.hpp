@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Turns the fuzzer's bytes into choices, numbers and files. After the last byte every choice is 0, and choice 0 is always
-// harmless.
+// Turns the fuzzer's bytes into choices, numbers and files. After the last byte every choice is 0, which is always harmless.
 #pragma once
 
 #include <fcntl.h>
@@ -43,7 +42,7 @@ class Input {
 
   bool one_in(int n) { return below(n) == n - 1; }
 
-  // Chooses one of three handles. The first handle is the most frequent choice, so that handles of the same slot are used
+  // Chooses one of three handles. The first handle is chosen most often, so that the first handles of several kinds are used
   // together.
   std::size_t slot() {
     const int k = byte();
@@ -64,7 +63,7 @@ class Input {
     return values[below(static_cast<int>(n))];
   }
 
-  // Returns any double: a small one, the limit of a range, or arbitrary bits.
+  // Returns a double: a small number, the limit of a range, or arbitrary bits.
   double number() {
     static const double special[] = {
         0.0,     -0.0, 1.0,   -1.0,   std::nan(""), -std::nan(""), INFINITY, -INFINITY, DBL_MAX, 5e-324, DBL_MIN,
@@ -76,7 +75,7 @@ class Input {
     return raw<double>();
   }
 
-  // Returns a coordinate, mostly on a coarse lattice, where points coincide and distances are equal.
+  // Returns a coordinate. Most coordinates are on a coarse lattice, where points coincide and distances are equal.
   double place() {
     const int k = byte();
     if (k < 192) return (k - 96) / 32.0;
@@ -96,7 +95,7 @@ class Input {
     return one_of(some);
   }
 
-  // Returns the value, or in one of 16 cases a wrong value.
+  // Returns the value. In one of 16 cases returns a wrong value.
   template <class T>
   T mostly(T value) {
     static const T wrong[] = {
@@ -108,13 +107,13 @@ class Input {
   const std::uint8_t *next_, *end_;
 };
 
-// Returns the pointer, or in one of 32 cases NULL.
+// Returns the pointer. In one of 32 cases returns NULL.
 template <class T>
 T *mostly(Input &in, T *pointer) {
   return in.one_in(32) ? nullptr : pointer;
 }
 
-// An array of 32-bit or 64-bit integers, in a buffer of exactly their size.
+// An array of 32-bit or 64-bit integers. The array's buffer has exactly their size.
 class Integers {
  public:
   Integers(const std::vector<std::int64_t> &values, bool is_64_bits) : bytes_(values.size() * (is_64_bits ? 8 : 4)) {
@@ -132,7 +131,7 @@ class Integers {
   std::vector<unsigned char> bytes_;
 };
 
-// A file with a fixed name, in a folder that belongs to this process. It holds the fuzzer's bytes.
+// A file with a fixed name and the fuzzer's bytes. The file's folder belongs to this process.
 class ScratchFile {
  public:
   explicit ScratchFile(const std::string &name) {
@@ -142,7 +141,7 @@ class ScratchFile {
     folder_ = pattern;
     open_file(pattern + "/" + name);
   }
-  // Makes a file in the folder of `other`. The file `other` must live longer than this one.
+  // Makes a file in the folder of `other`. `other` must outlive the new file.
   ScratchFile(const ScratchFile &other, const std::string &name) { open_file(other.folder_ + "/" + name); }
   ~ScratchFile() {
     close(file_);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Limits a harness's memory. A single request for too much memory must fail as it does without a sanitizer, by an exception or by
-// NULL. The address sanitizer's own operator new would end the process instead.
+// Limits a harness's memory. A single request for too much memory must fail by an exception or by NULL, as it does without a
+// sanitizer. The address sanitizer's operator new would end the process instead.
 #include <cstdlib>
 #include <new>
 
@@ -33,5 +33,5 @@ extern "C" const char *__asan_default_options() {
   return "print_suppressions=0:allocator_may_return_null=1:max_allocation_size_mb=512:detect_stack_use_after_return=0";
 }
 
-// VTK's readers leak on files that they refuse. These leaks are not ours.
+// VTK's readers leak memory on files that they refuse. Such leaks are not ours.
 extern "C" const char *__lsan_default_suppressions() { return "leak:libvtk\n"; }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads a mesh. A mesh is read completely, or refused with its name and a reason. The content must be usable: nodes make a mesh
-// or are refused because of their coordinates, and cells make an adjacency.
+// Reads a mesh. A mesh is read completely, or refused with its name and a reason. The content must be usable. Nodes make a mesh,
+// or are refused because of their coordinates. Cells make an adjacency.
 #pragma once
 
 #include <riis/riis_vtk.h>
@@ -13,8 +13,8 @@
 
 namespace fuzz {
 
-// Returns whether the status is RIIS_OK. Any other status must be one of two kinds of refusal, with a message. A refused file
-// must be `named` in the message.
+// Returns whether the status is RIIS_OK. Any other status must be one of two kinds of refusal, with a message. If a file was
+// refused, the message must contain `named`.
 inline bool is_fine(riis_status status, riis_status refusal, const char *named) {
   if (status == RIIS_OK) return true;
   const char *text = riis_last_error();
@@ -34,7 +34,8 @@ inline void use_rows(riis_mesh *mesh, const riis_vtk_mesh *read, std::int64_t n_
   riis_adjacency_destroy(&adjacency);
 }
 
-// Marks on axes need no points. Returns whether the mesh is too large for the rest, which makes points and cells.
+// A mesh of axes is marked without points. Returns whether the mesh is too large for the later steps, which make points and
+// cells.
 inline bool use_axes(const riis_vtk_mesh *read) {
   constexpr std::int64_t most_nodes = 100'000;
   riis_grid axes;

@@ -8,7 +8,7 @@ static void random_control(double *control) {
   for (int i = 0; i < 12; ++i) control[i] = random_between(&rng, -2, 2);
 }
 
-/* Evaluates the definition: the sum of binomial (1-t)^(n-i) t^i Q_i. */
+/* Evaluates the definition of a Bézier curve: the sum of binomial (1-t)^(n-i) t^i Q_i. */
 static void bernstein(int degree, const double *control, double t, double *point) {
   static const double binomial[4][4] = {{0}, {0}, {1, 2, 1, 0}, {1, 3, 3, 1}};
   for (int c = 0; c < 3; ++c) {
@@ -58,9 +58,8 @@ TEST(arc_length_of_known_curves) {
   /* The length of y = x^2 on [0,1] is (2 sqrt 5 + asinh 2) / 4. */
   const double parabola[9] = {0, 0, 0, 0.5, 0, 0, 1, 1, 0};
   CHECK_NEAR(bezier_arc_length(2, parabola, 0, 1), (2 * sqrt(5.0) + asinh(2.0)) / 4, 1e-12);
-  /* A curve that goes out and back on a line. The speed is zero at the turning point, so the length is twice the distance to this
-   * point.
-   * */
+  /* A curve goes out and back on a line. At the turning point the speed is zero, so the length is twice the distance to this
+   * point. */
   const double there_and_back[9] = {0, 0, 0, 1, 0, 0, 0, 0, 0};
   CHECK_NEAR(bezier_arc_length(2, there_and_back, 0, 1), 1, 1e-11);
   const double point[9] = {1, 2, 3, 1, 2, 3, 1, 2, 3};
@@ -114,8 +113,8 @@ TEST(flatness_is_measured_to_the_segment) {
   CHECK_NEAR(bezier_flatness(3, arch), 2, 1e-15);
 }
 
-/* Compares every point of the curve with the point of its chord at the same fraction of the length. The promised bound holds
- * for every piece, and on average it is not much too large. Pieces begin and end at binary fractions of the length. */
+/* Compares every point of the curve with the point of its chord at the same fraction of the length. The promised bound holds for
+ * every part, and on average it is not much too large. The parts begin and end at binary fractions of the length. */
 TEST(flattening_stays_within_its_bound) {
   double sum_of_ratios = 0;
   int64_t n_pieces = 0;
@@ -181,11 +180,12 @@ TEST(flattening_takes_few_points) {
   const double line[9] = {0, 0, 0, 1, 0, 0, 2, 0, 0}, point[9] = {1, 2, 3, 1, 2, 3, 1, 2, 3};
   assert_int_equal(n_flattened(2, line, 1e-9), 2);
   assert_int_equal(n_flattened(2, point, 1e-9), 1);
-  /* A quarter of a unit circle. The error of n equal pieces is (pi / (2 n))^2 / 8. Halving makes n the next power of two. */
+  /* A quarter of a unit circle. If the arc is cut into n equal parts, the error is (pi / (2 n))^2 / 8. Halving makes n the next
+   * power of two. */
   const double k = 0.5522847498, quarter[12] = {1, 0, 0, 1, k, 0, k, 1, 0, 0, 1, 0};
   assert_int_equal(n_flattened(3, quarter, 0.0055), 9);
   assert_int_equal(n_flattened(3, quarter, 0.0014), 17);
-  /* A curve may turn on the spot, where curvature gives no bound. */
+  /* A curve may turn on the spot, where its curvature gives no bound. */
   const double there_and_back[9] = {0, 0, 0, 1, 0, 0, 0, 0, 0};
   assert_true(n_flattened(2, there_and_back, 1e-3) < 100);
   double *points, *t, *errors;

@@ -18,7 +18,7 @@ static void make_base(void) {
 
 static double distance(const double *p, const double *q) { return hypot(hypot(p[0] - q[0], p[1] - q[1]), p[2] - q[2]); }
 
-/* A cylinder hangs below a circle: W = (0, 0, -2) and T is along the circle, so O = factor * 2 outwards. */
+/* A cylinder hangs below a circle. In this case W = (0, 0, -2), and T is along the circle, so O = factor * 2 outwards. */
 TEST(of_a_cylinder) {
   double edge[12 * n_base];
   memcpy(edge, base, sizeof edge);
@@ -44,9 +44,9 @@ TEST(is_nothing_where_base_and_edge_touch) {
   for (int c = 0; c < 3; ++c) CHECK_NEAR(offset[c], 0, 0);
 }
 
-/* Edges have any shape, even single points, and bases have joints. Some edges run so near the base that W is parallel to the base
- * in places, or nearly parallel. Units range from 1e-6 to 1e6. O never deviates from a linear function by more than the bound. On
- * short ranges the bound is not much too large, except for edges near the base. */
+/* Edges have any shape, even single points, and bases have joints. Near some bases, W is parallel or nearly parallel to the base
+ * in places. Units range from 1e-6 to 1e6. O never deviates from a linear function by more than the bound. On short ranges the
+ * bound is not much too large, if the edge is not near the base. */
 TEST(stays_within_the_bound) {
   double sum_of_ratios = 0, sum_without_points = 0;
   int n_ranges = 0, n_without_points = 0;
@@ -55,7 +55,7 @@ TEST(stays_within_the_bound) {
     const double factor = random_between(&rng, -1, 1);
     const int is_near = trial >= 300;
     memcpy(bent, base, sizeof bent);
-    /* The second piece curves differently from the first, and both leave the plane. */
+    /* The second span curves differently from the first span, and both leave the plane. */
     for (int i = 2; i < 8; ++i) {
       if (i < 5) continue;
       for (int c = 0; c < 3; ++c)
@@ -96,7 +96,7 @@ TEST(stays_within_the_bound) {
   assert_true(sum_without_points > 0.13 * n_without_points); /* interval arithmetic gave less than 0.1 */
 }
 
-/* O has no direction if W is parallel to T. The bound allows for any direction. */
+/* If W is parallel to T, O has no direction. The bound allows for any direction. */
 TEST(has_no_direction_along_the_base) {
   const double straight[12] = {0, 0, 0, 1, 0, 0, 2, 0, 0, 3, 0, 0}, ahead[12] = {5, 0, 0, 6, 0, 0, 7, 0, 0, 8, 0, 0};
   const double bound = bulge_linear_error(1, straight, 1, ahead, 0.5, 0.25, 0.5, 0);

@@ -3,8 +3,8 @@
 #include "oracle.h"
 #include "test_support.h"
 
-/* Sides of a curved square, in the order v0, v1, u0, u1, which meet at their ends. The parameters are 0 0.3 0.6 1 along u and
- * 0 0.5 0.6 1 along v, as in the paper. */
+/* The sides of a curved square, in the order v0, v1, u0, u1. The sides meet at their ends. The parameters are 0 0.3 0.6 1 along u
+ * and 0 0.5 0.6 1 along v, as in the paper. */
 static const double side_v0[12] = {0, 0, 0, 3, 0, 0, 6, 0, 0, 10, 0, 0};
 static const double side_v1[12] = {0, 8, 2, 5, 8, 2, 6, 8, 2, 10, 8, 2};
 static const double side_u0[9] = {0, 0, 0, 0, 4, 3, 0, 8, 2};
@@ -44,8 +44,8 @@ TEST(boundary_is_the_polylines_to_the_last_bit) {
   assert_int_equal(different, 0);
 }
 
-/* Compares with the Coons formula of the polylines at any (u, v). The grid is exact, because the formula is bilinear between
- * the grid's lines. */
+/* Compares the grid with the Coons formula of the polylines at any (u, v). The grid is exact, because the formula is bilinear
+ * between its lines. */
 TEST(surface_equals_the_coons_formula_everywhere) {
   random_source rng = random_start("test_coons");
   for (int trial = 0; trial < 500; ++trial) {
@@ -75,7 +75,7 @@ TEST(nearly_equal_parameters_share_a_line) {
   const double *const points[4] = {v0, v1, u0, u1};
   quad_grid apart = coons_grid(n, points, 1e-6), together = coons_grid(n, points, 1e-3);
   const int64_t n_apart = apart.n_u, n_together = together.n_u;
-  /* Both vertices are still there, to the last bit, because a neighbour on this side also has both. */
+  /* Both vertices of the side remain, to the last bit, because a neighbour on this side also has them. */
   const int kept = memcmp(together.points + 3, v0 + 3, 3 * sizeof(double)) == 0 &&
                    memcmp(together.points + 3 * (n_together + 1), v1 + 3, 3 * sizeof(double)) == 0;
   quad_grid_free(&apart);
@@ -114,7 +114,7 @@ static void bilinear(const double (*q)[3], double s, double t, double *point) {
 
 static double distance(const double *p, const double *q) { return hypot(hypot(p[0] - q[0], p[1] - q[1]), p[2] - q[2]); }
 
-/* For a fixed t, the bilinear quad is a segment. Returns the segment's exact distance from p. */
+/* For a fixed t, the bilinear quad is a segment. Returns the exact distance from p to this segment. */
 static double distance_to_line_of_quad(const double (*q)[3], double t, const double *p) {
   double along = 0, length_sq = 0, a[3], b[3], at[3];
   bilinear(q, 0, t, a);
@@ -124,10 +124,10 @@ static double distance_to_line_of_quad(const double (*q)[3], double t, const dou
   return distance(at, p);
 }
 
-/* Returns the distance to the bilinear quad, at most 2e-7 above the true value and never below it. Between t and t', no point
- * of a segment moves by more than |t - t'| times the longer side along t. So the distance at the middle of an interval shows
- * whether the interval can contain the nearest point. If it can, the interval is halved. (A search that follows only its best
- * point can end in another minimum.) */
+/* Returns the distance to the bilinear quad, which is at most 2e-7 above the true value and never below it. Between t and t', a
+ * point of a segment moves by at most |t - t'| times the longer side along t. The distance at the middle of an interval therefore
+ * shows whether the interval can contain the nearest point. If it can, the interval is halved. (A search that follows only its
+ * best point can end in a wrong minimum.) */
 static double distance_to_bilinear(const double (*q)[3], const double *p) {
   const double speed = fmax(distance(q[0], q[3]), distance(q[1], q[2]));
   double best = INFINITY, from[64], width[64];
@@ -143,7 +143,7 @@ static double distance_to_bilinear(const double (*q)[3], const double *p) {
   return best;
 }
 
-/* No point of either surface is farther from the other surface than the bound. The quads have all shapes from flat to folded. */
+/* Each point of either surface is within the bound of the other surface. The quads have all shapes from flat to folded. */
 TEST(triangles_stay_within_the_split_error) {
   random_source rng = random_start("test_coons split");
   int n_tighter = 0;

@@ -14,7 +14,7 @@ typedef struct {
   int64_t a[3], b[3], abc[9];
 } sample;
 
-/* Returns the answer for one order of ends and corners, in units of 2^exponent. */
+/* Returns the answer of the library for one order of ends and corners. Coordinates are in units of 2^exponent. */
 static int answer(const sample *s, int exponent, int swapped, int turned) {
   double a[3], b[3], abc[9];
   for (int i = 0; i < 3; ++i) {
@@ -28,7 +28,7 @@ static int answer(const sample *s, int exponent, int swapped, int turned) {
   return swapped ? segment_triangle_meet(b, a, abc) : segment_triangle_meet(a, b, abc);
 }
 
-/* Checks that the answer is the oracle's for every order of ends and corners. */
+/* Checks that the library gives the oracle's answer for every order of ends and corners. */
 static int check(const sample *s, int exponent) {
   const int expected = oracle_segment_meets_triangle(s->a, s->b, s->abc);
   for (int i = 0; i < 12; ++i)
@@ -43,8 +43,8 @@ static void random_triangle(sample *s, int64_t largest) {
   while (!has_area(s->abc));
 }
 
-/* Returns the exponent of a random unit 2^exponent. With the smallest exponent, coordinates are just large enough not to count
- * as 0. With the largest exponent they reach 1e60. */
+/* Returns the exponent of a random unit 2^exponent. With the smallest exponent, coordinates are just large enough to count as
+ * different from 0. With the largest exponent they reach 1e60. */
 static int random_exponent(int bits) { return -298 + (int)(random_bits(&rng) % (uint64_t)(298 + 199 - bits)); }
 
 TEST(small_numbers_meet_in_every_way) {
@@ -64,8 +64,8 @@ TEST(small_numbers_meet_in_every_way) {
   assert_true(n_met > n / 10 && n_met < n * 9 / 10 && n_in_plane > n / 10);
 }
 
-/* A segment passes through a triangle's corner, a point of its side, or an inner point. This point is rounded to whole
- * numbers, and one end of the segment is off by at most 1. */
+/* A segment passes through a corner, a point of a side, or an inner point of a triangle. This point is rounded to whole numbers,
+ * and one end of the segment is off by at most 1. */
 TEST(numbers_of_38_bits_are_told_apart) {
   int n_met = 0;
   const int n = trials(300000, 300000);
@@ -89,7 +89,8 @@ TEST(numbers_of_38_bits_are_told_apart) {
   assert_true(n_met > n / 5 && n_met < n * 4 / 5);
 }
 
-/* A fan of triangles around a corner has no hole, so a segment through a point inside the fan meets at least one triangle. */
+/* A fan of triangles around a corner has no hole. A segment through a point inside the fan therefore meets at least one
+ * triangle. */
 TEST(a_fan_has_no_hole) {
   enum { n_sides = 7 };
   for (int trial = 0; trial < trials_of(60000); ++trial) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests curves of several Bézier pieces and polylines, with points given by their fraction of the length. */
+ * Tests curves of several Bézier spans, and polylines. The fraction of the length gives a point. */
 #include "internals.h"
 #include "test_support.h"
 
@@ -7,7 +7,7 @@ static random_source rng;
 
 enum { max_pieces = 5 };
 
-/* Makes cubics that continue each other's direction, at different speeds and with jumps in curvature. */
+/* Makes cubics that continue each other's direction. The cubics' speeds differ, and the curvature jumps between the cubics. */
 static int64_t random_chain(double *control) {
   const int64_t n = 1 + (int64_t)(random_bits(&rng) % max_pieces);
   double at[3] = {0, 0, 0}, along[3] = {1, 0, 0};
@@ -85,7 +85,7 @@ TEST(parts_are_parts) {
       CHECK_AT_MOST(distance(of_part, of_whole), 1e-10);
     }
   }
-  /* If a cut is at a joint, the part contains nothing of the next piece. */
+  /* If a cut is at a joint, the part contains nothing of the next span. */
   double control[12 * max_pieces], part[12 * max_pieces], first = 0;
   int64_t n = 0;
   while (n < 3) n = random_chain(control);
@@ -94,8 +94,8 @@ TEST(parts_are_parts) {
   assert_int_equal(chain_between(n, control, first, 1, 0, part), n - 1);
 }
 
-/* Points are on the curve at binary fractions of its length, as for one piece (test_bezier). At equal fractions, no point of a
- * chord is farther from the curve than the bound, even across joints. */
+/* At binary fractions of the length, the points lie on the curve, as for one span (test_bezier). At equal fractions, each point
+ * of a chord is within the bound of the curve, even across joints. */
 TEST(flattening_stays_within_its_bound) {
   double sum_of_ratios = 0;
   int64_t n_chords = 0;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Tests the library's sines, cosines, arc tangents, powers and roots against the C library's functions of long double, which
- * have at least 11 more bits. The bounds are those that common/elementary.hpp states, in units of 2^-53. */
+ * Tests the library's sines, cosines, arc tangents, powers and roots against the C library's functions of long double, which have
+ * at least 11 more bits. common/elementary.hpp states the bounds, in units of 2^-53. */
 #include <float.h>
 
 #include "elementary_shim.h"

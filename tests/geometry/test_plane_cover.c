@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Tests the area and the edge of the uncovered part of an outline, against closed forms and against counts of points. */
+ * Tests the area and the edge of the part of an outline that triangles leave uncovered. Area and edge are compared with closed
+ * forms and with counts of points. */
 #include "plane_cover_shim.h"
 #include "test_support.h"
 
@@ -44,15 +45,15 @@ TEST(test_ring) {
       rotated(hole, 0, b, centre, corners[2 * i + 1] + 4);
     }
     const double area = 0.5 * m * hole * hole * sin(step), spacing = 2 * radius / n_lines;
-    /* The first tolerance is for a round hole, whose edge crosses all lines. Two edges of the hole may be parallel to the lines.
-     * The place of such an edge then has an error of half a spacing. */
+    /* The first tolerance is for a round hole, whose edge crosses all lines. Two edges of a hole may be parallel to the lines,
+     * and the place of such an edge has an error of half a spacing. */
     const double bound = area * pow(2 * hole / spacing, -1.5) + spacing * hole * step;
     CHECK_NEAR(shim_uncovered_circle(radius, centre, 2 * m, corners[0], n_lines), area, bound);
   }
 }
 
-/* A half plane through the centre covers half the circle, in any direction. The lines run along x, so an edge along
- * x is the worst case. */
+/* A half plane through the centre covers half the circle, in any direction. The lines run along x, so an edge along x is the
+ * worst case. */
 TEST(test_half) {
   random_source random = random_start("test_plane_cover");
   for (int turn = 0; turn < trials_of(60); ++turn) {
@@ -78,7 +79,7 @@ static int is_in_triangle(const double *c, double x, double y) {
   return n_left == 0 || n_left == 3;
 }
 
-/* Random triangles that overlap, inside a square and inside a circle, compared with a grid of points. */
+/* Random overlapping triangles, inside a square and inside a circle, are compared with a grid of points. */
 TEST(test_random) {
   enum { n_side = 600, n_triangles = 12 };
   const double square[4][6] = {{-1, -1, 0, 1, -1, 5}, {1, -1, 5, 1, 1, 0}, {-1, 1, 2, 1, 1, 0}, {-1, -1, 0, -1, 1, 2}};
@@ -106,7 +107,7 @@ TEST(test_open_lines) {
   CHECK_NEAR(shim_uncovered_inside(3, lines[0], 0, NULL, n_lines), 0.5, 1e-12);
   assert_true(shim_uncovered_inside(2, lines[0], 0, NULL, n_lines) == -1);
   assert_true(shim_uncovered_inside(0, NULL, 0, NULL, n_lines) == -1);
-  /* Triangles that are seen edge on cover nothing. Three directions are tried: along x, along y and slanted. */
+  /* Triangles that are seen edge on cover nothing. These triangles lie in three directions: along x, along y and slanted. */
   for (int i = 0; i < 4; ++i) {
     const double x = i % 2 ? 0.3 : 0, y = i / 2 ? 0.7 : 0;
     const double flat[3][6] = {{0, 0, 0, x, y, 0}, {x, y, 0, 2 * x, 2 * y, 1}, {2 * x, 2 * y, 1, 0, 0, 0}};
@@ -119,7 +120,7 @@ TEST(test_open_lines) {
   assert_true(shim_uncovered_inside(3, near_y[0], 0, NULL, n_lines) == -1);
 }
 
-/* Two triangles begin in one point of a line, at edges of different slopes. One of the edges counts, and always the same. */
+/* Two triangles begin in one point of a line, at edges of different slopes. Only one edge counts, and always the same one. */
 TEST(test_order_of_triangles) {
   const double line = 1.0 / n_edge_lines, origin[2] = {0, 0}; /* a line of the upper half passes here */
   const double upright[6] = {-0.5, line - 0.25, -0.5, line + 0.25, 0.5, line + 0.125};
@@ -133,7 +134,7 @@ TEST(test_order_of_triangles) {
   assert_true(edge == shim_edge_beyond(1, origin, 6, xy, 2, other_order, 0));
 }
 
-/* A round plate in the circle grows, so the ring around it shrinks. Or a plate with a round hole grows, so the hole
+/* Either a round plate in the circle grows, so the ring around it shrinks, or a plate with a round hole grows, so the hole
  * shrinks. */
 TEST(test_growing) {
   enum { m = 720 };
@@ -165,7 +166,7 @@ TEST(test_growing) {
   }
 }
 
-/* A turned square plate grows. Arcs round its corners then belong to its edge. */
+/* A turned square plate grows. The plate's edge then includes arcs round the corners. */
 TEST(test_growing_square) {
   random_source random = random_start("test_plane_cover");
   const int64_t ids[6] = {0, 1, 2, 0, 2, 3};

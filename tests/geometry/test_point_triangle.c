@@ -11,7 +11,8 @@ typedef struct {
   double p[3], abc[9], size;
 } sample;
 
-/* Makes a triangle of the given size and thinness around a random centre, and a point within a few sizes of the triangle. */
+/* Makes a triangle of the given size and thinness around a random centre. Also makes a point within a few sizes of the
+ * triangle. */
 static sample random_sample(double size, double thinness, double offset) {
   sample s;
   double centre[3], along[3], across[3];
@@ -52,7 +53,7 @@ static void check_sample(const sample *s, double *worst) {
   for (int i = 0; i < 9; ++i) largest = fmax(largest, fabs(s->abc[i]));
   for (int c = 0; c < 3; ++c) largest = fmax(largest, fabs(s->p[c]));
   *worst = fmax(*worst, fabs(distance - expected) / largest);
-  /* The weights are at least 0 and sum to 1. With these weights, the corners give the closest point, which lies at the returned
+  /* The weights are at least 0 and sum to 1. The corners with these weights give the closest point, which lies at the returned
    * distance. */
   CHECK_NEAR(w[0] + w[1] + w[2], 1, 1e-15);
   double sum = 0;
@@ -79,7 +80,7 @@ TEST(agrees_on_needles) {
   int n = 0;
   for (int trial = 0; trial < 200000; ++trial) {
     const sample s = random_sample(pow(10, random_between(&rng, -3, 1)), pow(10, random_between(&rng, -11, -2)), 1);
-    /* Triangles as thin as this count as having no area, and never reach the kernel. */
+    /* So thin a triangle counts as having no area, and never reaches the kernel. */
     if (height_over_longest(s.abc) <= 2e-12) continue;
     check_sample(&s, &worst);
     ++n;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Distances by a loop over all triangles of a surface. */
+ * Computes distances by a loop over all triangles of a surface. */
 #include "brute.h"
 
 #include <math.h>

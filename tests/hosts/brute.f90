@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: Apache-2.0
-! Distances by a loop over all triangles of a surface, for the tests of hosts in Fortran 90. brute.h describes the call.
+! Computes distances by a loop over all triangles of a surface, for the tests of hosts in Fortran 90. brute.h describes the call.
 module brute
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t, c_ptr
   implicit none

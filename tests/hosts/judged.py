@@ -18,7 +18,7 @@ class Judged:
         self.check, self.tables, self.arguments = check, tables, arguments
 
     def said(self, tables):
-        """Returns the status of check.py for these tables, and all that it prints."""
+        """Returns the status of check.py for these tables, and everything that it prints."""
         with tempfile.TemporaryDirectory() as folder:
             for name, text in tables.items():
                 path = os.path.join(folder, name)
@@ -35,7 +35,7 @@ class Judged:
         return said
 
     def refuses(self, text, faults, status=1):
-        """Checks that check.py ends with the status and prints the text, if the tables have these faults."""
+        """Checks check.py for tables with these faults: it must end with the status and print the text."""
         tables = dict(self.tables)
         for name, fault in faults.items():
             if fault is None:

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: Apache-2.0
-! Marks of an open valve equal the distances of the loop over all triangles, by both calls of the loop.
+! Compares the marks of an open valve with distances of the loop over all triangles, by both calls of the loop.
 program test_brute
   use, intrinsic :: iso_c_binding, only: c_double, c_intptr_t
   use, intrinsic :: iso_fortran_env, only: int64

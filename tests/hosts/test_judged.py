@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tests Judged with a check that accepts a drop of at least 0.98: a check that accepts a fault must be noticed."""
+"""Tests Judged with a check that accepts a drop of at least 0.98. Judged must notice a check that accepts a fault."""
 import os
 import tempfile
 import unittest

@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # test_scripts.sh WORK
-# The checks of script_checks.sh must notice another status, another output and a changed tree.
+# The checks of script_checks.sh must notice a wrong status, a wrong output and a changed tree.
 set -euo pipefail
 # shellcheck source=tests/support/script_checks.sh
 . "$(dirname "$0")/../support/script_checks.sh"

@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_exports.sh LIBRARY SONAME HEADER [MORE_NAMES...]
-# The shared library must export the functions of the header and of the headers that it includes by name, and the given names,
-# and nothing else.
+# The shared library must export the functions of the header, those of the headers that it includes by name, and the given names.
+# The library must export nothing else.
 set -euo pipefail
 library=$1 soname=$2 header=$3
 mapfile -t headers < <("$(dirname "$0")/../abi/headers.sh" "$header")
@@ -17,7 +17,7 @@ if [ "$n_declared" -ne "$n_api" ]; then
 fi
 expected=$(printf '%s\n' "$declared" "$@" | sort)
 
-# Absolute symbols are names of versions, not of functions.
+# Absolute symbols are names of versions, so they do not count as functions.
 exported=$(nm -D --defined-only "$library" | awk '$2 != "A" { sub(/@.*/, "", $3); print $3 }' | sort)
 
 if ! diff <(echo "$expected") <(echo "$exported"); then

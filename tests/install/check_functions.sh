@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_functions.sh FILE...
-# Of the C library's functions of numbers, the core and a program that contains it may call only those that give the same bits
-# on every processor. common/elementary.hpp has sines, arc tangents and their like.
+# The core, and a program that contains it, may call only some numerical functions of the C library: those that give the same bits
+# on every processor. common/elementary.hpp has sines, arc tangents and similar functions.
 set -euo pipefail
 
 # names NM_OPTION FILE

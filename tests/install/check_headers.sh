@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # check_headers.sh WORK_DIR CC CXX INCLUDE_DIR HEADER...
 # Every public header must compile alone, even if it is included twice. Headers *.h must compile as strict C99 and as C++17, and
-# be usable from both. Headers *.hpp must compile as C++14 to C++23.
+# both languages must be able to call them. Headers *.hpp must compile as C++14 to C++23.
 set -euo pipefail
 work=$1 cc=$2 cxx=$3 include=$4
 shift 4

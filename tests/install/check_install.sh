@@ -1,12 +1,12 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_install.sh SOURCE_DIR BUILD_DIR WORK_DIR shared|static [VTK] [Fortran] [program]
-# Installs a build tree to a fresh prefix and uses it as an outside project would. The programs of stranger/, one in each
-# language, must mark the same bits as the C program that the build tree has. The prefix is then moved. Examples are built
-# outside the tree by CMake, two of them also by pkg-config, and run. Each example must print the same in C and in Fortran. If the
-# tree is also installed to another prefix, all examples are built there, and before that only two. A staged (DESTDIR) install
-# must hold the same files and no path of its stage. Environment: CMAKE, PKG_CONFIG, CC, CXX, FC, TEST_PLUGIN, the path of the
-# program test_plugin, and STRANGER, the path of that C program
+# Installs a build tree to a fresh prefix, and uses it as an outside project would. The programs of stranger/, one in each
+# language, must mark the same bits as the build tree's C program. The prefix is then moved. Examples are built outside the tree
+# by CMake, two of them also by pkg-config, and run. Each example must print the same in C and in Fortran. If the tree is also
+# installed to another prefix, all examples are built there, and only two are built before. A staged (DESTDIR) install must
+# contain the same files and no path of its stage. Environment: CMAKE, PKG_CONFIG, CC, CXX, FC, TEST_PLUGIN, the path of the
+# program test_plugin, and STRANGER, the path of the build tree's C program
 set -euo pipefail
 source=$1 build=$2 work=$3 kind=$4
 shift 4
@@ -26,8 +26,8 @@ quietly() {
 c_flags=(-std=c99 -pedantic -Wall -Wextra -Werror)
 fortran_flags=(-std=f2018 -Wall -Wextra -Werror)
 
-# All examples except the examples of MPI, which check_mpi_example.sh runs. The flags that a compiler needs for the few examples
-# besides riis's flags follow.
+# Lists all examples except those of MPI, which check_mpi_example.sh runs. A few examples need flags besides riis's flags. Such
+# flags follow the examples' names.
 all_examples=(first_marking prosthesis opening_valve pressure_opens cell_centres quadrature_points csr_from_elements
   single_precision openmp_caller overlap)
 few_examples=(first_marking openmp_caller)
@@ -36,8 +36,8 @@ declare -A more_flags=([openmp_caller]=-fopenmp)
 # shellcheck source=tests/fortran/page_sources.sh
 . "$source/tests/fortran/page_sources.sh"
 
-# Empties a consumer's build directory, except for CMake's knowledge of the compilers. To examine three compilers takes longer
-# than to build a consumer.
+# Empties the build directory of a project, but keeps CMake's knowledge of the compilers. Examining three compilers takes longer
+# than building a project.
 empty_but_compilers() { # argument: build directory
   mkdir -p "$1/CMakeFiles"
   find "$1" -mindepth 1 -maxdepth 1 ! -name CMakeFiles -exec rm -rf {} +
@@ -57,7 +57,7 @@ library_dir() { # argument: prefix
   dirname "$(dirname "$(find "$1" -name riis.pc)")"
 }
 
-# Whether an example also has a program in Fortran, and whether Fortran was built.
+# Returns whether an example also has a program in Fortran, and whether Fortran was built.
 has_fortran_of() { # argument: name
   has Fortran && [ -e "$source/examples/$1.f90" ]
 }
@@ -73,7 +73,7 @@ check_example() { # arguments: name, program
   expected_of "$1" | diff - "$work/printed.txt" || problem "$2 does not print what it should"
 }
 
-# The prosthesis of the example's JSON file must mark as many nodes at each opening as the example's program.
+# At each opening, the prosthesis of the example's JSON file must mark as many nodes as the example's program.
 check_prosthesis_file() { # argument: the program
   local opening
   awk 'BEGIN {
@@ -144,14 +144,16 @@ flags() { # arguments: for pkg-config
   PKG_CONFIG_PATH=$pkg_config_path "$PKG_CONFIG" "$@"
 }
 
-# The flags of pkg-config are the same for all examples, so few are built. If all are wanted, the program of an old code is built.
+# The flags of pkg-config are the same for all examples, so few examples are built. If all are requested, the program of an old
+# code is also built.
 check_by_pkg_config() { # arguments: prefix, all|few, more pkg-config options
   local pkg_config_path out=$work/pkg_config examples=("${few_examples[@]}")
   pkg_config_path=$(library_dir "$1")/pkgconfig
   rm -rf "$out"
   mkdir -p "$out"
   local example file more source_name
-  # A compiler that cannot read the module files uses the installed sources instead. They contain no paths, so one test is enough.
+  # A compiler that cannot read the module files uses the installed sources instead. These sources contain no paths, so one test
+  # is enough.
   if has Fortran && [ ! -d "$work/fortran" ]; then
     mkdir "$work/fortran"
     file=$(dirname "$(find "$1" -name riis_c.f90)")
@@ -160,7 +162,7 @@ check_by_pkg_config() { # arguments: prefix, all|few, more pkg-config options
     done
   fi
   if has Fortran && [ "$2" = all ]; then
-    # Compiles the program as a code without modules does.
+    # Compiles the program like a code without modules.
     # shellcheck disable=SC2046
     quietly "$FC" -std=legacy "$source/tests/fortran/test_f77.f" "$source/tests/fortran/f77_checks.f" -o "$out/test_f77" \
       $(flags --cflags --libs "${@:3}" riis-fortran)
@@ -198,7 +200,7 @@ check_by_pkg_config() { # arguments: prefix, all|few, more pkg-config options
   fi
 }
 
-# The lines of README that compile and run an example, as its reader types them. The library of that reader is in $HOME/riis.
+# Runs the lines of README that compile and run an example. The reader of README has the library in $HOME/riis.
 check_readme() { # argument: prefix
   local home=$work/home name
   rm -rf "$home"
@@ -242,7 +244,7 @@ check_bits() { # argument: prefix
   done
 }
 
-# A plug-in that contains the static library exports only its own names. It can be unloaded after it has marked nodes.
+# A plug-in that contains the static library exports only its own names. A program can unload it after it has marked nodes.
 check_plugin() { # argument: prefix
   local pkg_config_path plugin=$work/plugin.so exported
   pkg_config_path=$(library_dir "$1")/pkgconfig
@@ -311,8 +313,8 @@ while read -r file; do
   fi
 done < <(binaries "$prefix")
 
-# A global symbol without riis's name may clash with a symbol of the host program. Weak symbols, which come from templates,
-# do not clash, because linkers merge them.
+# A global symbol without riis's name may clash with a symbol of the host program. Weak symbols, which come from templates, cannot
+# clash, because linkers merge them.
 while read -r file; do
   symbols=(nm -g --defined-only)
   [[ $file == *.a ]] || symbols=(nm -D --defined-only)
@@ -322,9 +324,9 @@ while read -r file; do
   fi
 done < <(find "$prefix" -type f \( -name '*.so.*' -o -name '*.a' \))
 
-# A library directory given as an absolute path does not move with the prefix, but everything must still be found. The check
-# configures the build tree again. Only the static test does so, because it has a build tree of its own. The test's fixture
-# restores the build tree afterwards.
+# If a library directory is an absolute path, it does not move with the prefix. Everything must still be found. The check
+# configures the build tree again. Only the static test does so, because it has a separate build tree. Afterwards the test's
+# fixture restores this tree.
 is_configured_anew='' examples_of_moved=all
 if [ "$kind" = static ] && [[ $build == "$(dirname "$work")"/* ]]; then
   is_configured_anew=1 examples_of_moved=few

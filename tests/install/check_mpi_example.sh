@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_mpi_example.sh EXAMPLES_BUILD_DIR N_RANKS [Fortran]
-# Runs the examples of MPI where check_install.sh built them. The programs themselves compare the ranks' marks and labels with
-# those of the whole mesh.
+# Runs the examples of MPI where check_install.sh built them. The programs compare the marks and labels of the ranks with those of
+# the whole mesh.
 # Environment: MPIEXEC
 set -euo pipefail
 build=$1 n_ranks=$2
@@ -17,7 +17,7 @@ shift 2
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 export OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_hwloc_base_binding_policy=none OMPI_MCA_mpi_yield_when_idle=1
 export OMPI_MCA_plm=isolated OMPI_MCA_pml=ob1 OMPI_MCA_btl=self,vader OMPI_MCA_btl_vader_single_copy_mechanism=none
-# The same settings for Open MPI 5, whose launcher is PRRTE.
+# Open MPI 5 needs these settings in another form, because its launcher is PRRTE.
 export PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe PRTE_MCA_hwloc_default_binding_policy=none
 
 suffixes=("")

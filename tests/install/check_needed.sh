@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_needed.sh LIBRARY
-# The core may link to Embree, TBB, OpenMP and the C and C++ runtimes, but to nothing else: not VTK, not Fortran. It may have no
-# run path.
+# The core may link to Embree, TBB, OpenMP and the C and C++ runtimes. Links to anything else, such as VTK or Fortran, are a
+# fault. The core must not have a run path.
 set -euo pipefail
 library=$1
 needed=$(readelf -d "$library" | sed -n 's/.*(NEEDED).*\[\(.*\)\].*/\1/p')

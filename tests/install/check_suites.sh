@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_suites.sh CTEST SOURCE_DIR BUILD_DIR SCRATCH_FOLDER
-# ./run test must leave out the slow tests and no others. ./run quick must contain no slow test, and continuous integration must
-# run every part. CTest adds the fixtures of a chosen test, so a test that is not slow must not have a slow fixture.
+# ./run test must omit the slow tests and no others. ./run quick must contain no slow test, and continuous integration must run
+# every part. CTest adds the fixtures of a chosen test, so only a slow test may have a slow fixture.
 set -euo pipefail
 ctest=$1 source=$2 build=$3 scratch=$4
 
@@ -22,7 +22,7 @@ both=$(comm -12 <(cat <<<"$slow") <(cat <<<"$plain"))
 both=$(comm -23 <(cat <<<"$quick") <(cat <<<"$plain"))
 [[ ! $both ]] || problem "in ./run quick and not in ./run test: $both"
 
-# Continuous integration is tested with a fake `run` that records its arguments, and fails for a chosen argument.
+# A fake `run` tests continuous integration. This fake records its arguments, and fails for a chosen argument.
 rm -rf "$scratch"
 mkdir -p "$scratch/.ci"
 cp "$source/.ci/run" "$scratch/.ci/run"

@@ -1,10 +1,9 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # take_objects.sh BUILD_DIR COMPILER...
-# A compiler launcher for a build tree of static libraries. BUILD_DIR is the tree of shared libraries that was compiled from the
-# same sources. Most objects of both trees are equivalent, because all code is position independent and hidden. Only an object
-# that exports a name differs (RIIS_STATIC in riis/base.h). The script copies an object that exports nothing, and compiles the
-# others.
+# A compiler launcher for a build tree of static libraries. BUILD_DIR is the tree of shared libraries, which was compiled from the
+# same sources. Most objects of both trees are equivalent, because all code is position independent and hidden. Only objects that
+# export a name differ (RIIS_STATIC in riis/base.h). The script copies objects that export nothing, and compiles the others.
 set -euo pipefail
 build=$1
 shift
@@ -20,7 +19,7 @@ taken=$build/$object
 if [[ $object != *.o || ! -f $taken ]] || grep -q -E 'GLOBAL +DEFAULT +[0-9]+ riis_' < <(readelf -sW "$taken"); then
   exec "$@"
 fi
-# If the build tree had another source, the source must be compiled. After a build, the object is younger than its source.
+# The source must be compiled if the build tree had another source. After a build, an object is younger than its source.
 if [[ ${!#} -nt $taken ]]; then
   exec "$@"
 fi

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0
  * count_markings MARKINGS [INSTRUCTIONS [WORD...]]
  * Marks one mesh repeatedly on one thread, so that the instructions of a marking can be counted. INSTRUCTIONS is one of
- * RIIS_INSTRUCTIONS_*, by default the baseline. The words K and sides request these fields. With the word moving, the valve opens
- * before each marking. Another word is the kind of the valve. Prints the number of marked nodes, and a digest of the nodes and
- * distances. */
+ * RIIS_INSTRUCTIONS_*, by default the baseline. The words `K` and `sides` request these fields. With the word `moving`, the valve
+ * opens before each marking. Any other word is the kind of the valve. Prints the number of marked nodes, and a digest of the
+ * nodes and distances. */
 #include <inttypes.h>
 #include <riis/riis.h>
 #include <stdbool.h>
@@ -13,7 +13,7 @@
 
 enum { n_along = 41, n_nodes = n_along * n_along * n_along };
 
-/* Moves each node of a grid within its own cell. */
+/* Moves each node of a grid to another place in its cell. */
 static void place_nodes(double *xyz) {
   static const double from[3] = {-1.6, -1.6, -0.8};
   uint64_t state = 12345;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Adjacencies are compared with lists of pairs that are made without the library. Wrong cells, faces and grids are refused.
+ * Tests adjacencies against lists of pairs that are made without the library. Wrong cells, faces and grids are refused.
  */
 #include <riis/riis.h>
 
@@ -15,7 +15,7 @@ static random_source rng;
 
 typedef struct pair_list {
   int64_t n, room;
-  int64_t *ends; /* (2, n): both directions of each pair */
+  int64_t *ends; /* (2, n): each pair in both directions */
 } pair_list;
 
 static void add_pair(pair_list *list, int64_t a, int64_t b) {
@@ -38,7 +38,7 @@ static int compare_pairs(const void *a, const void *b) {
   return p[1] < q[1] ? -1 : p[1] > q[1];
 }
 
-/* Sorts the pairs and removes repeats. The result should equal the rows, read in order. */
+/* Sorts the pairs and removes repeats. The result should equal the adjacency's rows, read in order. */
 static void tidy_pairs(pair_list *list) {
   if (list->n == 0) return;
   qsort(list->ends, (size_t)list->n, 2 * sizeof *list->ends, compare_pairs);
@@ -55,7 +55,7 @@ static riis_csr rows_of(const riis_adjacency *adjacency) {
   return csr;
 }
 
-/* Checks that the rows contain exactly the pairs, with base 0, 64-bit offsets and 32-bit columns. */
+/* Checks that the rows contain exactly the pairs. The rows have base 0, 64-bit offsets and 32-bit columns. */
 static void check_rows(const riis_adjacency *adjacency, int64_t n_nodes, pair_list *expected) {
   const riis_csr csr = rows_of(adjacency);
   tidy_pairs(expected);
@@ -96,7 +96,7 @@ typedef struct cell_list {
   int64_t *offsets, *nodes; /* counted from 0 */
 } cell_list;
 
-/* Makes random cells. kind is the number of nodes of a cell, 4, 5, 6 or 8, or 0 for a mixture. Nodes n_used to n_nodes - 1 are
+/* Makes random cells. `kind` is the number of nodes of a cell: 4, 5, 6 or 8, or 0 for a mixture. Nodes n_used to n_nodes - 1 are
  * in no cell. */
 static cell_list random_cells(int kind, int64_t n_nodes, int64_t n_used, int64_t n_cells, int repeated_nodes) {
   static const int kinds[4] = {4, 5, 6, 8};
@@ -108,7 +108,7 @@ static cell_list random_cells(int kind, int64_t n_nodes, int64_t n_used, int64_t
     list.offsets[c + 1] = list.offsets[c] + n;
     for (int k = 0; k < n; ++k) {
       int is_new;
-      do { /* chooses nodes near each other, as in a mesh */
+      do { /* chooses nodes near each other, because a real mesh does so */
         nodes[k] = (c * n_used / n_cells + (int64_t)(random_bits(&rng) % 40)) % n_used;
         is_new = 1;
         for (int m = 0; m < k && !repeated_nodes; ++m) is_new = is_new && nodes[m] != nodes[k];
@@ -130,7 +130,7 @@ static pair_list pairs_of_cells(const cell_list *list) {
   return pairs;
 }
 
-/* Returns the n integers plus base, as an array of 32 or 64 bits. */
+/* Returns an array of 32 or 64 bits with the n integers plus base. */
 static void *as_bits(const int64_t *from, int64_t n, int bits, int64_t base) {
   int32_t *narrow = own(malloc((size_t)(n + 1) * sizeof(int64_t)));
   int64_t *wide = (int64_t *)(void *)narrow;
@@ -226,7 +226,7 @@ static riis_mesh_faces faces_init(void) {
   return faces;
 }
 
-/* A rank without cells passes no arrays at all. */
+/* A rank without cells passes NULL for each array. */
 TEST(nothing_makes_empty_rows) {
   for (int64_t n_nodes = 0; n_nodes <= 3; n_nodes += 3) {
     riis_adjacency *adjacency = NULL;
@@ -288,7 +288,7 @@ TEST(cells_that_are_refused) {
   REFUSED_WITH(offsets = offsets, RIIS_INVALID_MESH, "cell 0 are given from 0 to 7|4, 5, 6 and 8");
   offsets[1] = 4, offsets[2] = 3;
   REFUSED_WITH(offsets = offsets, RIIS_INVALID_MESH, "cell 1 are given from 4 to 3");
-  /* Offsets above the last one, 12, must be refused before the call reads there. */
+  /* Offsets above the last offset, 12, must be refused before the call reads beyond the array. */
   offsets[1] = 8, offsets[2] = 16;
   REFUSED_WITH(offsets = offsets, RIIS_INVALID_MESH, "cell 2 are given from 16 to 12");
   offsets[1] = 4, offsets[2] = 8, offsets[0] = 1;
@@ -305,7 +305,7 @@ TEST(cells_that_are_refused) {
 #undef REFUSED_WITH
 }
 
-/* The least 64-bit integer is refused as a node, with base 0 and 1. */
+/* The least 64-bit integer is not a valid node, with base 0 or 1. */
 TEST(wildest_integers_are_refused) {
   const int64_t ids[4] = {1, 2, 3, INT64_MIN}, offsets[2] = {1, 2}, columns[1] = {INT64_MIN};
   for (int base = 0; base < 2; ++base) {
@@ -364,7 +364,7 @@ TEST(faces_in_every_layout) {
     pair_list expected = {0};
     for (int64_t f = 0; f < n_faces; ++f) {
       int64_t *face = ends + 2 * f;
-      if (f > 0 && random_bits(&rng) % 10 == 0) { /* repeats a face, with its cells in either order */
+      if (f > 0 && random_bits(&rng) % 10 == 0) { /* repeats a face, with its two cells in either order */
         const int64_t *again = ends + 2 * (int64_t)(random_bits(&rng) % (uint64_t)f);
         const int turned = again[1] >= 0 && random_bits(&rng) % 2;
         face[0] = again[turned], face[1] = again[!turned];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests the handle of an adjacency, the rows of a mesh, and the calls after which a mesh has no rows. */
+ * Tests the handle of an adjacency, the rows of a mesh, and the calls that remove a mesh's rows. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -69,7 +69,7 @@ TEST(rows_that_are_refused) {
   good.n_rows = n;
   good.offsets = offsets;
   good.columns = columns;
-  /* Wrong rows are refused whether or not the mesh has an adjacency. The adjacency stays. */
+  /* Wrong rows are always refused, and the mesh keeps the adjacency that it may have. */
   for (int has_one = 0; has_one < 2; ++has_one) {
     if (has_one) CHECK_OK(riis_mesh_set_adjacency(mesh, &good));
 #define REFUSED(status, parts)                                         \
@@ -104,7 +104,7 @@ TEST(rows_that_are_refused) {
     columns[4] = 3;
     offsets[3] = 2;
     REFUSED(RIIS_INVALID_MESH, "row 2|ends at 2|begins, at 3");
-    offsets[3] = 1000; /* exceeds the last offset, which gives the number of columns, so nothing is read there */
+    offsets[3] = 1000; /* exceeds the last offset, which is the number of columns, so nothing is read there */
     REFUSED(RIIS_INVALID_MESH, "row 3|ends at 7|begins, at 1000");
     offsets[3] = 5;
     offsets[0] = 1;
@@ -127,7 +127,7 @@ TEST(when_an_adjacency_goes) {
   enum { n = 4 };
   riis_surface *surface = aortic_surface(NULL);
   double xyz[3 * (n + 1)] = {0};
-  /* Columns 4 and 5 are ghost nodes. The other columns are the row's own node, with repeats. */
+  /* Columns 4 and 5 are ghost nodes. The other columns are the row's node itself, with repeats. */
   int64_t offsets[n + 1] = {1, 4, 4, 7, 8}, columns[7] = {5, 6, 1, 3, 3, 2, 4};
   riis_csr csr;
   riis_marks *result = new_result();
@@ -145,8 +145,8 @@ TEST(when_an_adjacency_goes) {
   csr.n_all = n + 2;
   CHECK_OK(riis_mesh_set_adjacency(mesh, &csr));
   assert_int_equal(has_adjacency(surface, mesh), 1);
-  /* If the number of nodes stays the same, or if an update is refused, the adjacency stays. If the number changes, the
-   * adjacency is removed. */
+  /* The adjacency stays if the number of nodes stays the same, or if an update is refused. The adjacency is removed if the number
+   * changes. */
   CHECK_OK(riis_mesh_update(mesh, n, xyz, xyz + 1, xyz + 2, 3));
   assert_int_equal(has_adjacency(surface, mesh), 1);
   xyz[3 * n] = NAN;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Adjacencies of small random meshes are compared with a std::set of edges. The meshes have cells of every shape and mixtures of
- * them, repeated cells and nodes, nodes in no cell and nodes in every cell. Integers have every width, and any number of threads
- * runs.
+ * Compares adjacencies of small random meshes with a std::set of edges. The meshes have cells of every shape, mixtures of shapes,
+ * repeated cells and nodes, nodes in no cell, and nodes in every cell. The integers have each width, and the number of threads
+ * varies.
  */
 #include <riis/riis.h>
 
@@ -13,7 +13,7 @@
 
 static random_source rng;
 
-/* For each kind of cells there are equally many meshes. */
+/* Each kind of cells has equally many meshes. */
 enum { n_kinds = 5, n_meshes = 150 * n_kinds, most_cells = 300, most_corners = 8 };
 
 static int64_t below(int64_t n) { return (int64_t)(random_bits(&rng) % (uint64_t)n); }
@@ -23,7 +23,7 @@ typedef struct random_mesh {
   int64_t offsets[most_cells + 1], nodes[most_cells * most_corners]; /* counted from 0 */
 } random_mesh;
 
-/* Makes a mesh. kind is the number of corners of its cells, or 0 for a mixture. */
+/* Makes a mesh. `kind` is the number of corners of its cells, or 0 for a mixture. */
 static void make_mesh(random_mesh *mesh, int kind) {
   static const int kinds[4] = {4, 5, 6, 8};
   const int is_large = below(20) == 0; /* large enough for several blocks of nodes */
@@ -98,7 +98,7 @@ TEST(rows_are_those_of_a_set) {
     else
       cells.offsets = offsets;
     for (int width = 0; width < 3; ++width) {
-      /* Tests the library's own limits first, and then limits below the numbers of the mesh. */
+      /* Tests the library's own limits first, then limits that the meshes exceed. */
       const int64_t n_entries = width == 1 ? mesh.offsets[mesh.n_cells] - 1 : -1, n_nodes = width == 2 ? 0 : -1;
       const int n_threads = below(20) ? 1 + (int)below(3) : 9;
       wide_rows rows = {0};
@@ -115,7 +115,7 @@ TEST(rows_are_those_of_a_set) {
   assert_true(n_long_rows > 0);
 }
 
-/* Without nodes or without cells the rows are empty, in each width of integers. */
+/* Without nodes or without cells the rows are empty, for each width of integers. */
 TEST(nothing_makes_empty_rows_in_each_width) {
   for (int64_t n_nodes = 0; n_nodes <= 5000; n_nodes += 5000)
     for (int width = 0; width < 2; ++width)
@@ -131,7 +131,7 @@ TEST(nothing_makes_empty_rows_in_each_width) {
       }
 }
 
-/* The message names the first wrong cell, in whatever order threads check the blocks of cells. */
+/* The message names the first wrong cell, whichever thread checks its cells first. */
 TEST(the_first_wrong_cell_is_named) {
   enum { n_cells = 20000 };
   int32_t *nodes = own(calloc(4 * n_cells, sizeof *nodes)), *offsets = own(calloc(n_cells + 1, sizeof *offsets));
@@ -149,7 +149,7 @@ TEST(the_first_wrong_cell_is_named) {
       CHECK_REFUSED(RIIS_INVALID_MESH, "node 2 of cell 9001 is -3; there are nodes 0 to 0",
                     rows_with_limits(&cells, n_threads, -1, -1, &rows));
     }
-  /* A wrong size is reported before any wrong node. */
+  /* A wrong size is reported before a wrong node. */
   offsets[15001] = 60003, offsets[18001] = 72003;
   for (int n_threads = 1; n_threads <= 4; ++n_threads)
     CHECK_REFUSED(RIIS_INVALID_MESH, "cell 15000 are given from 60000 to 60003",

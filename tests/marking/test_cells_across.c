@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests riis_marks_get_cells_across. Random graphs are compared with a serial search, and a lattice is compared with its known
- * spacing. */
+ * Tests riis_marks_get_cells_across. Random graphs are compared with a serial search, and lattices with their known spacing. */
 #include <riis/riis.h>
 
 #include "test_support.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The search over clusters finds the same nodes as the exhaustive search, to the last bit. This holds for every mesh, surface,
- * limit, mask, instruction set and number of threads, even if the limit leaves out nothing. If clusters cannot be used, the
- * exhaustive search runs, and the statistics say so. */
+ * The search over clusters finds the same nodes as the exhaustive search, to the last bit. The results agree for every mesh,
+ * surface, limit, mask, instruction set and number of threads, and also without a limit. If clusters cannot be used, the
+ * exhaustive search runs, and the statistics report it. */
 #include <omp.h>
 #include <riis/riis.h>
 
@@ -17,7 +17,7 @@
 enum { every_distance = 1 };
 static const double no_limit = 1e60;
 
-/* Checks a marking with a limit. Also checks the distances of all nodes if `also` is every_distance. */
+/* Checks a marking with a limit. If `also` is every_distance, also checks the distances of all nodes. */
 static void check_also(const riis_surface *surface, int64_t n, const double *xyz, double limit, int also) {
   riis_mesh *mesh = mesh_of(n, xyz);
   riis_mark_options options = mark_options();
@@ -56,8 +56,8 @@ TEST(meshes_of_few_nodes) {
   assert_true(most_within > 20);
 }
 
-/* All nodes are at one point, at few points, on a line or in a plane. The number of nodes is near the size of a leaf, a
- * cluster or a region. */
+/* All nodes are at one point, at few points, on a line or in a plane. The number of nodes is near the size of a leaf, a cluster
+ * or a region. */
 TEST(nodes_without_extent) {
   static const int counts[] = {1, 2, 31, 33, 100, 511, 513, 1025, 8191, 8193, 20000};
   riis_surface *surface = aortic_surface(NULL);
@@ -82,7 +82,7 @@ TEST(nodes_without_extent) {
     }
 }
 
-/* Coordinates differ by the smallest number, or by numbers so small that their inverse overflows. */
+/* The coordinates differ by the smallest possible number, or by numbers whose inverse overflows. */
 TEST(nodes_that_differ_by_next_to_nothing) {
   const double soup[9] = {-1, -1, 0, 1, -1, 0, 0, 1, 0};
   const int32_t ids[3] = {0, 1, 2};
@@ -106,8 +106,8 @@ TEST(nodes_that_differ_by_next_to_nothing) {
   }
 }
 
-/* Both valves are tested in meshes whose spacing grows to one side, and in meshes with cells a hundred times as long as high.
- * Limits reach from nearly 0 to beyond the mesh. */
+/* Both valves are tested in meshes whose spacing grows to one side, and in meshes whose cells are a hundred times as long as
+ * high. Limits go from nearly 0 to beyond the mesh. */
 TEST(graded_and_anisotropic_meshes) {
   static const double limits[] = {0, 1e-3, 0.05, 0.4, 50};
   most_threads = 0;
@@ -132,7 +132,7 @@ TEST(graded_and_anisotropic_meshes) {
       }
       free_owned_after(owned_before);
     }
-  /* If OpenMP gives as many threads as requested, more than one must have run. */
+  /* If OpenMP gives as many threads as requested, several threads must have run. */
   if (omp_get_thread_limit() > 1) assert_true(most_threads > 1);
 }
 
@@ -155,8 +155,8 @@ TEST(masked_nodes_are_left_out) {
   }
 }
 
-/* Each mesh is one node, so its box has a size only because of the allowance for single precision. The limit is the node's
- * distance, or one bit less. */
+/* Each mesh is one node. The size of the node's box is only the allowance for single precision. The limit is the node's distance,
+ * or one bit less. */
 TEST(nodes_at_the_limit_are_found) {
   riis_surface_options options = surface_options();
   options.half_thickness = 1e-4;
@@ -165,7 +165,7 @@ TEST(nodes_at_the_limit_are_found) {
   const double square[12] = {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0};
   const int32_t ids[6] = {0, 1, 2, 0, 2, 3};
   const riis_surface_arrays arrays = triangle_arrays(4, square, 2, ids);
-  /* The square's bounding box is as far from the node as the square itself. */
+  /* The node is as far from the square's bounding box as from the square. */
   riis_surface *surfaces[2] = {valve_surface("aortic", options), surface_from(&arrays, &options)};
   for (int k = 0; k < 2; ++k) {
     int n_tried = 0;
@@ -187,7 +187,7 @@ TEST(nodes_at_the_limit_are_found) {
 
 /* --- Surfaces -------------------------------------------------------------------------------------------------------- */
 
-/* Makes a sphere around the origin of (2 n) times n quads, each of two triangles except at the poles. */
+/* Makes a sphere around the origin. The sphere has 2 n by n quads, each of two triangles except at the poles. */
 static riis_surface *sphere(int n, double radius, double half_thickness) {
   double *at = own(malloc((size_t)(2 * n) * (size_t)(n + 1) * 3 * sizeof *at));
   int32_t *ids = own(malloc((size_t)(4 * n * n) * 3 * sizeof *ids));
@@ -212,9 +212,9 @@ static riis_surface *sphere(int n, double radius, double half_thickness) {
   return surface_from(&arrays, &options);
 }
 
-/* Every point of the surface is equally far from its middle, so the filter leaves far more pairs than its buffer can hold.
- * The test counts the pairs that the filter must leave: triangles whose distance exceeds the smallest one by at most the
- * error of single precision. */
+/* Every point of the surface is equally far from the sphere's middle, so the filter leaves far more pairs than its buffer can
+ * hold. The test counts the pairs that the filter must leave. The triangle of such a pair has a distance that exceeds the
+ * smallest distance by at most the error of single precision. */
 TEST(more_pairs_than_room) {
   enum { n = 40, room = 4096 };
   riis_surface *surface = sphere(40, 0.9, 0.1);
@@ -234,12 +234,12 @@ TEST(more_pairs_than_room) {
     most_within = 0;
     check(surface, n, xyz, 1);
     assert_int_equal(most_within, n);
-    check(surface, n, xyz, smallest); /* a limit up to which only triangles at exactly this distance count */
+    check(surface, n, xyz, smallest); /* a limit that only triangles at exactly this distance meet */
   }
 }
 
-/* Surfaces from arrays have arbitrary triangles, needles down to 1e-11, sizes over many powers of ten, coplanar triangles, and
- * separate pieces. Units go from 1e-50 to 1e50. Some surfaces are far from the origin, where coordinates round. */
+/* The surfaces from arrays have needles down to 1e-11, sizes over many powers of ten, coplanar triangles, and separate pieces.
+ * Units go from 1e-50 to 1e50. Some surfaces are so far from the origin that their coordinates are rounded. */
 TEST(surfaces_from_arrays) {
   enum { max_triangles = 600, n = 1500 };
   static double corners[9 * max_triangles];
@@ -287,7 +287,7 @@ TEST(surfaces_from_arrays) {
   assert_int_equal(most_within, n);
 }
 
-/* Needles lie along a diagonal. If the surface's middle is subtracted from their corners, their heights are rounded to 0. */
+/* Needles lie along a diagonal. Subtracting the surface's middle from the needles' corners rounds the heights to 0. */
 TEST(needles_that_are_lines_in_the_frame) {
   enum { n_triangles = 64, n = 2000 };
   double corners[9 * n_triangles];
@@ -318,7 +318,7 @@ TEST(needles_that_are_lines_in_the_frame) {
   }
 }
 
-/* The valve lies far from the origin, as in a scanner's coordinates, or so far that its coordinates are rounded. */
+/* The valve lies far from the origin, as in a scanner's coordinates. Some valves lie so far away that coordinates are rounded. */
 TEST(valves_far_from_the_origin) {
   static const double far[] = {300, 1e4, 1e6};
   for (size_t k = 0; k < sizeof far / sizeof far[0]; ++k) {
@@ -339,8 +339,8 @@ TEST(valves_far_from_the_origin) {
 
 /* --- Every distance --------------------------------------------------------------------------------------------------- */
 
-/* Sets the i-th of some points: on the surface, near it, at a vertex, anywhere in its box, on the axis of its box, or far
- * away. Some points are equal. */
+/* Sets the i-th of a list of points: on the surface, near it, at a vertex, anywhere in the surface's box, on the box's axis, or
+ * far away. Some points are equal. */
 static void any_point(const riis_surface *surface, int i) {
   const riis_surface_info info = info_of(surface);
   const riis_triangles all = triangles_of(surface);
@@ -364,8 +364,8 @@ static void any_point(const riis_surface *surface, int i) {
   }
 }
 
-/* Random valves of every kind, at random openings and placements, with both triangulations. RIIS_TEST_LONG=1 continues until ten
- * million distances were compared. */
+/* Tests random valves of every kind, at random openings and placements, with both triangulations. RIIS_TEST_LONG=1 continues
+ * until ten million distances are compared. */
 TEST(every_distance_of_random_valves) {
   static const char *const kinds[] = {"aortic", "trileaflet", "coapting", "mitral", "bileaflet"};
   enum { n_kinds = 5 };
@@ -399,7 +399,7 @@ TEST(every_distance_of_random_valves) {
   printf("%lld distances of random valves\n", (long long)n_compared);
 }
 
-/* Leaves are larger than the surface, and more groups of triangles are near them than the filter takes at once. A few nodes are
+/* Leaves are larger than the surface. More groups of triangles are near a leaf than the filter takes at once. A few nodes are
  * between the leaflets. */
 TEST(large_leaves_near_small_triangles) {
   riis_surface_options options = surface_options();
@@ -470,7 +470,7 @@ TEST(what_options_say) {
     options.instructions = wrong[k];
     CHECK_REFUSED(RIIS_INVALID_ARGUMENT, text, riis_mark_nodes(surface, mesh, &options, result));
   }
-  /* The loop covers instruction sets that this processor lacks. */
+  /* The loop also tries instruction sets that this processor lacks. */
   for (int32_t set = RIIS_INSTRUCTIONS_BASELINE; set <= RIIS_INSTRUCTIONS_AVX512; ++set) {
     options.instructions = set;
     assert_int_equal(is_refused(riis_mark_nodes(surface, mesh, &options, result), set), set > best);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests the search over clusters from step to step, chosen by RIIS_SEARCH_AUTO, and called by several threads at the same time.
- * */
+ * Tests the search over clusters from step to step, as the choice of RIIS_SEARCH_AUTO, and in simultaneous calls by several
+ * threads. */
 #include <omp.h>
 #include <riis/riis.h>
 
@@ -42,8 +42,8 @@ TEST(nodes_and_valve_move) {
   }
 }
 
-/* Nodes move before they are sorted, without riis_mesh_update. The clusters contain the nodes at their present positions,
- * however far they moved. */
+/* The nodes move before they are sorted, without a call of riis_mesh_update. The clusters contain the nodes at their present
+ * positions, however far the nodes moved. */
 TEST(nodes_that_moved_without_a_word) {
   riis_surface *surface = aortic_surface(NULL);
   riis_mark_options options = mark_options();
@@ -86,7 +86,7 @@ TEST(non_finite_coordinates) {
           free_one_owned(mesh);
           mesh = mesh_of(n, xyz);
         }
-        /* The next marking must make clusters, or must update the positions in earlier clusters. */
+        /* The next marking must make clusters or update the positions in earlier clusters. */
         if (made_before == 1) {
           CHECK_OK(riis_mesh_prepare(mesh, threads));
           CHECK_OK(riis_mesh_update(mesh, n, xyz, xyz + 1, xyz + 2, 3));
@@ -117,8 +117,8 @@ static int32_t search_of(const riis_surface *surface, const riis_mesh *mesh, int
   return search;
 }
 
-/* RIIS_SEARCH_AUTO is exhaustive for the first marking of a mesh, and uses clusters for all others. It also uses clusters for
- * the first marking if the mesh is prepared. */
+/* RIIS_SEARCH_AUTO is exhaustive for the first marking of a mesh, and uses clusters for later markings. For a prepared mesh,
+ * clusters also serve the first marking. */
 TEST(what_auto_is) {
   enum { n = 200 };
   riis_surface *surface = aortic_surface(NULL);
@@ -148,14 +148,14 @@ TEST(what_auto_is) {
   CHECK_OK(riis_mesh_update(mesh, n, xyz, xyz + 1, xyz + 2, 3));
   assert_int_equal(search_of(surface, mesh, any), RIIS_SEARCH_CLUSTERS);
   free_one_owned(mesh);
-  mesh = mesh_of(n, xyz); /* an earlier marking by any search leads to clusters */
+  mesh = mesh_of(n, xyz); /* an earlier marking leads to clusters, whatever its search */
   assert_int_equal(search_of(surface, mesh, RIIS_SEARCH_EXHAUSTIVE), RIIS_SEARCH_EXHAUSTIVE);
   assert_int_equal(search_of(surface, mesh, any), RIIS_SEARCH_CLUSTERS);
 }
 
 /* --- Threads --------------------------------------------------------------------------------------------------------- */
 
-/* Returns 1 if a marking differs from the expected one. The mesh may be new to all threads. */
+/* Returns 1 if a marking differs from the expected marking. The mesh may be new to all threads. */
 static int marks_wrong(const riis_surface *surface, riis_mesh *mesh, const riis_marks *expected, int n_threads,
                        int prepares) {
   riis_mark_options options = {0};
@@ -170,8 +170,8 @@ static int marks_wrong(const riis_surface *surface, riis_mesh *mesh, const riis_
   return wrong;
 }
 
-/* The thread sanitizer misses the end of an OpenMP team inside another team. If another team reuses that team's stack, the
- * sanitizer reports a race. */
+/* The thread sanitizer misses the end of an OpenMP team inside another team. If another team reuses the stack of the team that
+ * ended, the sanitizer reports a race. */
 #if defined(__has_feature)
 #if __has_feature(thread_sanitizer)
 #define RIIS_TEST_MOST_NESTED 1

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * A process without nodes makes the same calls as other processes, with NULL for arrays: meshes, adjacencies, markings, leaks,
- * and sums over nodes. */
+ * A process without nodes makes all calls that other processes make, with NULL for arrays. The calls make meshes, adjacencies,
+ * markings, leaks and sums over nodes. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -72,7 +72,7 @@ TEST(meshes_may_be_empty) {
   CHECK_REFUSED(RIIS_INVALID_MESH, "n_nodes is -9223372036854775808;",
                 riis_mesh_update(mesh, INT64_MIN, NULL, NULL, NULL, 1));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "mesh is NULL", riis_mesh_create(0, NULL, NULL, NULL, 1, NULL));
-  /* Only a mesh without nodes may have NULL as pointers. */
+  /* Only a mesh without nodes may have NULL as pointers to arrays. */
   assert_int_equal(riis_mesh_create(1, NULL, NULL, NULL, 1, &none), RIIS_INVALID_ARGUMENT);
   assert_null(none);
 }
@@ -98,7 +98,7 @@ TEST(adjacencies_may_be_empty) {
   riis_mesh_cells cells;
   riis_adjacency *adjacency = NULL;
   CHECK_OK(riis_mesh_cells_init(&cells, sizeof cells));
-  for (int64_t n_nodes = 0; n_nodes <= 5; n_nodes += 5) /* once without cells and nodes, once only without cells */
+  for (int64_t n_nodes = 0; n_nodes <= 5; n_nodes += 5) /* first without cells and nodes, then only without cells */
     for (int32_t base = 0; base < 2; ++base)
       for (int with_offsets = 0; with_offsets < 2; ++with_offsets) {
         const int32_t first = base;
@@ -168,7 +168,7 @@ TEST(every_search_finds_all_of_nothing) {
         check_nothing_found(result, search);
       }
     }
-  /* A mesh without nodes may lack an adjacency, as other meshes may. The two searches along an adjacency are then refused. */
+  /* A mesh without nodes may lack an adjacency, like any mesh. The two searches along an adjacency are then refused. */
   riis_mesh *mesh = empty_mesh();
   riis_mark_options options = mark_options();
   for (int32_t search = RIIS_SEARCH_NEIGHBOR; search <= RIIS_SEARCH_PAPER; ++search) {
@@ -190,7 +190,7 @@ TEST(other_distances_find_nothing_too) {
   }
 }
 
-/* First the result and the mesh have nodes, then none, then nodes again. */
+/* First the result and the mesh have nodes, then no nodes, then nodes again. */
 TEST(nodes_come_and_go) {
   riis_surface *surface = moving_surface();
   test_mesh nodes = lattice_around(surface, 0.2, 0.2);
@@ -247,7 +247,7 @@ TEST(nothing_leaks) {
   riis_passage passage;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "ends.from[0] is 0|0 nodes",
                 find_passage_between(surface, mesh, NULL, 1, &node, 1, &node, &passage, sizeof passage));
-  /* No marking has filled this result. */
+  /* No marking has yet filled the result. */
   riis_marks *empty = new_result();
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "marks are empty", find_leaks_in(surface, mesh, empty, NULL, &leaks));
 }
@@ -285,7 +285,7 @@ static void nobody_is_warned(void *user_data, int32_t level, const char *message
   if (level == RIIS_LOG_WARNING) ++*(int *)user_data;
 }
 
-/* Without nodes, the mesh's box has no size to warn about. */
+/* The box of a mesh without nodes has no size, so no warning compares it. */
 TEST(no_warning_of_proportions) {
   int n_warnings = 0;
   riis_surface *surface = moving_surface();

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests the kernels that compute fields of closest points. Every instruction set gives the same bits as plain C in the
- * same order of operations. */
+ * Tests the kernels that compute fields of closest points. Every instruction set gives the bits that plain C gives with the same
+ * order of operations. */
 #include "internals.h"
 #include "test_support.h"
 
@@ -46,8 +46,8 @@ TEST(numbers_are_mixed_by_weights) {
   }
 }
 
-/* A derivative is -n.V with the unit vector n from the closest point to the point and the mean V of the rates. It is 0 at
- * distance 0. Nothing is written behind the last point. */
+/* A derivative is -n.V. The unit vector n points from the closest point to the given point, and V is the mean of the rates. The
+ * derivative is 0 at distance 0. The kernel writes nothing behind the last point. */
 TEST(distances_are_differentiated) {
   enum { n_vertices = 20, most_directions = 3, room = most_directions * n_lanes + 1 };
   for (int trial = 0; trial < 5000; ++trial) {

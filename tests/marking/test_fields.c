@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests the fields of closest points that a marking keeps. For any search, threads and instructions, the fields equal
- * those of single queries to the last bit. The rim is compared with the numbering of patches and with a count of
- * edges. Wrong requests are refused. */
+ * Tests the fields of closest points that a marking keeps. The fields equal those of single queries to the last bit, for any
+ * search, number of threads and instruction set. The rim is compared with the numbering of patches and with a count of edges.
+ * Wrong requests are refused. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -50,7 +50,7 @@ static int same_fields(riis_mark_list a, riis_mark_list b) {
          same_array(a.rim, b.rim, n, 4) && same_array(a.patch_id, b.patch_id, n, 4);
 }
 
-/* Returns the flags of all fields whose arrays are there. */
+/* Returns the flags of all fields whose arrays are not NULL. */
 static int32_t arrays_in(riis_mark_list f) {
   return (f.point ? RIIS_FIELD_POINT : 0) | (f.normal ? RIIS_FIELD_NORMAL : 0) |
          (f.barycentric ? RIIS_FIELD_BARYCENTRIC : 0) | (f.side ? RIIS_FIELD_SIDE : 0) | (f.rim ? RIIS_FIELD_RIM : 0) |
@@ -59,8 +59,7 @@ static int32_t arrays_in(riis_mark_list f) {
 
 static int is_bit(int32_t fields) { return fields && !(fields & (fields - 1)); }
 
-/* Checks that the marked nodes have the same fields in the result's list of marked nodes and its list of nodes within the
- * limit. */
+/* A result lists the marked nodes and the nodes within the limit. Checks that marked nodes have equal fields in both lists. */
 static void check_part(const riis_marks *result) {
   const found_nodes all = within_in(result), some = marked_in(result);
   const riis_mark_list of_all = within_fields(result), of_some = marked_fields(result);
@@ -81,8 +80,8 @@ static void check_part(const riis_marks *result) {
 
 /* --- The rim, counted independently ---------------------------------------------------------------------------------- */
 
-/* The edges and corners on the rim, three flags of each kind for each triangle. Edge k runs from corner k to the next
- * corner. A corner is on the rim if it is an end of a rim edge. */
+/* Each triangle has three flags for edges on the rim and three flags for corners on the rim. Edge k runs from corner k to the
+ * next corner. A corner is on the rim if a rim edge ends there. */
 typedef struct rims {
   riis_triangles c;
   const int64_t *triangle_id;
@@ -110,9 +109,9 @@ static void mark_corners(rims *r) {
   }
 }
 
-/* Marks the rim by the numbers of patches. On aortic valves the rim is u = 1 (the sinus) of all patches and v = 1 (the free
- * edge) of the upper ones. On mitral valves the rim consists of v = 0 (the annulus) of all patches, and of v = 1 (the free
- * edge) unless the leaflets meet there. */
+/* Marks the rim by the numbers of patches. On aortic valves the rim is u = 1 (the sinus) of all patches and v = 1 (the free edge)
+ * of the upper patches. On mitral valves the rim contains v = 0 (the annulus) of all patches. The rim also contains v = 1 (the
+ * free edge) where the leaflets do not meet. */
 static rims rims_of_valve(const riis_surface *surface, int is_mitral, double opening) {
   rims r = new_rims(surface);
   for (int64_t e = 0; e < 3 * r.c.n_triangles; ++e) {
@@ -158,8 +157,8 @@ static int is_rim(const rims *r, int64_t triangle, const double *w) {
 
 /* --- Against single queries ------------------------------------------------------------------------------------------ */
 
-/* Compares all fields of the nodes within the limit with single queries and with the rim. Velocities must be those of
- * the closest triangle, unless several points of the surface are equally near. */
+/* Compares all fields of the nodes within the limit with single queries and with the rim. A velocity must be that of the closest
+ * triangle, except where several points of the surface are equally near. */
 static void check_fields(const riis_surface *surface, const double *xyz, const rims *r, const riis_marks *result) {
   const riis_mark_list f = within_fields(result);
   const found_nodes nodes = within_in(result);
@@ -198,7 +197,7 @@ static void check_fields(const riis_surface *surface, const double *xyz, const r
   }
 }
 
-/* Makes nodes near a surface: some on it, at its corners, or beyond its edges. Each node's neighbour is the next node. */
+/* Makes nodes on a surface, near it, at its corners, and beyond its edges. The next node in the list is each node's neighbour. */
 static test_mesh nodes_near(const riis_surface *surface, int64_t n, double reach) {
   const riis_triangles c = triangles_of(surface);
   test_mesh mesh = {.n = n};
@@ -221,7 +220,7 @@ static test_mesh nodes_near(const riis_surface *surface, int64_t n, double reach
   return mesh;
 }
 
-/* Checks that all searches, numbers of threads and instruction sets give the fields of the first search. */
+/* Checks that each search, number of threads and instruction set gives the fields of the first search. */
 static void check_all_ways(const riis_surface *surface, const rims *r, int32_t fields) {
   const double half_thickness = info_of(surface).half_thickness;
   test_mesh nodes = nodes_near(surface, 300 + any_of(400), 2 * half_thickness);
@@ -250,7 +249,7 @@ static void check_all_ways(const riis_surface *surface, const rims *r, int32_t f
       assert_true(same_fields(within_fields(result), within_fields(expected)));
       assert_true(same_fields(marked_fields(result), marked_fields(expected)));
     }
-  options.search = RIIS_SEARCH_PAPER; /* this search finds fewer nodes, but with all their fields */
+  options.search = RIIS_SEARCH_PAPER; /* this search finds fewer nodes, but gives all their fields */
   options.instructions = RIIS_INSTRUCTIONS_AUTO;
   CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
   check_fields(surface, nodes.xyz, r, result);
@@ -284,11 +283,11 @@ TEST(fields_of_valves_are_those_of_single_queries) {
   }
 }
 
-/* The surface is a crumpled sheet with holes and with triangles without area. Each triangle has its own corners, or
+/* The surface is a crumpled sheet with holes and with triangles without area. Either each triangle has its own corners, or
  * triangles share corners. */
 TEST(fields_of_arrays_are_those_of_single_queries) {
   enum { side = 9, max_vertices = 6 * side * side };
-  riis_surface *surface = surface_of_kind("mitral", NULL); /* updates from arrays must replace the mitral valve's rim */
+  riis_surface *surface = surface_of_kind("mitral", NULL); /* arrays must replace the mitral valve's rim */
   for (int trial = 0; trial < trials_of(72); ++trial) {
     const int owned_before = n_owned();
     static double height[side + 1][side + 1], xyz[3 * max_vertices];
@@ -305,7 +304,7 @@ TEST(fields_of_arrays_are_those_of_single_queries) {
             const int *step = steps[3 * half + k];
             double *p = xyz + 3 * n_vertices;
             p[0] = 0.1 * (i + step[0]), p[1] = 0.1 * (j + step[1]), p[2] = height[i + step[0]][j + step[1]];
-            if (p[0] == 0 && any_of(2)) p[0] = -0.0; /* 0 and -0 must count as the same position */
+            if (p[0] == 0 && any_of(2)) p[0] = -0.0; /* 0 and -0 must count as one position */
             int64_t same = n_vertices;
             for (int64_t v = 0; v < n_vertices && trial % 2; ++v)
               if (is_same_place(xyz + 3 * v, p)) same = v;
@@ -331,7 +330,8 @@ TEST(fields_of_arrays_are_those_of_single_queries) {
 
 /* --- The rim of valves ----------------------------------------------------------------------------------------------- */
 
-/* Returns three points beyond each edge of each triangle: in its plane, off its plane, and vertically below the edge. */
+/* Returns three points beyond each edge of each triangle: one in its plane, one off its plane, and one vertically below the
+ * edge. */
 static double *beyond_edges(const riis_triangles *c, double off) {
   double *xyz = own(malloc((size_t)c->n_triangles * 27 * sizeof *xyz)), *to = xyz;
   for (int64_t e = 0; e < 3 * c->n_triangles; ++e) {
@@ -353,8 +353,8 @@ static double *beyond_edges(const riis_triangles *c, double off) {
   return xyz;
 }
 
-/* No valve has a rim along the bending curve, along the symmetry planes or between patches. The closed mitral valve has no
- * rim along its free edges. */
+/* A valve has no rim along the bending curve, along the symmetry planes or between patches. The closed mitral valve has no rim
+ * along its free edges. */
 TEST(valves_have_a_rim_all_around_and_none_inside) {
   const int step = is_short_test() ? 4 : 1;
   for (int is_mitral = 0; is_mitral < 2; ++is_mitral) {
@@ -390,14 +390,14 @@ TEST(valves_have_a_rim_all_around_and_none_inside) {
                    f.uv[2 * k + 1], f.patch_id[k]);
         n_rim += expected;
         const int64_t e = k / 3;
-        /* The node's closest edge is the edge beyond which the node lies. */
+        /* The node lies beyond an edge, so this edge is the closest one. */
         if (t == e / 3 && expected && r.edge[e]) ++n_free;
         if (!r.edge[e]) ++n_inside;
         if (f.uv[2 * k + 1] > 1 - 1e-9 && is_mitral && i == 0) {
           ++n_free_closed;
           assert_int_equal(f.rim[k], 0);
         }
-        /* A check without the numbers of patches: no rim edge lies in the mitral valve's plane of symmetry. */
+        /* This check does not use the numbers of patches: no rim edge lies in the mitral valve's plane of symmetry. */
         if (is_mitral && f.rim[k] && r.edge[e] && t == e / 3)
           assert_true(corner_of(&r.c, e)[0] != 0 || corner_of(&r.c, next_of(e))[0] != 0);
       }
@@ -411,7 +411,7 @@ TEST(valves_have_a_rim_all_around_and_none_inside) {
   }
 }
 
-/* The middle of a rim edge touches no other patch of its leaflet. Mitral valves are opened at random. */
+/* The middle of a rim edge touches no other patch of the edge's leaflet. Mitral valves are opened at random. */
 TEST(no_other_patch_touches_the_rim) {
   for (int is_mitral = 0; is_mitral < 2; ++is_mitral) {
     int64_t n = 0;
@@ -436,10 +436,10 @@ TEST(no_other_patch_touches_the_rim) {
         if (!f.rim[k] || middle > 0.6) continue; /* skips the ends of edges, which other patches share */
         ++n;
         for (int64_t t = 0; t < c.n_triangles; ++t) {
-          /* Triangles of other leaflets may touch this edge, so they are skipped. */
+          /* Triangles of other leaflets may touch the edge, so the loop skips these triangles. */
           if (c.patch_id[t] == f.patch_id[k]) continue;
           if (c.leaflet_id[t] != (is_mitral ? f.patch_id[k] > 5 : f.patch_id[k] / 4)) continue;
-          /* The distance to the box of the triangle's corners is a lower bound of the distance to the triangle. */
+          /* The distance to the box around the triangle is a lower bound of the distance to the triangle. */
           double gap = 0;
           for (int x = 0; x < 3; ++x) {
             double low = INFINITY, high = -INFINITY;
@@ -585,7 +585,7 @@ TEST(fields_are_refused_by_name) {
   }
 }
 
-/* Arrays that were not requested are NULL, even if the previous marking had them. A result without nodes has no arrays. */
+/* Arrays that were not requested are NULL, even if the previous marking filled them. A result without nodes has no arrays. */
 TEST(what_is_not_asked_for_is_null) {
   riis_surface *surface = aortic_surface(NULL);
   test_mesh nodes = nodes_near(surface, 300, 0.1);

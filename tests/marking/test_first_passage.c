@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests riis_find_first_passage. The opening that the call finds is compared with riis_find_passage at many openings, and with
- * a slit of known width. */
+ * Tests riis_find_first_passage. The opening that the call finds is compared with riis_find_passage at many openings. The opening
+ * is also compared with a slit of known width. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -51,7 +51,7 @@ static riis_passage passage_at(riis_valve *valve, double opening, const riis_mes
   return passage;
 }
 
-/* The valve fills a tube, so each path leads through the valve. */
+/* The valve fills a tube, so each path through the tube leads through the valve. */
 TEST(valves_first_open_where_a_ladder_says) {
   static const char *const kinds[4] = {"trileaflet", "bileaflet", "mitral", "coapting"};
   for (int trial = 0; trial < trials_of(24); ++trial) {
@@ -104,7 +104,7 @@ TEST(valves_first_open_where_a_ladder_says) {
 }
 
 /* Two plates slide apart along x. The slit between them is 2 * opening wide. A path through the slit exists if the nodes in its
- * middle are farther from both plates than the half thickness. */
+ * middle are farther than the half thickness from both plates. */
 TEST(slits_open_at_their_width) {
   const double wide = 3;
   shape closed = {0}, open = {0};
@@ -128,7 +128,7 @@ TEST(slits_open_at_their_width) {
   riis_first_passage first;
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "valve has only one state|riis_valve_set_open_state",
                 riis_find_first_passage(valve, mesh, &ends, NULL, &first, sizeof first));
-  /* A valve with only one state is refused, even if this state is open. */
+  /* A valve with only one state is refused, even if this state is its open one. */
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "valve has only one state",
                 riis_find_first_passage(opened, mesh, &ends, NULL, &first, sizeof first));
   CHECK_OK(riis_valve_set_open_state(valve, opened));
@@ -148,7 +148,7 @@ TEST(slits_open_at_their_width) {
     CHECK_NEAR(found.point[0], 0, 1e-12);
     CHECK_NEAR(found.point[2], 0, 1e-12);
   }
-  /* With a half thickness above 1 the slit never opens. If one node is masked, the mesh has no path. */
+  /* With a half thickness above 1 the slit never opens. If one node is masked, no path of the mesh remains. */
   riis_surface_options surface = surface_options();
   surface.half_thickness = 0.9;
   riis_first_passage_options options = first_options();

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests derivatives of distances and of K. The derivatives are compared with central differences of distances to surfaces on
- * the same triangles, and, at rims and ties, with closed forms. */
+ * Tests derivatives of distances and of K. The derivatives are compared with central differences of distances to surfaces with
+ * equal triangles. At rims and ties the derivatives are compared with closed forms. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -33,16 +33,16 @@ static placed_valve copy_of(const placed_valve *from) {
   return made;
 }
 
-/* A direction changes one of these: a value of a parameter, a number of the placement, or a landmark of a warp. */
+/* A direction changes one number: the value of a parameter, a number of the placement, or a landmark of a warp. */
 typedef enum { of_parameter, of_translation, of_angle, of_scale, of_landmark } sort_of_change;
 typedef struct change {
   sort_of_change sort;
   char name[64];
   int component;
-  double size; /* a change that is neither large nor small */
+  double size; /* a change of medium size */
 } change;
 
-/* The landmarks of the warp: the corners of a box round the valve. */
+/* The landmarks of the warp are the corners of a box round the valve. */
 enum { n_corners = 8 };
 static const double no_shifts[3 * n_corners];
 
@@ -63,7 +63,7 @@ static void warp_valve(riis_valve *valve, const double *shifts) {
   riis_warp_destroy(&warp);
 }
 
-/* Changes a state by `by` in a direction. Returns whether the valve accepted the value. */
+/* Moves a state in a direction by `by`. Returns whether the valve accepted the value. */
 static int apply(const change *c, const double *shifts, double by, placed_valve *to) {
   if (c->sort == of_translation) to->options.translation[c->component] += by;
   if (c->sort == of_angle) to->options.rotation_angle += by;
@@ -93,7 +93,8 @@ static change random_parameter(const riis_valve *valve) {
   return made;
 }
 
-/* A bent patch that opens to another one, and so has the one parameter "opening" besides its skirt. */
+/* A valve of one bent patch that opens to another patch. Apart from the skirt's length, the valve's only parameter is
+ * "opening". */
 static riis_valve *bent_patches(void) {
   shape closed = unit_square(), open;
   for (int i = 0; i < 4; ++i) {
@@ -111,7 +112,7 @@ static riis_valve *bent_patches(void) {
   return valve;
 }
 
-/* Makes a valve with about every third parameter changed by up to 4 %. Values that do not fit together are drawn again. */
+/* Makes a valve with about every third parameter changed by up to 4 %. Values that are invalid together are drawn again. */
 static placed_valve random_valve(int kind, int fixed, double *shifts) {
   for (;;) {
     placed_valve made = {kind == 5 ? bent_patches() : new_valve(kinds[kind]), surface_options()};
@@ -126,7 +127,7 @@ static placed_valve random_valve(int kind, int fixed, double *shifts) {
       for (int64_t k = 0; k < parameter.n_values; ++k) values[k] *= between(0.96, 1.04);
       riis_valve_set(made.valve, parameter.name, parameter.n_values, values);
     }
-    /* Closed leaflets touch. At the ends of its range, the opening is not a direction of this test. */
+    /* Closed leaflets touch. At an end of its range, the opening has no central difference, so no direction changes it. */
     CHECK_OK(riis_valve_set_scalar(made.valve, "opening", one_in(4) ? 0 : between(0.03, 0.97)));
     if (kind != 3 && kind != 5 && one_in(3)) CHECK_OK(riis_valve_set_scalar(made.valve, "skirt_length", 0.3));
     memcpy(shifts, no_shifts, sizeof no_shifts);
@@ -155,7 +156,7 @@ static placed_valve random_valve(int kind, int fixed, double *shifts) {
 
 /* --- Central differences on the same triangles ----------------------------------------------------------------------- */
 
-/* Returns whether both surfaces have the same triangles, with vertices at nearly the same u and v. */
+/* Returns whether both surfaces have equal triangles, and vertices at nearly equal u and v. */
 static int is_same_triangulation(const riis_surface *a, const riis_surface *b) {
   const riis_triangles s = triangles_of(a), t = triangles_of(b);
   if (s.n_vertices != t.n_vertices || s.n_triangles != t.n_triangles) return 0;
@@ -176,14 +177,14 @@ static void find_distances(const riis_surface *surface, int64_t n, const double 
   CHECK_OK(riis_closest_points(surface, &points, NULL, &arrays));
 }
 
-/* Makes the surface of a state. With the fixed triangulation, a change of the opening or of the placement keeps the triangles
- * of `like`, which is then updated. Returns NULL if the values do not fit together. */
+/* Makes the surface of a state. With the fixed triangulation, a change of the opening or of the placement keeps the triangles of
+ * `like`. The function then updates `like`. Returns NULL if the values are invalid together. */
 static riis_surface *surface_in(const placed_valve *state) {
   riis_surface *surface = NULL;
   return riis_surface_create(state->valve, &state->options, &surface) == RIIS_OK ? own(surface) : NULL;
 }
 
-/* Differences of the distance of a point over a step to both sides. */
+/* The differences of a point's distance over a step to either side. */
 typedef struct slopes {
   double left, right, middle;
 } slopes;
@@ -191,10 +192,9 @@ static slopes slopes_of(double before, double now, double after, double step) {
   return (slopes){(now - before) / step, (after - now) / step, (after - before) / (2 * step)};
 }
 
-/* Tells whether a derivative that differs from the central difference is nevertheless right, beside a tie. If there is a tie
- * within the step, the distance changes there from one place of the surface to another. The slope then falls at a kink,
- * and the central difference is off by up to half the kink. The derivative must be the slope on the side without the
- * tie. */
+/* Tells whether a derivative is right although it differs from the central difference. Such a difference occurs beside a tie:
+ * within the step, the closest point jumps from one place of the surface to another. The slope then falls at a kink, and the
+ * central difference is off by up to half the kink. The derivative must be the slope on the side without the tie. */
 static int is_beside_tie(slopes s, double gradient, double speed) {
   return s.right < s.left && fmin(fabs(gradient - s.left), fabs(gradient - s.right)) <= 1e-5 * speed;
 }
@@ -217,7 +217,7 @@ static double area_rate_of(const riis_surface *surface, int64_t direction_id) {
   return direction.area_rate;
 }
 
-/* Computes the derivative of a surface's area if its vertices move at these rates. It is a sum over corners: the rate times the
+/* Computes the derivative of a surface's area if its vertices move at these rates. Each corner contributes its rate times the
  * derivative of the area by the corner. */
 static double rate_of_area(const riis_surface *surface, const double *rate) {
   const riis_triangles c = triangles_of(surface);
@@ -226,7 +226,7 @@ static double rate_of_area(const riis_surface *surface, const double *rate) {
     const int64_t *const id = c.vertex_id + 3 * i;
     const double *const corner[3] = {c.xyz + 3 * id[0], c.xyz + 3 * id[1], c.xyz + 3 * id[2]};
     for (int k = 0; k < 3; ++k) {
-      /* A corner that moves away from the opposite edge adds half of this edge's length to the area. */
+      /* If a corner moves away from the opposite edge by 1, the area grows by half of this edge's length. */
       double edge[3], towards[3], height[3];
       for (int x = 0; x < 3; ++x) edge[x] = corner[(k + 2) % 3][x] - corner[(k + 1) % 3][x];
       for (int x = 0; x < 3; ++x) towards[x] = corner[k][x] - corner[(k + 1) % 3][x];
@@ -267,7 +267,7 @@ static void compare(const riis_surface *at, const placed_valve *state, const cha
   for (int i = 0; i < 2 && is_same; ++i) {
     placed_valve moved = copy_of(state);
     if (!apply(c, shifts, i ? step : -step, &moved)) is_same = 0;
-    /* A surface keeps its fixed triangles only while nothing but opening and placement changes. */
+    /* A surface keeps its fixed triangles only while the opening and the placement alone change. */
     const int keeps = state->options.triangulation == RIIS_TRIANGULATION_FIXED &&
                       (c->sort != of_parameter || strcmp(c->name, "opening") == 0);
     riis_surface *surface = is_same ? surface_in(keeps ? state : &moved) : NULL;
@@ -295,7 +295,7 @@ static void compare(const riis_surface *at, const placed_valve *state, const cha
     ++t->n_vertices, t->n_off_vertices += !(relative <= 1e-5);
     t->worst_vertex = fmax(t->worst_vertex, relative);
   }
-  /* The area changes by about the square root of the area times the speed. */
+  /* The area changes at about the square root of the area times the speed. */
   const double area = info_of(at).area;
   const double slope_of_area = (info_of(surfaces[1]).area - info_of(surfaces[0]).area) / (2 * step);
   const double growth = area_rate_of(at, direction_id), size = fmax(sqrt(area) * speed, 1e-8 * area / step);
@@ -324,7 +324,7 @@ static void compare(const riis_surface *at, const placed_valve *state, const cha
 TEST(derivatives_are_central_differences) {
   static double xyz[3 * n_points], gradient[n_points], K_gradient[n_points];
   const int n_trials = is_long_test() ? 20 : 1;
-  /* Points at kinks are a larger share of a single valve's points. */
+  /* On a single valve, a larger share of the points may be at kinks. */
   const double most_off = is_long_test() ? 0.01 : 0.05;
   for (int kind = 0; kind < n_kinds; ++kind)
     for (int fixed = 0; fixed < 2; ++fixed) {
@@ -350,7 +350,7 @@ TEST(derivatives_are_central_differences) {
           const change *c = choices + i;
           if (c->sort == of_landmark && isnan(shifts[0])) continue;
           placed_valve after = copy_of(&state), before = copy_of(&state);
-          const double half = 1e-5 * c->size; /* below most kinks of curves, where a polyline's vertices change */
+          const double half = 1e-5 * c->size; /* below most kinks that a curve's polyline makes at its vertices */
           double skirt = 1;
           if (strcmp(c->name, "skirt_length") == 0) CHECK_OK(riis_valve_get(state.valve, c->name, 1, &skirt));
           if (skirt == 0 || !apply(c, shifts, half, &after) || !apply(c, shifts, -half, &before)) continue;
@@ -419,7 +419,7 @@ static spread spread_of(int n, double *values) {
   return (spread){values[n / 2], values[n - 1 - n / 100], values[n - 1], (double)n_above / n};
 }
 
-/* Marks the points for their derivatives in the direction of the opening, and for their velocities. */
+/* Marks the points, with their derivatives in the direction of the opening and their velocities. */
 static riis_mark_list opening_of(const char *kind, double tolerance, int32_t triangulation, double opening, double *xyz,
                                  double *speed, riis_surface **at) {
   riis_valve *valve = new_valve(kind), *after = new_valve(kind), *before = new_valve(kind);
@@ -446,9 +446,8 @@ static riis_mark_list opening_of(const char *kind, double tolerance, int32_t tri
   return within_list(marks);
 }
 
-/* Prints the table that docs/theory/gradients.md sums up. "Smooth" is the difference from central differences of distances to
- * triangles with the tolerance 0.0005. "Velocity" and "direction" are differences from central differences on the fixed
- * triangles. */
+/* Prints the table that docs/theory/gradients.md summarises. "Smooth" compares with central differences of distances to triangles
+ * with the tolerance 0.0005. "Velocity" and "direction" compare with central differences on the fixed triangles. */
 TEST(derivatives_approach_those_of_the_smooth_valve) {
   static double xyz[3 * n_points], distance[3][n_points], off[3][n_points];
   static const double tolerances[] = {0.05, 0.01, 0.003};
@@ -530,7 +529,7 @@ static riis_mark_list gradients_of(const riis_surface *surface, int64_t n, const
   return within_list(marks);
 }
 
-/* A square that shifts by (1, 2, 3). */
+/* Makes a square that shifts by (1, 2, 3). */
 TEST(rims_and_the_surface_itself) {
   const shape square = unit_square();
   riis_valve *valve = valve_from(&square);
@@ -559,8 +558,8 @@ TEST(rims_and_the_surface_itself) {
   }
 }
 
-/* K is flat at both ends of the band. Its derivative there falls in proportion to the distance from that end, and keeps its
- * digits. The square shifts by (1, 2, 3), so the distance of a node above it falls by 3. */
+/* K is flat at both ends of the band. At these ends the derivative of K is proportional to the distance from the band's end, and
+ * keeps its digits. The square shifts by (1, 2, 3), so the distance of a node above the square falls by 3. */
 TEST(K_is_derived_from_the_distance_up_to_both_ends) {
   enum { n_powers = 15, n = 2 * n_powers };
   const double R = random_power_of_ten(&rng, -20, 20), eps = 0.1;
@@ -587,8 +586,8 @@ TEST(K_is_derived_from_the_distance_up_to_both_ends) {
   }
 }
 
-/* Two squares, at z = 0 and z = 1. Only the upper one moves. At equal distances, the triangle in triangle_id, the lower one,
- * gives the derivative. The distance has a kink there: its derivatives on both sides are 0 and -1. */
+/* Two squares, at z = 0 and z = 1. Only the upper square moves. A node at equal distances gets the derivative of the lower
+ * square, which triangle_id names. The distance of such a node has a kink: the derivatives on both sides are 0 and -1. */
 TEST(ties_take_the_first_triangle) {
   shape two = unit_square();
   add_line(&two, 0, 0, 1, 1, 0, 1);
@@ -615,7 +614,7 @@ TEST(ties_take_the_first_triangle) {
 
 /* --- Bits, updates and refusals -------------------------------------------------------------------------------------- */
 
-/* The derivatives do not depend on threads, search, instructions or the number of directions, and an update ends them. */
+/* The derivatives do not depend on threads, search, instructions or the number of directions. An update invalidates them. */
 TEST(bits_and_updates) {
   static double xyz[3 * n_points];
   riis_valve *valve = new_valve("mitral"), *after = new_valve("mitral"), *before = new_valve("mitral");
@@ -640,7 +639,8 @@ TEST(bits_and_updates) {
     options.search = i % 2 ? RIIS_SEARCH_CLUSTERS : RIIS_SEARCH_EXHAUSTIVE;
     options.instructions = i < 4 ? RIIS_INSTRUCTIONS_BASELINE : RIIS_INSTRUCTIONS_AUTO;
     options.fields = i % 4 ? RIIS_FIELD_GRADIENT : RIIS_FIELD_GRADIENT | RIIS_FIELD_POINT | RIIS_FIELD_SIDE;
-    /* Back at the earlier opening, with a step of the other sign, the second direction has the same derivatives. */
+    /* The valve returns to the earlier opening with a step of opposite sign. The second direction gets its earlier derivatives
+     * again. */
     if (i == 4) CHECK_OK(riis_surface_add_direction(surface, before, after, -2e-3, NULL, NULL));
     CHECK_OK(riis_mark_nodes(surface, mesh, &options, marks));
     const riis_mark_list all = within_list(marks), some = marked_list(marks);
@@ -672,8 +672,8 @@ TEST(bits_and_updates) {
   assert_null(within_list(marks).distance_gradient);
 }
 
-/* A derivative of a distance follows from the rates at the closest point, and rates do not depend on the number of threads. Later
- * directions leave the arrays of earlier ones in place. */
+/* A distance's derivative follows from the rates at the closest point. Rates do not depend on the number of threads. Later
+ * directions leave the arrays of earlier directions in place. */
 TEST(rates_give_the_derivatives) {
   static double xyz[3 * n_points];
   riis_valve *valve = new_valve("mitral"), *after = new_valve("mitral");

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * A mesh from axes gives the results of a mesh with the same nodes as points, to the last bit. This holds for all kinds of
- * surfaces, axes, strides, masks and limits. Numbers without a node stay out of every result. */
+ * A mesh from axes gives the results of a mesh that has these nodes as points, to the last bit. The results agree for all kinds
+ * of surfaces, axes, strides, masks and limits. Some numbers of the grid have no node, and they stay out of every result. */
 #include <limits.h>
 #include <math.h>
 #include <riis/riis.h>
@@ -19,13 +19,13 @@
 #include "flow_cases.h"
 #include "leak_lists.h"
 
-/* The axes of a grid, and the same nodes as points in the order of their numbers. */
+/* The axes of a grid, and its nodes as points in the order of their numbers. */
 typedef struct {
   riis_grid grid;
   double *axis[3];
   int64_t n_numbers;
   riis_mesh *mesh, *points;
-  int64_t n, *number, *node; /* of each node its number; of each number its node, or -1 */
+  int64_t n, *number, *node; /* the number of each node; the node of each number, or -1 */
 } grid_case;
 
 static riis_grid new_grid(int64_t ni, int64_t nj, int64_t nk) {
@@ -40,7 +40,7 @@ static riis_mesh *mesh_of_grid(const riis_grid *grid) {
   return own(mesh);
 }
 
-/* Returns an ascending axis of n nodes. Its steps differ by up to a factor of 10. */
+/* Returns an ascending axis of n nodes. The steps between its nodes differ by up to a factor of 10. */
 static double *random_axis(int64_t n, double lower, double upper) {
   double *x = own(malloc((size_t)n * sizeof *x)), sum = 0;
   const int is_graded = any_of(2) == 0;
@@ -52,7 +52,7 @@ static double *random_axis(int64_t n, double lower, double upper) {
   return x;
 }
 
-/* Makes the mesh of the axes, and the mesh of the same nodes as points. */
+/* Makes two meshes with the same nodes, from the axes and from points. */
 static void make_meshes(grid_case *of) {
   const int64_t n[3] = {of->grid.ni, of->grid.nj, of->grid.nk};
   int64_t stride[3], last = of->grid.first, n_pairs = 0;
@@ -91,7 +91,7 @@ static void make_meshes(grid_case *of) {
   of->points = mesh_with_rows(&nodes, nodes.n);
 }
 
-/* Gives random strides: any order of the axes, with gaps and halos. */
+/* Gives random strides, with any order of the axes, with gaps and with halos. */
 static void set_random_strides(riis_grid *grid) {
   const int64_t n[3] = {grid->ni, grid->nj, grid->nk};
   int order[3] = {0, 1, 2};
@@ -210,7 +210,7 @@ static void check_cells(const grid_case *of, const riis_marks *got, const riis_m
   assert_memory_equal(&a, &b, sizeof a);
 }
 
-/* Compares arrays of all nodes. Entries of numbers without a node must stay as they were. */
+/* Compares arrays over all numbers. The entries of numbers without a node must stay unchanged. */
 static void check_node_arrays(const grid_case *of, const riis_marks *got, const riis_marks *expected) {
   const size_t n = (size_t)of->n_numbers;
   double *k[2], *u[2], *d[2], *velocity[2], *weight[2], force[2][3] = {{0, 0, 0}, {0, 0, 0}};
@@ -347,7 +347,7 @@ TEST(other_distances_and_far_grids) {
     assert_int_equal(stats_of(got).search, RIIS_SEARCH_EXHAUSTIVE);
     free_owned_after(owned_before);
   }
-  /* Single precision does not separate a valve's triangles in a grid of this size. */
+  /* In a grid of this size, single precision does not separate a valve's triangles. */
   const riis_surface *surface = aortic_surface(NULL);
   grid_case of = {.grid = new_grid(6, 5, 4)};
   for (int c = 0; c < 3; ++c) of.axis[c] = random_axis(6, -1e9, 1e9);
@@ -365,7 +365,7 @@ TEST(other_distances_and_far_grids) {
 
 /* --- Layouts --------------------------------------------------------------------------------------------------------- */
 
-/* Numbers need 39 bits. The places of the nodes in the caller's arrays must not matter for the search. */
+/* The numbers of nodes need 39 bits. The order of the nodes in the caller's arrays must not affect the search. */
 TEST(numbers_beyond_32_bits) {
   for (int trial = 0; trial < trials(10, 100); ++trial) {
     const int owned_before = n_owned();
@@ -429,7 +429,7 @@ TEST(axes_of_all_forms) {
   assert_true(stats_of(a).n_marked > 0 && same_results(a, b));
 }
 
-/* Updates turn a grid into another grid, into points, and points into a grid. A refused update changes nothing. */
+/* Updates turn a grid into another grid, a grid into points, and points into a grid. A refused update changes nothing. */
 TEST(updates_of_axes) {
   const riis_surface *surface = aortic_surface(NULL);
   for (int trial = 0; trial < trials(6, 60); ++trial) {
@@ -455,7 +455,8 @@ TEST(updates_of_axes) {
   }
 }
 
-/* A valve in a grid with a halo: the opening of the first passage is that of points, and the halo is no end. */
+/* The valve lies in a grid with a halo. The opening of the first passage is the same for the grid and for points, and the halo is
+ * not an end. */
 TEST(first_passage_with_a_halo) {
   const riis_valve *valve = new_valve("aortic");
   const riis_surface *surface = aortic_surface(NULL);
@@ -497,7 +498,8 @@ TEST(first_passage_with_a_halo) {
                 riis_find_first_passage(valve, of.mesh, &ends, NULL, &a, sizeof a));
 }
 
-/* A grid takes other edges, and gets its own back. Edges to numbers without a node are refused. */
+/* The caller may replace a grid's edges, and the grid can get its original edges back. Edges to numbers without a node are
+ * refused. */
 TEST(other_edges_of_a_grid) {
   for (int trial = 0; trial < trials(6, 60); ++trial) {
     const int owned_before = n_owned();
@@ -545,7 +547,7 @@ TEST(other_edges_of_a_grid) {
   }
 }
 
-/* 10^9 nodes take no memory before they are marked, and few of them are near the surface. */
+/* A grid of 10^9 nodes takes no memory before its first marking. Few nodes of the grid are near the surface. */
 TEST(a_billion_nodes) {
   const riis_surface *surface = aortic_surface(NULL);
   riis_grid grid = new_grid(1000, 1000, 1000);
@@ -561,7 +563,7 @@ TEST(a_billion_nodes) {
                 riis_mark_nodes(surface_of_kind("aortic", &options), mesh, NULL, result));
 }
 
-/* Marks 10^9 nodes around the valve, which fills the grid. The half thickness is 1.5 steps of the axes. */
+/* Marks the nodes of a grid of 10^9 nodes around the valve, which fills the grid. The half thickness is 1.5 steps of the axes. */
 static void mark_a_billion(void) {
   riis_grid grid = new_grid(1000, 1000, 1000);
   riis_surface_info info = info_of(aortic_surface(NULL));
@@ -585,8 +587,8 @@ static long peak_kilobytes(void) {
   return used.ru_maxrss;
 }
 
-/* Labels regions, finds a passage or counts cells across in a grid with a halo of 24 million numbers. The arrays of the caller
- * are touched before. Fails if the call takes more kilobytes than that. */
+/* Labels regions, finds a passage or counts cells across, in a grid with a halo of 24 million numbers. The caller's arrays are
+ * written first, so their memory does not count. Fails if the call takes more memory than the given number of kilobytes. */
 static void work_in_little_memory(const char *work) {
   enum { n = 286, numbers = (n + 2) * (n + 2) * (n + 2) };
   riis_grid grid = new_grid(n, n, n);
@@ -596,7 +598,7 @@ static void work_in_little_memory(const char *work) {
   const riis_surface *surface = aortic_surface(NULL);
   const riis_surface_info info = info_of(surface);
   const int are_cells = strcmp(work, "cells") == 0;
-  /* The valve closes a long channel, so a passage has few nodes near it. */
+  /* The valve closes a long channel, so a passage has only few nodes near the valve. */
   for (int c = 0; c < 3; ++c) {
     const double out = are_cells ? 1 : c == 2 ? 300 : -0.05;
     grid.origin[c] = info.lower[c] - out;
@@ -631,7 +633,7 @@ static void work_in_little_memory(const char *work) {
   assert_true(taken <= most);
 }
 
-/* Each work has a process of its own, because other cases take memory. */
+/* Each task runs in a separate process, because other cases take memory. */
 static void expect_fine_apart(const char *work, long most_kilobytes) {
   fflush(NULL);
   const pid_t child = fork();
@@ -648,7 +650,7 @@ static void expect_fine_apart(const char *work, long most_kilobytes) {
 }
 
 TEST(memory_apart_from_arrays) {
-  if (is_short_test()) skip(); /* the memory of a sanitizer or an emulator counts, too */
+  if (is_short_test()) skip(); /* the memory of a sanitizer or an emulator also counts */
   expect_fine_apart("a billion", 200 * 1024);
   expect_fine_apart("regions", LONG_MAX);
   expect_fine_apart("passage", LONG_MAX);
@@ -716,7 +718,7 @@ int main(int argc, char **argv) {
     else
       work_in_little_memory(argv[1]);
     fflush(NULL);
-    _exit(0); /* the usual end asks for cases */
+    _exit(0); /* otherwise the program would run the cases */
   }
   rng = random_start("test_grid");
   return run_cases(NULL, NULL);

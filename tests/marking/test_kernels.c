@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests the kernels, which are compiled for several instruction sets. Decisions and located points have the bits of the
- * scalar kernel. Single precision is off by no more than the library allows (docs/theory/clusters.md). No pair that
- * matters is left out, even if the buffer for pairs is small. */
+ * Tests the kernels, which are compiled for several instruction sets. Decisions and located points have the bits of the scalar
+ * kernel. The error of single precision is at most the library's allowance (docs/theory/clusters.md). No pair that matters is
+ * left out, even with a small buffer for pairs. */
 #include "internals.h"
 #include "test_support.h"
 
 static random_source rng;
 
-/* Returns whether a count that all trials bring above n is large enough for the trials that are made. */
+/* Returns whether a count is large enough for the number of trials. With all trials, the count must be above n. */
 static int is_more(int64_t count, int n) { return is_short_test() || count > trials_of(n); }
 
 static double sign(void) { return random_bits(&rng) & 1 ? 1 : -1; }
@@ -56,8 +56,9 @@ static double largest_of(const double *x, int n) {
   return largest;
 }
 
-/* Makes random triangles in the surface's frame, with coordinates of at most 1. Some are needles with heights down to 1e-12 of
- * their length and any angle at their tips. Some are tiny, some have coinciding corners. The corners are in any order. */
+/* Makes random triangles in the surface's frame, with coordinates of at most 1. Some triangles are needles, with heights down to
+ * 1e-12 of their length and any angle at their tips. Some triangles are tiny, and some have coinciding corners. The corners are
+ * in any order. */
 enum { n_kinds = 6 };
 static void random_triangle(int kind, double *abc) {
   double q[3][3], axis[3][3], origin[3];
@@ -68,7 +69,7 @@ static void random_triangle(int kind, double *abc) {
   if (kind == 0)
     for (int i = 0; i < 3; ++i) random_point(1, q[i]);
   else {
-    /* The third corner's foot is on the first edge, far beyond it, or anywhere. */
+    /* The third corner stands over the first edge, far beyond the edge, or anywhere. */
     const double along = kind == 2   ? random_between(&rng, 0, 1)
                          : kind == 1 ? (double)(random_bits(&rng) % 2)
                                      : random_between(&rng, -1, 2);
@@ -83,8 +84,8 @@ static void random_triangle(int kind, double *abc) {
   for (int i = 0; i < 3; ++i) memcpy(abc + 3 * i, q[(first + turn * i) % 3], sizeof q[0]);
 }
 
-/* Makes a point on a triangle, or away from it by a power of ten. The point is over a corner, an edge or the inside, beyond a
- * tip, or anywhere. */
+/* Makes a point on a triangle, or away from the triangle by a power of ten. The point lies over a corner, an edge or the inside,
+ * beyond a tip, or anywhere. */
 static void random_point_near(const double *abc, double reach, double *p) {
   const int kind = (int)(random_bits(&rng) % 8), from = (int)(random_bits(&rng) % 3), to = (from + 1) % 3;
   double offset[3], w[3] = {0, 0, 0};
@@ -121,7 +122,7 @@ TEST(decisions_have_the_bits_of_the_scalar_kernel) {
   static int32_t point[max_pairs], triangle[max_pairs];
   int64_t n_compared = 0, n_inside = 0, n_edge = 0, n_corner = 0;
   for (int trial = 0; trial < trials_of(500); ++trial) {
-    /* Some trials are in other units, some far from the origin, where coordinates round. */
+    /* Some trials use other units. Some trials lie so far from the origin that coordinates are rounded. */
     const double unit = trial % 3 ? 1 : random_power_of_ten(&rng, -50, 50),
                  far = trial % 2 ? 0 : random_power_of_ten(&rng, 0, 9);
     double origin[3];
@@ -166,8 +167,8 @@ TEST(decisions_have_the_bits_of_the_scalar_kernel) {
               is_more(n_corner, 5000));
 }
 
-/* Triangles are random or needles, have coinciding corners, or lie on lattices. A register of eight mixes these kinds. Some
- * points are at corners and on edges. In some units, squares of coordinates nearly overflow or underflow. */
+/* Triangles are random, are needles, have coinciding corners, or lie on lattices. One register of eight triangles mixes these
+ * kinds. Some points are at corners and on edges. In some units, squares of coordinates nearly overflow or underflow. */
 TEST(located_points_have_the_bits_of_the_scalar_kernel) {
   enum { n = 8 };
   static const int32_t each[n] = {0, 1, 2, 3, 4, 5, 6, 7};
@@ -218,8 +219,8 @@ TEST(located_points_have_the_bits_of_the_scalar_kernel) {
 
 /* --- Single precision ------------------------------------------------------------------------------------------------ */
 
-/* The mesh's frame, given relative to the surface's frame. Points are stored in the mesh's frame and compared in the
- * surface's. */
+/* The mesh's frame, relative to the surface's frame. Points are stored in the mesh's frame and compared in the surface's
+ * frame. */
 typedef struct framed {
   double ratio, shift[3], largest_shift;
 } framed;
@@ -232,8 +233,8 @@ static framed random_framed(void) {
   return f;
 }
 
-/* Computes the numbers that the mesh stores for a point p of the surface's frame. as_float gets the stored point in the
- * surface's frame, in single precision. Returns 0 if p is not in the mesh. */
+/* Computes the numbers that the mesh stores for a point p of the surface's frame. as_float gets the stored point in single
+ * precision, in the surface's frame. Returns 0 if p is not in the mesh. */
 static int store(const framed *f, const double *p, float *stored, float *as_float) {
   for (int c = 0; c < 3; ++c) {
     const double x = (p[c] - f->shift[c]) / f->ratio;
@@ -244,8 +245,8 @@ static int store(const framed *f, const double *p, float *stored, float *as_floa
   return 1;
 }
 
-/* Compares filtered distances with decided ones, as fractions of the allowed error. Distances that are too small and too large
- * are checked separately, because the margin makes most distances too large. */
+/* Compares filtered distances with decided distances. The differences are fractions of the allowed error. Too small and too large
+ * distances are checked separately, because the margin makes most distances too large. */
 TEST(single_precision_is_right_to_its_error) {
   enum { n_lanes = 16 };
   for (int set = 0; set < n_kernel_sets; ++set) {
@@ -293,7 +294,7 @@ TEST(single_precision_is_right_to_its_error) {
     assert_true(is_more(n_compared, 100000));
     /* The proof's error E2 is at most half of the allowed error. */
     CHECK_AT_MOST(nearer, 0.5);
-    /* The errors come close to the margin, so the check above would fail if the library's margin were much smaller. */
+    /* The largest errors are close to the margin, so this check would notice a much smaller margin of the library. */
     CHECK_MET(farther >= 0.4);
   }
 }
@@ -310,8 +311,8 @@ typedef struct leaf_case {
   double error;
 } leaf_case;
 
-/* The first triangle has an edge perpendicular to the other triangles, which are parallel. The quantity that chooses a
- * group's axes is then nearly 0. */
+/* The first triangle has an edge that is perpendicular to the other, parallel triangles. The quantity that chooses the axes of a
+ * group is then nearly 0. */
 static void first_edge_across(int n, double *corners) {
   double axis[3][3], origin[3];
   random_frame(axis);
@@ -330,7 +331,7 @@ static void first_edge_across(int n, double *corners) {
   }
 }
 
-/* Makes small triangles that are all equally far from the middle. */
+/* Makes small triangles at equal distances from the middle. */
 static void on_a_sphere(int n, double *corners) {
   for (int i = 0; i < n; ++i) {
     double axis[3][3];
@@ -460,8 +461,8 @@ TEST(lower_bounds_and_boxes_lose_nothing) {
   }
 }
 
-/* The pairs contain the closest triangle of every node within the limit, and all closest triangles if several are equally
- * near. This holds with a buffer for all pairs, and with a buffer so small that the filter must stop and continue. */
+/* The pairs contain the closest triangle of every node within the limit. If several triangles are equally near, the pairs contain
+ * them all. The buffer has room for all pairs, or is so small that the filter must stop and continue. */
 TEST(no_pair_that_matters_is_lost) {
   static const int32_t rooms[] = {100000, 16, 64, 65, 79, 200};
   for (int set = 0; set < n_kernel_sets; ++set) {
@@ -479,7 +480,7 @@ TEST(no_pair_that_matters_is_lost) {
           fail_msg("%s, trial %d: writes beyond its room, or names other nodes than it has pairs of", kernels_name(set),
                    trial);
         n_resumed += n_calls > 1;
-        /* The filter also stops when its own list is full. */
+        /* The filter also stops when its internal list is full. */
         if (k == 0) n_full += n_calls > 1;
         if (k == 0) assert_true(n_calls <= 1 + 32 * kernel_leaves * c.n_groups / 900);
         memset(has, 0, sizeof has);
@@ -568,7 +569,8 @@ TEST(corners_are_bounded_and_framed) {
   }
 }
 
-/* The nodes of a leaf have the bits of a plain loop. Some coordinates are far outside the frame, infinite or not numbers. */
+/* The nodes of a leaf get the bits that a plain loop computes. Some coordinates are far outside the frame, infinite or not
+ * numbers. */
 TEST(leaves_are_framed) {
   enum { n_nodes = 32 };
   for (int trial = 0; trial < trials_of(5000); ++trial) {
@@ -599,8 +601,8 @@ TEST(leaves_are_framed) {
   }
 }
 
-/* Triangles have heights around the least height. A triangle without area never passes. A triangle with a hundred times
- * the least height always passes. */
+/* The triangles' heights are close to the least height. A triangle without area never passes. A triangle with a hundred times the
+ * least height always passes. */
 TEST(triangles_without_area_are_noticed) {
   for (int set = 0; set < n_kernel_sets; ++set) {
     if (!kernels_there(set)) continue;
@@ -630,7 +632,7 @@ TEST(triangles_without_area_are_noticed) {
   }
 }
 
-/* Sums of cubes equal a plain loop's, and have the same bits with every instruction set. */
+/* Sums of cubes equal those of a plain loop, and have the same bits with every instruction set. */
 TEST(cubes_are_summed) {
   enum { most = 40 };
   for (int trial = 0; trial < 200; ++trial) {
@@ -660,7 +662,8 @@ TEST(cubes_are_summed) {
   }
 }
 
-/* If triangles pass the check for a shift, they still have an area after their corners have moved by an eighth of that shift. */
+/* A triangle may pass the check for a shift. If each corner then moves by an eighth of the shift, the triangle still has an
+ * area. */
 TEST(triangles_keep_their_area_when_corners_move) {
   for (int set = 0; set < n_kernel_sets; ++set) {
     if (!kernels_there(set)) continue;
@@ -698,7 +701,7 @@ TEST(triangles_keep_their_area_when_corners_move) {
   }
 }
 
-/* Points have the bits of plain products and sums, from left to right. Nothing after the last point is written. */
+/* The kernel's points have the bits of plain products and sums from left to right. Nothing is written after the last point. */
 TEST(points_are_placed) {
   enum { most = 20 };
   for (int set = 0; set < n_kernel_sets; ++set) {
@@ -726,9 +729,9 @@ TEST(points_are_placed) {
 
 /* --- Without any instruction set ------------------------------------------------------------------------------------- */
 
-/* On processors without any of these instruction sets, the portable code does the same operations as the baseline set. If the
- * baseline fuses multiplications and additions, its filter rounds differently. The groups are equal even then, and the tests
- * above check each filter by itself. */
+/* The portable code is for processors without AVX2, AVX-512 and the baseline's instructions. This code does the operations of the
+ * baseline set. If the baseline fuses multiplications and additions, its filter rounds differently. The groups are equal even
+ * with fused operations, and the tests above check each filter separately. */
 TEST(portable_kernels_have_the_bits_of_the_baseline) {
   if (!kernels_there(portable_set)) skip();
   const int rounds_twice = kernels_baseline_rounds_twice();
@@ -820,7 +823,7 @@ TEST(keys_are_ranked) {
   }
 }
 
-/* The arrays have exactly the promised sizes, so a sanitizer finds what is read or written beyond them. */
+/* The arrays have exactly the promised sizes, so a sanitizer notices a read or write beyond them. */
 TEST(marked_numbers_are_selected) {
   for (int trial = 0; trial < trials_of(3000); ++trial) {
     const int32_t n = (int32_t)(random_bits(&rng) % 100), bit = (int32_t)(random_bits(&rng) % 16);
@@ -828,7 +831,7 @@ TEST(marked_numbers_are_selected) {
     uint16_t *marks = malloc((size_t)n * sizeof *marks);
     for (int32_t i = 0; i < n; ++i) {
       numbers[i] = (int32_t)random_bits(&rng);
-      /* Other bits are set at random. This bit is set nowhere, everywhere, or here and there. */
+      /* The tested bit is set nowhere, everywhere, or here and there. All other bits are set at random. */
       const uint64_t has_bit = trial % 4 < 2 ? (uint64_t)(trial % 2) : random_bits(&rng) % 2;
       marks[i] = (uint16_t)((random_bits(&rng) & ~(UINT64_C(1) << bit)) | has_bit << bit);
     }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Leaking edges, which cross the surface between unmarked nodes, are compared with a loop over all edges and triangles of
- * random surfaces. The loop computes with whole numbers. RIIS_TEST_LONG=1 tries a thousand times as many cases. */
+ * A leaking edge crosses the surface between unmarked nodes. Leaking edges are compared with a loop over all edges and triangles
+ * of random surfaces. The loop computes with whole numbers. RIIS_TEST_LONG=1 tries a thousand times as many cases. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -23,7 +23,7 @@ static int one_in(int64_t n) { return random_integer(1, n) == 1; }
 
 enum { max_nodes = 60, max_triangles = 48, max_columns = 12 * max_nodes };
 
-/* A random case. Its coordinates are these whole numbers times 2^exponent. */
+/* A random case. The coordinates are whole numbers times 2^exponent. */
 typedef struct whole_case {
   int64_t n_nodes, n_vertices, n_triangles;
   int64_t node[3 * max_nodes], vertex[9 * max_triangles];
@@ -128,7 +128,7 @@ static int crosses(const whole_case *c, int64_t a, int64_t b) {
   return 0;
 }
 
-/* Sets leaks[a * n + b] for a < b and returns the number of leaks. */
+/* Sets leaks[a * n + b] for a < b. Returns the number of leaks. */
 static int64_t expected_leaks(const whole_case *c, const uint8_t *marks, uint8_t *leaks) {
   int64_t n = 0;
   memset(leaks, 0, (size_t)(c->n_nodes * c->n_nodes));
@@ -142,7 +142,7 @@ static int64_t expected_leaks(const whole_case *c, const uint8_t *marks, uint8_t
   return n;
 }
 
-/* Writes the oracle's marks. If rounding decides a mark, the result's mark is used instead. */
+/* Writes the oracle's marks. Where rounding decides a mark, copies the result's mark. */
 static void expected_marks(const whole_case *c, const double *xyz, const riis_surface *surface,
                            const riis_marks *result, uint8_t *marks) {
   const riis_triangles all = triangles_of(surface);
@@ -243,7 +243,7 @@ TEST(random_meshes_leak_where_the_loop_says) {
 /* --- Changes that must not matter
  * ---------------------------------------------------------------------------------------------- */
 
-/* If a case is turned by right angles, mirrored, moved and renumbered, it has the same leaking edges. */
+/* A case keeps its leaking edges when it is turned by right angles, mirrored, moved and renumbered. */
 TEST(motion_and_order_do_not_matter) {
   static whole_case c, moved;
   for (int trial = 0; trial < 60; ++trial) {

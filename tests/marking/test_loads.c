@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  * Tests the forces at the vertices of a surface, and the loads at nodes of tissue. Forces at vertices are compared with a plain
  * loop over the nodes, and with the sums by leaflet. Loads are compared with a solution of the six equations in extended
- * precision. A closed valve must have the force of its pressure drop, for valves of all kinds that have an attachment. */
+ * precision. The force on a closed valve must be that of its pressure drop, for all kinds of valves with an attachment. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -12,7 +12,7 @@
 
 #include "flow_cases.h"
 
-/* The force of many small forces, and their moment about a point. */
+/* The sum of many small forces, and their moment about a point. */
 typedef struct {
   double force[3], moment[3];
 } wrench;
@@ -59,7 +59,7 @@ static void check_vertices(int kind, int32_t triangulation, int trial) {
   CHECK_OK(riis_marks_add_vertex_reaction(f.marks, f.surface, &resistance, &flow, t.n_vertices, got));
   for (size_t i = 0; i < 3 * n; ++i) CHECK_NEAR(got[i], expected[i], 1e-12 * (1 + size));
 
-  /* The forces on the vertices of a leaflet have the leaflet's force and moment. In this soup no triangles share a vertex. */
+  /* The forces on a leaflet's vertices add up to the leaflet's force and moment. The triangles here share no vertices. */
   riis_reaction reaction;
   double force[3 * max_leaflets] = {0}, moment[3 * max_leaflets] = {0};
   CHECK_OK(riis_reaction_init(&reaction, sizeof reaction));
@@ -74,7 +74,7 @@ static void check_vertices(int kind, int32_t triangulation, int trial) {
       CHECK_NEAR(after[leaflet].moment[c] - before[leaflet].moment[c], moment[3 * leaflet + c], 10 * tolerance);
     }
 
-  /* Two ranks share the nodes. The bits do not depend on the number of threads. */
+  /* Two ranks share the nodes. The bits of the sums do not depend on the number of threads. */
   double *weight = own(malloc((size_t)f.nodes.n * sizeof *weight)), *shared = own(calloc(6 * n, sizeof *shared));
   for (int rank = 0; rank < 2; ++rank) {
     for (int64_t i = 0; i < f.nodes.n; ++i) weight[i] = i % 2 == rank ? f.weight[i] : 0;
@@ -99,7 +99,8 @@ TEST(vertices_get_the_forces_of_their_triangles) {
     }
 }
 
-/* A surface from arrays skips a triangle without area, so ids and positions of triangles differ. */
+/* A surface from arrays skips a triangle without area. Triangles after the skipped one have ids that differ from their
+ * positions. */
 TEST(skipped_triangles_take_no_force) {
   static const double xyz[5][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2, 2, 0}};
   static const int32_t ids[3][3] = {{0, 3, 4}, {0, 1, 2}, {1, 3, 2}};
@@ -150,7 +151,7 @@ static void solve_six(long double a[6][7], long double *x) {
   for (int k = 0; k < 6; ++k) x[k] = a[k][6] / a[k][k];
 }
 
-/* Adds the loads of a leaflet to `expected`. In a plain loop each node looks at all edges. */
+/* Adds the loads of a leaflet to `expected`. Each node looks at all edges, in a plain loop. */
 static void add_expected(const riis_loads *loads, int64_t n, const double *nodes, const double *weight, int32_t leaflet,
                          long double *expected) {
   long double *w = own(calloc((size_t)n, sizeof *w)), a[6][7] = {{0}}, x[6];
@@ -165,7 +166,7 @@ static void add_expected(const riis_loads *loads, int64_t n, const double *nodes
     }
     const long double d = sqrtl(least) / loads->radius;
     if (d < 1) w[i] = (weight ? weight[i] : 1) * (1 + cosl(3.141592653589793238462643L * d)) / 2;
-    /* The columns of the matrix are the force and the moment of w (a + b x r) for unit vectors a and b. */
+    /* A column of the matrix holds the force and the moment of w (a + b x r), where a or b is a unit vector. */
     long double r[3];
     for (int c = 0; c < 3; ++c) r[c] = (long double)nodes[3 * i + c] - loads->about[c];
     for (int column = 0; column < 6; ++column) {
@@ -194,7 +195,8 @@ static void add_expected(const riis_loads *loads, int64_t n, const double *nodes
   free_one_owned(w);
 }
 
-/* Gives the edges that hold the leaflets of a surface: its attachment, or two rows of open edges that a caller would give. */
+/* Gives the edges that hold the leaflets of a surface. These edges are the attachment, or two rows of open edges as a caller
+ * would give them. */
 static int64_t edges_of(const riis_surface *surface, int kind, double **edges, int32_t **leaflet) {
   riis_attachment held = {0};
   if (kind != 6) CHECK_OK(riis_surface_get_attachment(surface, &held, sizeof held));
@@ -221,7 +223,7 @@ static void check_loads(int kind, int trial) {
   int32_t *edge_leaflet;
   const int64_t n_edges = edges_of(surface, kind, &edges, &edge_leaflet);
   const int64_t n_leaflets =
-      info_of(surface).largest_leaflet_id + 2; /* no edge holds the last leaflet alone, as for a skirt */
+      info_of(surface).largest_leaflet_id + 2; /* only another leaflet's edge holds the last leaflet, as for a skirt */
   enum { n = 2000 };
   double *nodes = own(malloc(8 * n * sizeof *nodes)), *weight = nodes + 3 * n, *got = nodes + 4 * n;
   const double radius = between(0.1, 0.4);
@@ -249,7 +251,8 @@ static void check_loads(int kind, int trial) {
   for (int i = 0; i < 3 * n; ++i) size = fmax(size, fabs(got[i]));
   for (int i = 0; i < 3 * n; ++i) CHECK_NEAR(got[i], (double)expected[i], 1e-10 * size);
 
-  /* Sum and moment are those of all leaflets. So is the power in a rigid motion. */
+  /* The sum and the moment of the loads are those of all leaflets. The power of the loads in a rigid motion is also that of all
+   * leaflets. */
   wrench whole = {{0}, {0}}, of_leaflets = {{0}, {0}};
   const double v[3] = {between(-1, 1), between(-1, 1), between(-1, 1)}, spin[3] = {between(-1, 1), between(-1, 1), 1};
   double power = 0, all = 0, expected_power = 0;
@@ -268,7 +271,7 @@ static void check_loads(int kind, int trial) {
   }
   CHECK_NEAR(power, expected_power, 1e-11 * all);
 
-  /* The bits do not depend on the number of threads. The nodes may have another stride. */
+  /* The bits of the loads do not depend on the number of threads. The nodes may have another stride. */
   memset(again, 0, 11 * (size_t)n_leaflets * sizeof *again);
   loads.n_threads = 3;
   double *wide = own(calloc(15 * n, sizeof *wide)), *other = wide + 12 * n;
@@ -280,7 +283,7 @@ static void check_loads(int kind, int trial) {
   CHECK_OK(riis_loads_add_forces(&loads, &far_apart, weights, again, other));
   assert_memory_equal(got, other, 3 * n * sizeof *got);
 
-  /* Three ranks share the nodes. The last rank has none. A node of another rank has the weight 0. */
+  /* Three ranks share the nodes. The last rank has no nodes. Each rank gives the weight 0 to the nodes of other ranks. */
   memset(again, 0, 11 * (size_t)n_leaflets * sizeof *again);
   memset(other, 0, 3 * n * sizeof *other);
   double *of_rank = own(malloc(n * sizeof *of_rank));
@@ -306,8 +309,8 @@ TEST(loads_solve_the_six_equations) {
     }
 }
 
-/* Nodes in single precision are nodes at the rounded places. Far from the origin, the loads lose no more digits than the
- * nodes. */
+/* The loads for nodes in single precision are those for nodes at the rounded places. Far from the origin, the loads lose only as
+ * many digits as the nodes. */
 TEST(loads_do_not_depend_on_the_origin) {
   enum { n = 400 };
   static const double edges[2][2][3] = {{{0, 0, 0}, {1, 0, 0}}, {{1, 0, 0}, {1, 1, 0.5}}};
@@ -316,7 +319,7 @@ TEST(loads_do_not_depend_on_the_origin) {
                                                             far_sums[11] = {0};
   float single[3 * n];
   for (int i = 0; i < 3 * n; ++i) {
-    single[i] = (float)between(-0.5, 1.5); /* with 24 bits, so the sums below are exact */
+    single[i] = (float)between(-0.5, 1.5); /* the places have 24 bits, so the sums below are exact */
     nodes[i] = single[i], moved[i] = nodes[i] + 4096;
   }
   for (int i = 0; i < 12; ++i) far_edges[i] = edges[i / 6][i / 3 % 2][i % 3] + 4096;
@@ -333,7 +336,7 @@ TEST(loads_do_not_depend_on_the_origin) {
   for (int i = 0; i < 3 * n; ++i) CHECK_NEAR(far_got[i], got[i], 1e-11);
 }
 
-/* Nodes that a mirror maps to each other get mirrored forces from a mirrored load. */
+/* A mirrored load gives mirrored forces at the nodes that the mirror exchanges. */
 TEST(mirrored_loads_are_mirrored) {
   enum { n = 300 };
   static const double edges[3][2][3] = {{{-1, 0.2, 0}, {-1, 1, 0}}, {{-1, 0, 0}, {1, 0, 0}}, {{1, 0.2, 0}, {1, 1, 0}}};
@@ -360,8 +363,8 @@ TEST(mirrored_loads_are_mirrored) {
 
 /* --- A closed valve under pressure ----------------------------------------------------------------------------------- */
 
-/* The pressure falls by `drop` across the band along the distance, and K u = -grad p. The force must be drop times the vector
- * area of the surface, at the vertices and at the tissue. */
+/* The pressure falls by `drop` across the band along the distance, and K u = -grad p. The force must be `drop` times the vector
+ * area of the surface. The forces at the vertices have this sum, and so have the forces at the tissue. */
 static void check_closed(const char *kind, double limit) {
   const double eps = 0.06, r = 1e3, drop = 1.2e4;
   riis_surface_options options = surface_options();
@@ -567,7 +570,7 @@ TEST(refused_loads) {
   FORCES_ARE_REFUSED("sums: entry 3 of leaflet 1 is nan; it must come from riis_loads_add_sums");
   sums[14] = kept;
 
-  /* Leaflet 1 has two nodes, then none. Its force needs three. */
+  /* Leaflet 1 has two nodes, then none. The force on the leaflet would need three nodes. */
   weight[2] = 0;
   memset(sums, 0, sizeof sums);
   CHECK_OK(riis_loads_add_sums(&good, &points, weight, sums));
@@ -579,7 +582,7 @@ TEST(refused_loads) {
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "tissue has 0 nodes within the radius 0.001 of the edges that hold leaflet 0",
                 riis_loads_add_forces(&bad, &points, weight, sums, got));
 
-  /* All nodes lie nearly on a line. A cloud that is only a little wider is accepted. */
+  /* Nodes that lie nearly on a line are refused. A slightly wider cloud is accepted. */
   for (int i = 0; i < 5; ++i) weight[i] = 1, nodes[i][0] = 0.25 * i, nodes[i][1] = i % 2 ? 1e-3 : 0, nodes[i][2] = 0;
   bad = good, bad.edge_leaflet_id = NULL;
   for (int width = 0; width < 2; ++width) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Marked nodes are compared with an independent oracle and with analytic shapes. The tests cover lists, dense arrays, limits,
- * masks, threads and reused results. */
+ * Compares marked nodes with an independent oracle and with analytic shapes. The tests cover lists, dense arrays, limits, masks,
+ * threads and reused results. */
 #include <riis/riis.h>
 
 #include "oracle.h"
@@ -43,7 +43,7 @@ TEST(aortic_marks_equal_the_oracle) {
     if (!is_listed) continue;
     CHECK_NEAR(marked.distance[at], expected, 1e-13);
     assert_int_equal(marked.leaflet_id[at], leaflet_id[marked.triangle_id[at]]);
-    /* Checks that the reported triangle is at the reported distance. */
+    /* Checks that the reported triangle lies at the reported distance. */
     double abc[9];
     for (int k = 0; k < 3; ++k)
       memcpy(abc + 3 * k, vertices + 3 * vertex_id[3 * marked.triangle_id[at] + k], 3 * sizeof *abc);
@@ -62,8 +62,8 @@ TEST(aortic_marks_equal_the_oracle) {
   assert_true(stats.seconds > 0);
 }
 
-/* The nodes of a lattice around the rectangle [0,4] x [0,2] in z = 0. The number of nodes within 1/2 is known by arithmetic,
- * including nodes exactly at 1/2. */
+/* The nodes of a lattice around the rectangle [0,4] x [0,2] in z = 0. Arithmetic gives the number of nodes within 1/2, including
+ * nodes exactly at 1/2. */
 TEST(lattice_around_a_rectangle_is_counted) {
   const double corners[12] = {0, 0, 0, 4, 0, 0, 4, 2, 0, 0, 2, 0};
   const int32_t quad[4] = {0, 1, 2, 3};
@@ -115,7 +115,7 @@ TEST(wider_limit_lists_more_and_marks_the_same) {
   assert_int_equal(n_marked, b.n);
   assert_int_equal(stats_of(wide).n_within_limit, c.n);
 
-  /* Dense arrays: the call writes every entry. Nodes beyond the limit get the far value. */
+  /* Dense arrays: the call writes every entry. A node beyond the limit gets the far value. */
   static uint8_t mark[n];
   static double distance[n];
   static int64_t triangle_id[n];
@@ -130,7 +130,7 @@ TEST(wider_limit_lists_more_and_marks_the_same) {
     assert_int_equal(mark[i], listed && c.distance[at] <= 0.1);
     at += listed;
   }
-  /* Each of the arrays may also be requested alone. A far value is accepted unless it could be a distance within the limit. */
+  /* Each array may also be requested alone. A far value is accepted if it could not be a distance within the limit. */
   CHECK_OK(dense_of(wide, n, NAN, NULL, distance, NULL, NULL));
   assert_true(isnan(distance[0]) || within_in(wide).node_id[0] == 0);
   CHECK_OK(dense_of(wide, n, -1, mark, NULL, NULL, NULL));
@@ -147,7 +147,7 @@ TEST(mask_leaves_nodes_out) {
   riis_mesh *mesh = mesh_of(n, xyz);
   riis_marks *all = new_result(), *some = new_result();
   riis_mark_options options = mark_options();
-  /* 0, 1 or 2: every value but 0 selects the node. */
+  /* The mask has 0, 1 or 2. Every value but 0 selects the node. */
   for (int i = 0; i < n; ++i) mask[i] = (uint8_t)(random_bits(&rng) % 3);
   options.node_mask = mask;
   CHECK_OK(riis_mark_nodes(surface, mesh, NULL, all));
@@ -215,8 +215,8 @@ TEST(coordinates_may_move_and_results_are_reused) {
   CHECK_OK(riis_mesh_update(mesh, n, xyz, xyz + 1, xyz + 2, 3));
   CHECK_OK(riis_mark_nodes(surface, mesh, NULL, result));
   assert_true(llabs(marked_in(result).n - n_before) <= 2); /* z + 10 - 10 rounds, so a few marks may differ */
-  /* A coordinate becomes non-finite without an update of the handle. A search that reads it refuses it with its name, and the
-   * result stays as it was. The search over clusters uses the coordinates that it copied earlier. */
+  /* A coordinate becomes infinite or NaN without an update of the handle. A search that reads the coordinate names it in a
+   * refusal, and the result stays as it was. The search over clusters uses the coordinates that it copied earlier. */
   const found_nodes kept = marked_in(result);
   const int64_t spoilt = kept.node_id[kept.n / 2];
   char text[64];
@@ -251,7 +251,7 @@ TEST(separate_coordinate_arrays_are_the_same_mesh) {
   assert_memory_equal(l.node_id, m.node_id, (size_t)l.n * sizeof *l.node_id);
 }
 
-/* Coordinates that are exact in single precision, as doubles and as floats. */
+/* The test passes coordinates as doubles and as floats. The coordinates are exact in single precision. */
 enum { n_exact = 5000 };
 static double exact[3 * n_exact];
 static float single[3 * n_exact];
@@ -277,8 +277,8 @@ static riis_marks *marks_of(const riis_surface *surface, const riis_mesh *mesh) 
   return marks;
 }
 
-/* A mesh of copied coordinates gets the same marks as a mesh that borrows them, whatever happens to the arrays. A mesh may
- * change from copying to borrowing and back. */
+/* A mesh of copied coordinates gets the marks of a mesh that borrows them, even after the caller's arrays have changed. A mesh
+ * may change from copying to borrowing and back. */
 TEST(copies_and_single_precision_are_the_same_mesh) {
   riis_surface *surface = aortic_surface(NULL);
   for (int real_bits = 32; real_bits <= 64; real_bits += 32) {
@@ -308,7 +308,7 @@ TEST(copies_and_single_precision_are_the_same_mesh) {
     free_owned_after(owned_before);
   }
 
-  /* Refused calls leave the mesh as it was. */
+  /* A refused call leaves the mesh as it was. */
   make_exact(0);
   riis_points points = exact_points(32);
   riis_mesh *mesh = NULL;
@@ -330,7 +330,8 @@ TEST(copies_and_single_precision_are_the_same_mesh) {
   assert_true(same_results(expected, marks_of(surface, mesh)));
 }
 
-/* Points, vertices, velocities and frames in single precision give the same bits as the same numbers in double precision. */
+/* Numbers in single precision give the bits that equal numbers in double precision give. The test covers points, vertices,
+ * velocities and frames. */
 TEST(single_precision_is_double_precision) {
   make_exact(0);
   riis_surface *surface = aortic_surface(NULL);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * A step that finds the same nodes as the last step allocates nothing, whatever the search. */
+ * If a step finds the nodes of the last step again, it allocates nothing, whatever the search. */
 #ifndef _GNU_SOURCE
 #define _GNU_SOURCE /* for dladdr, RTLD_DEFAULT */
 #endif
@@ -13,9 +13,9 @@
 #include "sanitized.h"
 #include "searches.h"
 
-/* All allocations of the process call these functions, because an executable's symbols take precedence over those of
- * libraries. They count the allocations of the object that contains riis_mark_nodes, including the C++ library's allocations for
- * it. Sanitizers are left out, because their allocator must be the only allocator. */
+/* All allocations of the process call these functions, because symbols of an executable come before those of libraries. The
+ * functions count the allocations of the object that contains riis_mark_nodes. Allocations that the C++ library makes for this
+ * object also count. With a sanitizer the functions are not replaced, because the sanitizer's allocator must be the only one. */
 #if defined(__GLIBC__) && defined(__x86_64__) && !defined(IS_SANITIZED)
 #define COUNTS_ALLOCATIONS 1
 void *__libc_malloc(size_t size);
@@ -23,7 +23,7 @@ void *__libc_calloc(size_t n, size_t size);
 void *__libc_realloc(void *p, size_t size);
 void *__libc_memalign(size_t alignment, size_t size);
 
-static const void *counted_object; /* the object whose allocations count; NULL: nothing is counted */
+static const void *counted_object; /* the object whose allocations count, or NULL to count nothing */
 static const void *cxx_library;
 static int64_t n_counted;
 
@@ -74,8 +74,8 @@ void *new_many_aligned(size_t size, size_t alignment) {
   return counted(or_abort(__libc_memalign(alignment, size ? size : 1)), __builtin_return_address(0));
 }
 
-/* Returns the object that contains the function. Without a shared library the name is not found, and the function is in the same
- * object as this one. */
+/* Returns the object that contains the function. If the library is static, the name is not found. A function without a name
+ * belongs to the object of this code. */
 static const void *object_of(const char *name) {
   const void *function = dlsym(RTLD_DEFAULT, name);
   return object_at(function ? function : (const void *)(intptr_t)object_of);
@@ -113,7 +113,7 @@ typedef struct moving_valve {
   int64_t n_nodes;
 } moving_valve;
 
-/* Makes a moving valve. Without velocities the surface is updated by riis_surface_update. */
+/* Makes a moving valve. Without velocities, riis_surface_update updates the surface. */
 static moving_valve moving_valve_of(const char *kind, int has_open_state, int32_t triangulation, int has_velocity,
                                     int32_t n_threads) {
   moving_valve made = {.now = new_valve(kind), .result = new_result(), .options = mark_options()};
@@ -139,7 +139,7 @@ static moving_valve moving_valve_of(const char *kind, int has_open_state, int32_
   return made;
 }
 
-/* Opens and closes the valve in 40 steps, and counts the allocations of all steps. */
+/* Opens and closes the valve in 40 steps, and counts all allocations. */
 static int64_t allocations_of_a_cycle(moving_valve *valve) {
   riis_resistance resistance;
   int64_t n = 0;
@@ -178,8 +178,9 @@ TEST(a_steady_step_allocates_nothing) {
       options.search = search;
       options.n_threads = 1;
       if (kind % 2) options.distance_limit = 0.2;
-      if (kind / 2) options.fields = 255 - RIIS_FIELD_VELOCITY; /* all but the velocity, which the surface lacks */
-      /* The first step allocates memory. This shows that allocations are counted, including those of vectors and aligned ones. */
+      if (kind / 2) options.fields = 255 - RIIS_FIELD_VELOCITY; /* all fields that the surface has: no velocity */
+      /* The first step allocates memory, which shows that allocations are counted, also those of vectors and of aligned
+       * memory. */
       assert_true(allocations_of_a_step(surface, mesh, &options, result) > 5);
       allocations_of_a_step(surface, mesh, &options, result);
       for (int step = 3; step <= 5; ++step) assert_int_equal(allocations_of_a_step(surface, mesh, &options, result), 0);
@@ -191,7 +192,7 @@ TEST(a_steady_step_allocates_nothing) {
 #endif
 }
 
-/* After the first cycles all memory has been allocated. Embree's own allocations do not count. */
+/* After the first cycles, the library holds all the memory that it needs. Embree's own allocations do not count. */
 TEST(a_steady_moving_step_allocates_nothing) {
 #if defined(COUNTS_ALLOCATIONS)
   static const char *const kinds[6] = {"aortic", "trileaflet", "mitral", "bileaflet", "aortic", "coapting"};
@@ -210,8 +211,8 @@ TEST(a_steady_moving_step_allocates_nothing) {
 #endif
 }
 
-/* The annulus moves: each step has new targets for 200 landmarks, for two valves in turn. Each valve has its memory after two
- * steps. At some time of the beat, the adapted triangulation needs more triangles, so its surface has its memory only
+/* In each step, the moving annulus gives new targets for 200 landmarks, for two valves in turn. Each valve has all its memory
+ * after two steps. The adapted triangulation needs most triangles at some time of the beat, so its surface has all memory only
  * after one beat. */
 TEST(a_steady_warped_step_allocates_nothing) {
 #if defined(COUNTS_ALLOCATIONS)
@@ -267,7 +268,7 @@ TEST(a_steady_warped_step_allocates_nothing) {
 #endif
 }
 
-/* At some moment, threads may need more blocks at once than ever before, but the number of blocks is limited. */
+/* Threads may at some moment need more blocks at once than before, but the number of blocks is limited. */
 TEST(allocations_of_several_threads_do_not_grow) {
 #if defined(COUNTS_ALLOCATIONS)
   for (int32_t n_threads = 2; n_threads <= 4; n_threads += 2) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The neighbour search gives the same result as the exhaustive search, to the last bit. This holds for any mesh, adjacency,
- * mask, limit, number of threads and earlier marking. The paper's own algorithm finds only the connected piece of the band
- * where it starts, and reports that nodes may be missing. */
+ * The neighbour search gives the same result as the exhaustive search, to the last bit. The results agree for any mesh,
+ * adjacency, mask, limit, number of threads and earlier marking. The paper's own algorithm finds only the connected part of the
+ * band where it starts. This algorithm reports that nodes may be missing. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -13,7 +13,7 @@
 
 static random_source rng;
 
-/* Returns how many nodes the paper's algorithm misses. The algorithm must report that it may miss some. */
+/* Returns how many nodes the paper's algorithm misses. The algorithm must report that it may miss nodes. */
 static int64_t missed_by_the_paper(const riis_surface *surface, const riis_mesh *mesh, const uint8_t *mask) {
   const int owned_before = n_owned();
   riis_marks *paper = marked_by(surface, mesh, RIIS_SEARCH_PAPER, 2, mask);
@@ -40,22 +40,21 @@ TEST(three_separate_cusps) {
   riis_mesh *mesh = mesh_from(&nodes);
   const riis_mark_stats stats = check_same_as_exhaustive(surface, mesh, mark_options(), NULL);
   assert_int_equal(stats.n_unreached,
-                   0); /* the walk starts in every ball near the surface, so it reaches all of a connected band */
+                   0); /* the walk starts in every ball near the surface, so it reaches the whole connected band */
   /* The paper's walk has one start, so it finds one cusp. */
   const int64_t missed = missed_by_the_paper(surface, mesh, NULL);
   assert_true(missed > stats.n_marked / 2 && missed < stats.n_marked);
   riis_marks *paper = marked_by(surface, mesh, RIIS_SEARCH_PAPER, 2, NULL);
   const found_nodes found = marked_in(paper);
   for (int64_t i = 0; i < found.n; ++i) assert_int_equal(found.leaflet_id[i], found.leaflet_id[0]);
-  /* A walk that starts from the marks of the paper's search leaves all other nodes to the final check. */
+  /* A walk starts from the marks of the paper's search. The final check then finds all other nodes. */
   riis_mark_options options = mark_options();
   assert_true(check_same_as_exhaustive(surface, mesh, options, paper).n_unreached == missed);
   assert_int_equal(check_same_as_exhaustive(surface, mesh, options, paper).n_unreached, 0);
 }
 
-/* The mesh consists of slabs that no edge joins. It contains the same region twice, with the second copy shifted by half a
- * spacing.
-   */
+/* The mesh consists of slabs without edges between them. The mesh contains one region twice: the second copy is shifted by half a
+ * spacing. */
 TEST(mesh_of_several_components) {
   riis_surface *surface = aortic_surface(NULL);
   test_mesh one = lattice_around(surface, 0.09, 0.15), two = {.n = 2 * one.n};
@@ -65,7 +64,7 @@ TEST(mesh_of_several_components) {
   for (int64_t i = 0; i < one.n; ++i)
     for (int64_t k = one.offsets[i]; k < one.offsets[i + 1]; ++k) {
       const int64_t j = one.columns[k];
-      /* Leaves out pairs across x = -0.5, 0 and 0.5. */
+      /* Leaves out pairs of nodes on two sides of x = -0.5, 0 or 0.5. */
       if (j < i || floor(2 * one.xyz[3 * i]) != floor(2 * one.xyz[3 * j])) continue;
       for (int64_t copy = 0; copy < 2; ++copy)
         pairs[2 * n_pairs] = i + copy * one.n, pairs[2 * n_pairs++ + 1] = j + copy * one.n;
@@ -107,7 +106,7 @@ TEST(valve_that_sticks_out_of_the_mesh) {
       const double b = random_between(&rng, info.lower[c] - 0.3, info.upper[c] + 0.3);
       lower[c] = fmin(a, b), upper[c] = fmax(a, b);
     }
-    if (trial == 0) /* this box contains half of the valve in any case */
+    if (trial == 0) /* this box always contains half of the valve */
       for (int c = 0; c < 3; ++c) lower[c] = info.lower[c], upper[c] = c ? info.upper[c] : 0;
     test_mesh nodes = lattice(counts, lower, upper);
     riis_mesh *mesh = mesh_from(&nodes);
@@ -129,12 +128,12 @@ TEST(isolated_nodes) {
   const riis_mark_stats first = check_same_as_exhaustive(surface, mesh, mark_options(), result);
   assert_true(first.n_marked > 1000);
   assert_true(first.n_unreached > first.n_marked / 2); /* each walk ends after one step */
-  /* The second search starts a walk at every node that the first one marked. */
+  /* The second search starts a walk at every node that the first search marked. */
   assert_int_equal(check_same_as_exhaustive(surface, mesh, mark_options(), result).n_unreached, 0);
   assert_true(missed_by_the_paper(surface, mesh, NULL) >= first.n_marked - 1);
 }
 
-/* The adjacency only determines the order of queries, so the result does not depend on it. */
+/* The adjacency determines only the order of queries, so the result does not depend on the adjacency. */
 TEST(any_adjacency_is_right) {
   riis_surface *surface = aortic_surface(NULL);
   test_mesh nodes = lattice_around(surface, 0.1, 0.3);
@@ -160,7 +159,7 @@ TEST(any_adjacency_is_right) {
   }
 }
 
-/* Rows also contain nodes of other ranks. Indices have every width and base. */
+/* Rows also contain nodes of other ranks. The indices have every width, and count from 0 and from 1. */
 TEST(ghosts_are_passed_over) {
   riis_surface *surface = aortic_surface(NULL);
   test_mesh nodes = lattice_around(surface, 0.1, 0.15);
@@ -214,7 +213,7 @@ TEST(mesh_of_one_node) {
     }
 }
 
-/* The nodes coincide, lie on a line or in a plane, or are far apart from each other. */
+/* The nodes coincide, lie on a line or in a plane, or are far apart. */
 TEST(degenerate_meshes) {
   riis_surface *surface = aortic_surface(NULL);
   static const int64_t counts[5][3] = {{3000, 1, 1}, {1, 60, 50}, {1, 1, 2000}, {12, 12, 12}, {12, 12, 12}};
@@ -237,7 +236,7 @@ TEST(degenerate_meshes) {
 }
 
 /* A column of nodes stands over a triangle of any size. The limit is the distance that the library computes for the first node.
- * Up to rounding, the search's check compares all other distances with this limit at equality. Rounding must not lose a
+ * The other nodes are equally far, up to rounding, so the search's check compares nearly equal numbers. Rounding must not lose a
  * node. */
 TEST(nodes_at_the_limit_are_found) {
   static const int32_t ids[3] = {0, 1, 2};
@@ -273,7 +272,7 @@ TEST(nodes_at_the_limit_are_found) {
   }
 }
 
-/* The triangles are needles whose height is nearly 0, and the nodes are as close to the needles as this height. The limit is the
+/* The triangles are needles with a height of nearly 0. The nodes are as close to the needles as this height. The limit is the
  * first node's distance. The rounding of distances to needles must not lose a node. */
 TEST(needles_lose_no_node) {
   static const int32_t ids[3] = {0, 1, 2};
@@ -297,7 +296,7 @@ TEST(needles_lose_no_node) {
     riis_surface_arrays arrays = triangle_arrays(3, corners, 1, ids);
     riis_surface_options options = surface_options();
     riis_surface *surface = NULL;
-    /* A triangle as thin as this may count as having no area. */
+    /* A triangle as thin as this one may count as having no area. */
     if (riis_surface_create_from_arrays(&arrays, NULL, &surface) != RIIS_OK) continue;
     own(surface);
     options.half_thickness = fmax(closest_to(surface, xyz[0], xyz[1], xyz[2]).distance, 1e-40);
@@ -330,13 +329,13 @@ TEST(masked_nodes_are_left_out) {
     riis_marks *fresh = new_result();
     check_same_as_exhaustive(surface, mesh, options, fresh);
     const riis_mark_stats stats =
-        /* After the first trial, the search starts from the last trial's marks, which had another mask. */
+        /* Each later trial starts from the marks of the trial before, which had another mask. */
         check_same_as_exhaustive(surface, mesh, options, reused);
     const found_nodes found = within_in(reused);
     for (int64_t i = 0; i < found.n; ++i) assert_true(mask[found.node_id[i]]);
     if (trial == 8) {
       assert_int_equal(stats.n_within_limit, 0);
-      missed_by_the_paper(surface, mesh, mask); /* the mask of this trial leaves no node to start from */
+      missed_by_the_paper(surface, mesh, mask); /* no node of the earlier marks is in this mask, so no walk can start */
     } else {
       assert_true(stats.n_within_limit > 100);
     }
@@ -352,7 +351,7 @@ TEST(mask_that_cuts_the_band) {
   riis_surface *surface = surface_from(&arrays, NULL);
   test_mesh nodes = lattice_around(surface, 0.05, 0.2);
   riis_mesh *mesh = mesh_from(&nodes);
-  assert_int_equal(missed_by_the_paper(surface, mesh, NULL), 0); /* without the wall the band is in one piece */
+  assert_int_equal(missed_by_the_paper(surface, mesh, NULL), 0); /* without the wall the band is connected */
   uint8_t *mask = own(malloc((size_t)nodes.n));
   double wall = 10;
   for (int64_t i = 0; i < nodes.n; ++i)
@@ -367,7 +366,7 @@ TEST(mask_that_cuts_the_band) {
   const found_nodes found = marked_in(paper);
   for (int64_t i = 0; i < found.n; ++i)
     assert_true(nodes.xyz[3 * found.node_id[i]] < wall); /* the node is on the first vertex's side of the wall */
-  /* The walk starts from the marks of one side and does not reach the other. The search's final check does. */
+  /* The walk starts from the marks on one side and does not reach the other side. The final check reaches it. */
   assert_int_equal(check_same_as_exhaustive(surface, mesh, options, paper).n_unreached, missed);
 }
 
@@ -388,8 +387,8 @@ TEST(limits_wider_than_the_half_thickness) {
 
 /* --- The paper's algorithm ------------------------------------------------------------------------------------------- */
 
-/* The paper's algorithm must find exactly the marked nodes that marked neighbours connect to the node nearest to the first
- * vertex. */
+/* The paper's algorithm starts at the node nearest to the first vertex. The algorithm must find exactly the marked nodes that
+ * marked neighbours connect to this node. */
 TEST(paper_finds_the_piece_that_it_starts_in) {
   static const double half_thickness[4] = {0.03, 0.06, 0.1, 0.3};
   for (int k = 0; k < 4; ++k) {
@@ -425,7 +424,7 @@ TEST(paper_finds_the_piece_that_it_starts_in) {
   }
 }
 
-/* The default search is chosen by the library. It is complete with or without an adjacency. */
+/* The library chooses the default search. This search is complete with or without an adjacency. */
 TEST(auto_is_never_incomplete) {
   riis_surface *surface = aortic_surface(NULL);
   test_mesh nodes = lattice_around(surface, 0.2, 0.2);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests the neighbour search from step to step. Valves and nodes move, results are swapped between meshes, and some
- * calls are refused. */
+ * Tests the neighbour search from step to step. Valves and nodes move, two meshes exchange their results, and some calls are
+ * refused. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -56,7 +56,7 @@ TEST(a_valve_jumps) {
     CHECK_OK(riis_surface_update(surface, valve, &options));
     const riis_mark_stats stats = check_same_as_exhaustive(surface, mesh, mark_options(), result);
     assert_int_equal(stats.n_marked > 0, fabs(x[step]) < 10);
-    /* If the valve jumps to another place, the earlier marking does not help, and the final check finds all nodes. */
+    /* After the valve jumps to another place, the earlier marking does not help. The final check then finds all nodes. */
     if (step == 1 || step == 2) assert_int_equal(stats.n_unreached, stats.n_within_limit);
   }
 }
@@ -106,14 +106,14 @@ TEST(nodes_move) {
                  mix = step == 5 ? 3 : 0.05; /* in step 5, all nodes get new positions */
     for (int64_t i = 0; i < 3 * nodes.n; ++i) {
       moved[i] = nodes.xyz[i] + shift + random_between(&rng, -mix, mix);
-      if (step % 2 == 0) nodes.xyz[i] = moved[i]; /* changes the coordinates in place, or uses another array */
+      if (step % 2 == 0) nodes.xyz[i] = moved[i]; /* changes the coordinates in place, or passes another array */
     }
     const double *now = step % 2 == 0 ? nodes.xyz : moved;
     CHECK_OK(riis_mesh_update(mesh, nodes.n, now, now + 1, now + 2, 3));
     check_same_as_exhaustive(surface, mesh, mark_options(), result);
     check_same_as_exhaustive(surface, mesh, mark_options(), NULL);
   }
-  /* A changed number of nodes removes the adjacency. With an adjacency for the new nodes, the search runs again. */
+  /* If the number of nodes changes, the mesh loses its adjacency. With an adjacency for the new nodes, the search runs again. */
   const int64_t fewer = nodes.n / 2;
   CHECK_OK(riis_mesh_update(mesh, fewer, nodes.xyz, nodes.xyz + 1, nodes.xyz + 2, 3));
   riis_mark_options options = mark_options();
@@ -127,7 +127,7 @@ TEST(nodes_move) {
   check_same_as_exhaustive(surface, mesh, options, result);
 }
 
-/* Coordinates become non-finite without an update of the handle, before the first search or between two searches. */
+/* Before the first search or between two searches, coordinates become infinite or NaN without an update of the handle. */
 TEST(non_finite_coordinates_are_refused) {
   static const double bad[3] = {NAN, INFINITY, -INFINITY};
   riis_surface *surface = aortic_surface(NULL);
@@ -143,7 +143,7 @@ TEST(non_finite_coordinates_are_refused) {
     const found_nodes marked = marked_in(expected);
     const int is_first_search = trial % 4 < 2;
     if (!is_first_search) CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
-    /* A node of the band is always queried, so its non-finite coordinate is noticed. */
+    /* A node of the band is always queried, so its bad coordinate is noticed. */
     const int64_t node = marked.node_id[random_bits(&rng) % (uint64_t)marked.n];
     double *coordinate = nodes.xyz + 3 * node + trial % 3;
     const double good = *coordinate;
@@ -164,7 +164,7 @@ TEST(non_finite_coordinates_are_refused) {
   }
 }
 
-/* Nodes that moved in place are searched at their new positions, even if an update refused these coordinates. */
+/* Nodes that moved in place are searched at their new positions, even if an update has refused these coordinates. */
 TEST(a_refused_update_forgets_where_nodes_were) {
   riis_surface *surface = aortic_surface(NULL);
   test_mesh nodes = lattice_around(surface, 0.13, 0.15);

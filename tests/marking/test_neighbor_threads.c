@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests the neighbour search on several threads: the library's own, and the caller's. */
+ * Tests the neighbour search on several threads, which the library or the caller starts. */
 #include <omp.h>
 #include <pthread.h>
 #include <riis/riis.h>
@@ -37,8 +37,8 @@ TEST(any_number_of_threads_gives_the_same_bits) {
         if (stats.n_threads > most[threads]) most[threads] = stats.n_threads;
         free_owned_after(n_outside);
       }
-    /* More than one thread must really have run. The paper's search is a single walk, which a second thread joins only when
-     * the system schedules it in time. */
+    /* Several threads must really have run. The paper's search is a single walk. A second thread joins this walk only if the
+     * system schedules the thread in time. */
     for (int repeat = 0; repeat < 500 && most[2] < 2; ++repeat) {
       const int n_outside = n_owned();
       riis_marks *two = marked_by(surface, mesh, searches[k], 2, NULL);
@@ -49,7 +49,7 @@ TEST(any_number_of_threads_gives_the_same_bits) {
     assert_int_equal(most[2], 2);
     free_owned_after(owned_before);
   }
-  /* A mesh's first search also makes its balls of nodes, with any number of threads. */
+  /* The first search of a mesh also makes the mesh's balls of nodes, with any number of threads. */
   riis_marks *one = marked_by(surface, mesh, RIIS_SEARCH_NEIGHBOR, 1, NULL);
   for (int threads = 1; threads <= 4; ++threads) {
     const int owned_before = n_owned();
@@ -61,7 +61,7 @@ TEST(any_number_of_threads_gives_the_same_bits) {
   }
 }
 
-/* Returns 1 if any of several markings, each with its own result, differs from the expected one. */
+/* Returns 1 if one of several markings differs from the expected one. Each marking has its own result. */
 static int marks_wrong(const riis_surface *surface, const riis_mesh *mesh, const riis_marks *expected, int n_threads) {
   riis_mark_options options = {0};
   riis_marks *result = NULL;
@@ -89,8 +89,8 @@ static void *mark_with_own_result(void *of) {
   return NULL;
 }
 
-/* The numbers of threads that a search of a mesh reports, first by default and then if two are requested. Both searches
- * find the same nodes. */
+/* The numbers of threads that a search of a mesh reports: by default, and if two threads are requested. Both searches find the
+ * same nodes. */
 typedef struct reported_threads {
   int32_t by_default, if_two;
 } reported_threads;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests the band that steps aside, for every kind of valve. Marks, K and its derivatives, passages and leaks are compared with an
- * oracle that loops over all triangles, and with flood fills. RIIS_TEST_LONG=1 tries many more cases. */
+ * Tests bands with an offset, for every kind of valve. Marks, K and its derivatives, passages and leaks are compared with an
+ * oracle that loops over all triangles. Passages and leaks are also compared with flood fills. RIIS_TEST_LONG=1 tries many more
+ * cases. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -44,7 +45,7 @@ static riis_surface_options random_options(double offset) {
   return options;
 }
 
-/* A mesh of any kind around the surface. */
+/* Makes a mesh of any kind around the surface. */
 static test_mesh mesh_around(const riis_surface *surface, int64_t n, double margin) {
   const riis_surface_info info = info_of(surface);
   double lower[3], upper[3], spacing;
@@ -71,7 +72,7 @@ static void check_same_list(riis_mark_list a, riis_mark_list b) {
   }
 }
 
-/* Marks with a wide limit, compares with the oracle, then with every other way to mark. */
+/* Marks with a wide limit. Compares the marks with the oracle, and then with all other ways to mark. */
 static void check_marking(const char *kind) {
   riis_valve *valve = random_valve(kind);
   const double offset = random_offset();
@@ -95,7 +96,7 @@ static void check_marking(const char *kind) {
   const riis_triangles all = triangles_of(surface);
   assert_int_equal(stats_of(marks).n_marked, marked.n_nodes);
   assert_int_equal(stats_of(marks).n_within_limit, within.n_nodes);
-  /* Distances, sides, points and triangles are those of the leaflet. */
+  /* An offset does not change distances, sides, points and triangles, which are those of the leaflet. */
   riis_mark_options plain_options = asked;
   CHECK_OK(riis_mark_nodes(plain, mesh, &plain_options, other));
   const riis_mark_list of_plain = within_list(other);
@@ -118,8 +119,8 @@ static void check_marking(const char *kind) {
     at += is_marked;
   }
   assert_int_equal(at, marked.n_nodes);
-  /* Every search gives the same lists, with and without a limit, on any number of threads. So do turned normals with the opposite
-   * offset. */
+  /* Every search gives the same lists, with and without a limit, on any number of threads. The opposite offset with reversed
+   * normals also gives these lists. */
   for (int k = 0; k < 4; ++k)
     for (int has_limit = 0; has_limit < 2; ++has_limit) {
       riis_mark_options again = asked;
@@ -132,7 +133,7 @@ static void check_marking(const char *kind) {
       assert_int_equal(stats_of(other).complete, 1);
     }
   CHECK_OK(riis_mark_nodes(turned, mesh, &asked, other));
-  /* The corners of turned triangles have another order, which rounds distances differently. */
+  /* Reversed triangles have their corners in another order, so their distances are rounded differently. */
   const riis_mark_list of_turned = marked_list(other);
   assert_int_equal(of_turned.n_nodes, marked.n_nodes);
   for (int64_t i = 0; i < marked.n_nodes; ++i) {
@@ -140,7 +141,7 @@ static void check_marking(const char *kind) {
     CHECK_NEAR(of_turned.distance[i], marked.distance[i], 1e-12 * eps);
     CHECK_NEAR(of_turned.K[i], marked.K[i], 1e-11 * most);
   }
-  /* A resistance may have a half thickness of its own. */
+  /* A resistance may have a separate half thickness. */
   double *K = own(calloc((size_t)nodes.n, sizeof *K));
   resistance.half_thickness = eps * random_between(&rng, 0.3, 1);
   CHECK_OK(add_resistance_to(marks, &resistance, nodes.n, K, NULL));
@@ -178,7 +179,7 @@ TEST(marks_and_K_are_those_of_the_oracle) {
     }
 }
 
-/* Off the rim K is the formula to 3e-16 of its maximum. */
+/* Away from the rim, K equals the formula to 3e-16 of its maximum. */
 TEST(a_flat_sheet_has_the_formula) {
   static const double corner[12] = {-9, -9, 0, 9, -9, 0, 9, 9, 0, -9, 9, 0};
   static const int32_t ids[6] = {0, 1, 2, 0, 2, 3};
@@ -249,7 +250,7 @@ static void check_passage(const char *kind) {
       fail_msg("%s, opening %g, offset %g: %d at %g times the half thickness %g", kind, opening, offset, is_joined,
                1 + 0.01 * sign, passage.distance);
   }
-  /* The half thickness of the passage marks the node itself, to the last bit. The next smaller number does not mark it. */
+  /* The passage's half thickness marks the node, to the last bit. The next smaller number does not mark the node. */
   for (int k = 0; k < 2 && passage.distance > 1e-6; ++k) {
     riis_surface *again = same_triangles(surface, k == 0 ? passage.distance : passage.distance * (1 - 4e-16), offset);
     riis_marks *marks = new_result();
@@ -270,7 +271,7 @@ TEST(passages_tell_the_half_thickness_that_closes_them) {
     }
 }
 
-/* Returns whether a segment meets a triangle, in long double. Random nodes are never within rounding of an answer. */
+/* Returns whether a segment meets a triangle, in long double. With random nodes, rounding does not decide the answer. */
 static int meets(const double *a, const double *b, real (*corner)[3]) {
   real ab[3], e1[3], e2[3], s[3], p[3], q[3];
   for (int c = 0; c < 3; ++c) {
@@ -282,7 +283,7 @@ static int meets(const double *a, const double *b, real (*corner)[3]) {
   return det != 0 && u >= 0 && v >= 0 && u + v <= 1 && t >= 0 && t <= 1;
 }
 
-/* The boxes of all triangles: the least x, y, z of each, and the largest. */
+/* The boxes around all triangles: the least and the largest x, y and z. */
 static double *boxes_of(const riis_triangles *all) {
   double *boxes = own(malloc((size_t)all->n_triangles * 6 * sizeof *boxes));
   for (int64_t t = 0; t < all->n_triangles; ++t)
@@ -297,7 +298,7 @@ static double *boxes_of(const riis_triangles *all) {
   return boxes;
 }
 
-/* Returns whether a segment's box is apart from another box. */
+/* Returns whether a segment's box has no point in common with another box. */
 static int is_apart(const double *a, const double *b, const double *box) {
   for (int c = 0; c < 3; ++c)
     if (fmax(a[c], b[c]) < box[c] || fmin(a[c], b[c]) > box[3 + c]) return 1;
@@ -326,7 +327,7 @@ static void check_leaks(const char *kind) {
   CHECK_OK(riis_find_leaks(surface, mesh, marks, &asked, leaks));
   riis_leak_list list;
   CHECK_OK(riis_leaks_get_list(leaks, &list, sizeof list));
-  /* All nodes, with rims and triangles. */
+  /* The list has all nodes with their rims and triangles. */
   asked.fields = RIIS_FIELD_RIM;
   asked.distance_limit = 1e6;
   riis_marks *everywhere = new_result();
@@ -338,7 +339,7 @@ static void check_leaks(const char *kind) {
   band_place *place = own(malloc((size_t)grid.n * sizeof *place));
   for (int64_t i = 0; i < grid.n; ++i)
     place[i] = place_of(&all, grid.xyz + 3 * i, everything.triangle_id[i], everything.rim[i]);
-  /* One of the rows of two nodes may lack their edge. */
+  /* An edge may stand in the row of only one of its two nodes. */
   uint8_t *is_edge = own(calloc((size_t)(grid.n * grid.n), 1));
   for (int64_t i = 0; i < grid.n; ++i)
     for (int64_t k = grid.offsets[i]; k < grid.offsets[i + 1]; ++k) {
@@ -365,7 +366,8 @@ static void check_leaks(const char *kind) {
       assert_true(at < list.n_edges);
       assert_int_equal(list.node_id[2 * at], i);
       assert_int_equal(list.node_id[2 * at + 1], j);
-      /* The half thickness that closes the edge marks an end, and a little less marks none. */
+      /* The half thickness that closes the edge marks one of the edge's nodes. A slightly smaller half thickness marks neither
+       * node. */
       const double told = list.distance[at++];
       for (int sign = -1; sign <= 1; sign += 2) {
         const double e = told * (1 + 1e-9 * sign);
@@ -374,7 +376,7 @@ static void check_leaks(const char *kind) {
     }
   assert_int_equal(at, list.n_edges);
   if (list.n_edges == 0) return;
-  /* The half thickness of the list gives each edge a marked node, to the last bit. */
+  /* The list's half thickness gives each edge a marked node, to the last bit. */
   riis_surface_options thicker = options;
   thicker.half_thickness = list.half_thickness;
   thicker.tolerance = options.tolerance * eps / list.half_thickness; /* the same triangles */
@@ -403,7 +405,7 @@ TEST(leaks_are_those_of_a_loop_over_all_edges) {
 
 /* --- Derivatives ------------------------------------------------------------------------------------------------------------ */
 
-/* K of the nodes beside triangles that are moved along the direction. */
+/* K at the nodes beside triangles that have moved along the direction. */
 static void K_of_moved(const riis_surface *surface, const riis_direction *direction, double step, const double *nodes,
                        int64_t n, const riis_mark_options *asked, double *K) {
   const riis_triangles all = triangles_of(surface);
@@ -427,7 +429,7 @@ static void K_of_moved(const riis_surface *surface, const riis_direction *direct
 
 static int64_t n_derivatives, n_on_surface, n_at_rim, n_far_off;
 
-/* Nodes near the surface: on triangles, on both sides, and beside rims. */
+/* Makes nodes near the surface: over triangles, on both sides, and beside rims. */
 static void check_gradients(const char *kind) {
   riis_valve *valve = new_valve(kind), *after = new_valve(kind), *before = new_valve(kind);
   const double opening = random_between(&rng, 0.3, 0.7), dp = 1e-5, R = 10;
@@ -475,7 +477,7 @@ static void check_gradients(const char *kind) {
     const int64_t node = list.node_id[i];
     const double near = (K[0][node] - K[1][node]) / 2e-5, wide = (K[2][node] - K[3][node]) / 4e-5;
     const double second = (K[0][node] + K[1][node] - 2 * list.K[i]) / 1e-5;
-    /* A node at a tie, or one that changes triangles in between, has a kink. */
+    /* K has a kink at a node with a tie, or at a node whose closest triangle changes in between. */
     if (fabs(near - wide) > 1e-5 * most || fabs(second) > 1e-3 * most) continue;
     ++n_derivatives, n_on_surface += list.distance[i] < 1e-12, n_at_rim += list.rim[i] && list.K[i] > 0;
     if (fabs(list.K_gradient[i] - near) > 1e-4 * most) {
@@ -515,7 +517,7 @@ TEST(refusals) {
                 "options.offset is 0.5, but options.measure is 1, which does not tell the sides of a surface apart",
                 riis_surface_create(valve, &options, &surface));
   options.measure = RIIS_MEASURE_TRIANGLES;
-  /* Two triangles that share an edge: the second one runs along it in the same direction. */
+  /* Two triangles share an edge. Both triangles run along this edge in the same direction, so their normals are opposite. */
   static const double corner[12] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
   static const int32_t turned[6] = {0, 1, 2, 0, 3, 2}, right[6] = {0, 1, 2, 0, 2, 3};
   riis_surface_arrays arrays = triangle_arrays(4, corner, 2, right);

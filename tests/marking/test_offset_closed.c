@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Closed valves whose band steps aside hold blood back. Flood fills look for a way through random grids of tetrahedra, where K is
- * 0. With a cut rim, K is 0 beyond the rim although the nodes there are marked. RIIS_TEST_LONG=1 tries 15 grids of each kind. */
+ * Closed valves hold blood back even if their band has an offset. Flood fills look for a way through random grids of tetrahedra
+ * along nodes where K is 0. If the rim is cut, K is 0 beyond the rim although the nodes there are marked. RIIS_TEST_LONG=1 tries
+ * 15 grids of each kind. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -20,8 +21,8 @@ typedef struct closed_valve {
   double skirt, half_thickness, radius, from, to;
 } closed_valve;
 
-/* Makes nodes of a grid of cubes in the tube, cut into six tetrahedra each. The grid is turned and shifted at random. The longest
- * edges, the diagonals of the cubes, have the given length. */
+/* Makes the nodes of a grid of cubes in the tube. Each cube is cut into six tetrahedra. The grid is turned and shifted at random.
+ * The cubes' diagonals, which are the longest edges, have the given length. */
 static test_mesh turned_tetrahedra(const closed_valve *valve, double longest_edge) {
   static const int along[7][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 0}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}};
   const double side = longest_edge / sqrt(3), middle = (valve->from + valve->to) / 2,
@@ -59,7 +60,7 @@ static test_mesh turned_tetrahedra(const closed_valve *valve, double longest_edg
   return mesh;
 }
 
-/* Returns whether a flood passes the band where K is 0. */
+/* Returns whether a flood over nodes where K is 0 passes the band. */
 static int leaks_through(const riis_surface *surface, const test_mesh *grid, int32_t rim, int64_t from, int64_t to) {
   riis_marks *marks = new_result();
   riis_resistance resistance;
@@ -101,7 +102,7 @@ static void count_leaks(const closed_valve *valve, int n_grids, int32_t rim, int
       const riis_surface *surface = closed_surface(valve, offsets[k]);
       leaks[k] = leaks_through(surface, &grid, rim, from, to);
       n_leaking[k] += leaks[k];
-      /* Without a cut rim the passage of the library is the same flood. */
+      /* If the rim is not cut, the library's passage is the same flood. */
       if (rim == RIIS_RIM_CUT) continue;
       riis_passage passage;
       CHECK_OK(find_passage_between(surface, mesh_from(&grid), NULL, 1, &from, 1, &to, &passage, sizeof passage));
@@ -132,8 +133,8 @@ TEST(valves_with_a_skirt_do_not_leak) {
     }
 }
 
-/* Without a skirt, blood passes between the rim and a wall farther out, with every offset. A round rim holds as well as it does
- * without an offset. A cut rim does not: its end moves along the normals, and so away from the wall. */
+/* Without a skirt, blood passes between the rim and a wall farther out, with every offset. A round rim holds blood back as well
+ * as without an offset. A cut rim lets blood pass, because its end moves along the normals, and so away from the wall. */
 TEST(round_rims_without_a_skirt_leak_only_where_they_leak_without_an_offset) {
   closed_valve valves[] = {{"trileaflet", 0, 0.1, 0, -1.7, 0.5}, {"coapting", 0, 0.1, 0, -0.5, 2.2}};
   const int n_grids = trials_of(15);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * What is measured around a band that steps aside: leaks of flat and curved surfaces, orifices, first passages, forces and
- * moments, and K of a sheet that turns about its rim. Each result is compared with a closed form or an oracle. */
+ * Tests measures of a band with an offset: leaks of flat and curved surfaces, orifices, first passages, forces and moments, and K
+ * of a sheet that turns about its rim. Each result is compared with a closed form or an oracle. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -35,11 +35,12 @@ static riis_surface_options banded(double half_thickness, double offset, int fli
 
 enum { n_around = 40, n_rows = 5, n_across = 24 };
 
-/* Returns the leak of arrays for R = 1, a drop of 1 and the half thickness eps, divided by eps: the area of the moved surface. */
+/* Returns the leak for R = 1, a drop of 1 and the half thickness eps, divided by eps. This quotient equals the area of the moved
+ * surface. */
 static double moved_area(const riis_surface_arrays *arrays, double eps, double offset, int flips) {
   const riis_surface_options options = banded(flips ? eps : 2 * eps, offset, flips);
   riis_surface *surface = surface_from(arrays, &options);
-  /* The resistance may have a half thickness of its own, which then decides how far the band steps aside. */
+  /* The resistance may have a separate half thickness, which then scales the band's offset. */
   const riis_resistance how = resistance_of(1, flips ? RIIS_AUTO : eps, RIIS_RIM_ROUND);
   double flow = 0;
   CHECK_OK(riis_surface_get_leak(surface, &how, 1, &flow));
@@ -56,7 +57,7 @@ TEST(the_leak_of_a_flat_sheet_has_the_sheets_area) {
       CHECK_NEAR(moved_area(&arrays, 0.1, offset, flips), 6, 1e-14);
 }
 
-/* A cylinder of quads. Its normals point outwards, and those of its vertices are radial. */
+/* Makes a cylinder of quads. The cylinder's normals point outwards, and the normals at its vertices are radial. */
 TEST(the_leak_of_a_cylinder_grows_with_its_radius) {
   const double radius = 1.5, height = 2, eps = 0.1;
   double xyz[3 * n_around * n_rows];
@@ -81,7 +82,7 @@ TEST(the_leak_of_a_cylinder_grows_with_its_radius) {
     }
 }
 
-/* A ball of an octahedron's triangles. The moved ball has (1 + H o eps)^2 of the area, because H is 1 / radius. */
+/* Makes a ball from an octahedron's triangles. The moved ball has (1 + H o eps)^2 times the area, because H is 1 / radius. */
 TEST(the_leak_of_a_ball_grows_with_its_radius) {
   const double radius = 1.5, eps = 0.1;
   static double xyz[8 * n_across * n_across * 9];
@@ -107,7 +108,7 @@ TEST(the_leak_of_a_ball_grows_with_its_radius) {
   for (int flips = 0; flips < 2; ++flips)
     for (double offset = -0.75; offset < 1; offset += 0.25) {
       const double moved = 1 + H * (flips ? -offset : offset) * eps;
-      /* The normals of vertices are radial up to the size of a triangle, which changes the area to second order. */
+      /* The normals at vertices are radial up to the size of a triangle, so the area changes to second order. */
       CHECK_NEAR(moved_area(&arrays, eps, offset, flips), area * moved * moved, 2e-3 * fabs(moved * moved - 1) * area);
     }
 }
@@ -120,7 +121,7 @@ static riis_orifice orifice_of(const riis_surface *surface, const riis_resistanc
   return orifice;
 }
 
-/* The offset at which the factor c vanishes, or 0 for a kind whose factor stays. */
+/* The offset at which the factor c vanishes, or 0 for a kind with a constant factor. */
 static double vanishing_offset(const char *kind, int32_t rim) {
   if (strcmp(kind, "bileaflet") == 0) return 0;
   if (rim == RIIS_RIM_ROUND) return 1.05;
@@ -147,7 +148,7 @@ TEST(orifices_reach_less_far_into_the_flow) {
         const double share = vanishing == 0 ? 1 : fmax(0, 1 - offsets[k] / vanishing);
         CHECK_NEAR(found.rim_reach, c * share, 1e-15);
         assert_true(found.half_thickness == eps);
-        /* A band without an offset that reaches as far leaves the same area. */
+        /* A band without an offset that reaches equally far leaves the same area. */
         const riis_resistance thinner = resistance_of(1, fmax(share * eps, 1e-9), rim);
         const riis_orifice as_far = orifice_of(without, &thinner);
         CHECK_NEAR(found.effective_area, as_far.effective_area, 1e-7 * found.outline_area);
@@ -223,7 +224,7 @@ static void add_cross(const double *a, const double *b, double factor, double *t
 
 static double dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-/* A rigid surface moves in a random flow. The forces follow from the oracle's K and closest points. */
+/* A rigid surface moves in a random flow. The oracle's K and closest points determine the forces. */
 static void check_balance(const char *kind) {
   const double eps = random_between(&rng, 0.1, 0.2), offset = one_in(2) ? 0.75 : random_between(&rng, -0.9, 0.9);
   const int32_t rim = one_in(2) ? RIIS_RIM_ROUND : RIIS_RIM_CUT;
@@ -280,7 +281,7 @@ static void check_balance(const char *kind) {
     for (int c = 0; c < 3; ++c) arm[c] = xyz[3 * node + c] - (double)place.way[c] - about[c];
     memcpy(there, v, sizeof v);
     add_cross(omega, arm, 1, there);
-    /* Where two leaflets are equally near, the velocity is the mean of two places. */
+    /* If two leaflets are equally near, the velocity is the mean of the velocities at two places. */
     const double *mean = list.velocity + 3 * i;
     const double off = fabs(mean[0] - there[0]) + fabs(mean[1] - there[1]) + fabs(mean[2] - there[2]);
     n_ties += off > 1e-9;
@@ -318,7 +319,7 @@ static riis_surface_options turned_by(double angle, double eps, double offset) {
   return options;
 }
 
-/* Beside the rim that stays, the distance stays too. But the round rim's tube turns with the normal. */
+/* Beside a rim at rest, the distance stays constant. The end of the band at a round rim nevertheless turns with the normal. */
 TEST(a_round_rim_turns_with_a_sheet_that_turns_about_it) {
   enum { n = 400 };
   const double eps = 0.3, R = 2, step = 1e-5;
@@ -331,7 +332,7 @@ TEST(a_round_rim_turns_with_a_sheet_that_turns_about_it) {
                                                                             : random_between(&rng, -0.9, 0.9);
     double xyz[3 * n], K[2][n];
     for (int i = 0; i < n; ++i) {
-      /* Beyond the rim x = 0, in the frame of the sheet. */
+      /* The nodes lie beyond the rim x = 0, in the frame of the sheet. */
       const double along = random_between(&rng, -2 * eps, -0.01), over = random_between(&rng, -2 * eps, 2 * eps);
       xyz[3 * i] = along * cos(angle) - over * sin(angle);
       xyz[3 * i + 1] = random_between(&rng, 0.1, 0.9);

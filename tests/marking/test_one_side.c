@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests the search over clusters that leaves out nodes far behind a surface with an offset. It must list the same nodes, to the
- * last bit, as a search that finds every node within reach, and an oracle judges each of these nodes. RIIS_TEST_LONG=1 tries more
- * surfaces. */
+ * Tests the search over clusters for a surface with an offset, where it leaves out nodes far behind the surface. The search must
+ * give the list that a search of all nodes within reach gives, to the last bit. An oracle judges each of these nodes.
+ * RIIS_TEST_LONG=1 tries more surfaces. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -21,7 +21,8 @@ static double random_offset(void) {
   return sign * (one_in(3) ? small : one_in(2) ? 1 - small : random_between(&rng, 0, 1));
 }
 
-/* Makes a sheet of triangles: smooth, crumpled with sharp folds, with needles, folded onto itself, or a fan around one vertex. */
+/* Makes a sheet of triangles. The sheet is smooth, crumpled with sharp folds, folded onto itself, or a fan around one vertex, or
+ * it has needles. */
 static riis_surface *sheet(int what, const riis_surface_options *options) {
   double xyz[3 * most_across * most_across];
   int32_t ids[6 * most_across * most_across];
@@ -64,8 +65,8 @@ static riis_surface *valve_surface(const char *kind, riis_surface_options *optio
 
 static int is_anywhere(int64_t node) { return node % 2 == 0; }
 
-/* Puts nodes into the band's surroundings: half of them anywhere, half of them over a random place of the surface, along the
- * normal of the triangle there. Some of these are at the ends of the band, or exactly over a vertex or an edge. */
+/* Puts nodes around the band. One half lies anywhere, and the other half over random places of the surface, along the triangle's
+ * normal. Some nodes of the second half are at the ends of the band, or exactly over a vertex or an edge. */
 static void place_nodes(const riis_surface *surface, double eps, double offset, double *xyz) {
   const riis_surface_info info = info_of(surface);
   const riis_triangles all = triangles_of(surface);
@@ -132,7 +133,7 @@ static void check_surface(const riis_surface *surface, const riis_surface_option
     const int is_marked = at < marked.n_nodes && marked.node_id[at] == within.node_id[i];
     const band_place place = place_of(&all, xyz + 3 * within.node_id[i], within.triangle_id[i], within.rim[i]);
     const double middle = (double)from_middle(&place, eps, offset);
-    /* Exactly over an edge, rounding decides whether the normal is that of the edge or of a face. */
+    /* Exactly over an edge, rounding decides whether the edge's or a face's normal is used. */
     if (is_anywhere(within.node_id[i]) && fabs(middle - eps) > 1e-9 * eps) assert_int_equal(is_marked, middle < eps);
     at += is_marked;
   }

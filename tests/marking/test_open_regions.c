@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Labels of open regions are compared with a serial flood fill on random graphs, on long chains and around valves.
- * RIIS_TEST_LONG=1 tries many more cases. */
+ * Compares labels of open regions with a serial flood fill, on random graphs, on long chains and around valves. RIIS_TEST_LONG=1
+ * tries many more cases. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -65,7 +65,8 @@ static riis_surface *far_surface(void) {
   return surface_from(&arrays, NULL);
 }
 
-/* A chain's nodes are numbered in any order, so the labelling joins trees many times. Some links are missing. */
+/* A chain's nodes are numbered in any order, so the labelling joins trees many times. Some links between the nodes are
+ * missing. */
 TEST(chains_are_labelled_as_the_flood_fill_does) {
   riis_surface *surface = far_surface();
   for (int trial = 0; trial < 6; ++trial) {
@@ -106,7 +107,7 @@ TEST(meshes_round_valves_are_labelled_as_the_flood_fill_does) {
   }
 }
 
-/* The rows have 32 bits and count from 1, as in Fortran codes. The ids in the labels count from 0. */
+/* The rows have 32 bits and count from 1, as in Fortran codes. The labels are ids that count from 0. */
 TEST(rows_that_count_from_1_give_the_same_labels) {
   static const int32_t offsets[6] = {1, 2, 2, 3, 4, 4}, columns[3] = {3, 5, 2}; /* the edges 0-2, 2-4 and 1-3 */
   static const double xyz[15] = {0};

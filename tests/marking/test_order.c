@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Found nodes are put in order: random nodes in the lists of several threads, against a sort. Meshes have up to 2^33 nodes, so a
- * bin has from 4096 to 2^25 numbers. */
+ * The library sorts the found nodes in the lists of several threads. The test compares the order of random nodes with a sort.
+ * Meshes have up to 2^33 nodes, so a bin has from 4096 to 2^25 numbers. */
 #include <stdlib.h>
 
 #include "internals.h"
@@ -23,7 +23,7 @@ static int by_node(const void *a, const void *b) {
 
 static int64_t below(int64_t n) { return (int64_t)(random_bits(&rng) % (uint64_t)n); }
 
-/* Nodes are spread over the mesh, or they are in a range that has about twice as many numbers. */
+/* The nodes are spread over the mesh, or lie in a range with about twice as many numbers. */
 TEST(nodes_ascend) {
   enum { most = 20000 };
   static found_node sorted[most];

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The widest passage is compared with a binary search over half thicknesses, which does a flood fill for each. It is also
- * compared with holes of known position and size. RIIS_TEST_LONG=1 tries many more cases. */
+ * Compares the widest passage with a binary search over half thicknesses, which makes a flood fill for each half thickness. Also
+ * compares the passage with holes of known position and size. RIIS_TEST_LONG=1 tries many more cases. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -42,7 +42,7 @@ static void open_nodes_of(const uint8_t *mask, int64_t n, uint8_t *is_open) {
   for (int64_t i = 0; i < n; ++i) is_open[i] = mask[i];
 }
 
-/* Nodes are closed in the order of their distances. By bisection, finds the node whose closing separates the two ends. */
+/* Nodes are closed in the order of their distances. Bisection finds the node whose closing separates the two ends. */
 static riis_passage expected_passage(const test_mesh *rows, const riis_surface *surface, const uint8_t *mask,
                                      const ends *e) {
   const size_t n = (size_t)rows->n;
@@ -55,7 +55,7 @@ static riis_passage expected_passage(const test_mesh *rows, const riis_surface *
     order[i] = (near_node){closest_to(surface, p[0], p[1], p[2]).distance, i};
   }
   qsort(order, n, sizeof *order, nearer);
-  /* If the nodes before `low` are closed, the ends stay joined. Closing the nodes up to `high` separates them. */
+  /* Closing the nodes before `low` leaves the ends joined. Closing the nodes up to `high` separates the ends. */
   while (low < high) {
     const int64_t middle = low + (high - low) / 2;
     open_nodes_of(mask, rows->n, is_open);
@@ -98,7 +98,7 @@ static int is_among(int64_t node, const int64_t *ids, int64_t n) {
   return i < n;
 }
 
-/* Chooses two ends outside the band. Returns 0 if there are none. */
+/* Chooses two ends outside the band. Returns 0 if the mesh has no such ends. */
 static int random_ends(const test_mesh *rows, const riis_surface *surface, const uint8_t *mask, ends *e) {
   const double half_thickness = info_of(surface).half_thickness;
   e->n_from = e->n_to = 0;
@@ -115,7 +115,7 @@ static int random_ends(const test_mesh *rows, const riis_surface *surface, const
   return e->n_from > 0 && e->n_to > 0;
 }
 
-/* Checks one graph. Returns the passage's state, or -1 if no ends were found. */
+/* Checks one graph. Returns the passage's state, or -1 if there were no ends. */
 static int check_graph(const test_mesh *graph, const riis_surface *surface) {
   const test_mesh rows = both_ways(graph);
   riis_mesh *mesh = mesh_of_graph(graph);
@@ -170,8 +170,8 @@ TEST(meshes_have_the_passage_of_the_serial_search) {
   CHECK_MET(n_of_state[RIIS_PASSAGE_OPEN] > 0 && n_of_state[RIIS_PASSAGE_CLOSED] > 0);
 }
 
-/* If the half thickness is the passage's distance, nothing joins the ends. If the half thickness is smaller, a path joins them.
- * */
+/* At a half thickness equal to the passage's distance, nothing joins the ends. At a smaller half thickness, a path joins them.
+ */
 TEST(the_distance_is_what_just_closes) {
   static const int32_t ids[18] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17};
   double xyz[54];
@@ -232,7 +232,7 @@ static riis_surface *plate_with_hole(const double *place, double radius, double 
   return surface_from(&arrays, &options);
 }
 
-/* One node is the middle of the hole. The node's distance is the distance to the polygon's sides. */
+/* One node is the middle of the hole. The distance of this node is the distance to the polygon's sides. */
 TEST(a_hole_is_found_where_it_is) {
   const test_mesh nodes = tube(1.2, -1, 1, 0.05);
   riis_mesh *mesh = mesh_from(&nodes);
@@ -262,8 +262,8 @@ static riis_valve *aortic_with_free_edges_at(double radius_in) {
   return valve;
 }
 
-/* The paper's aortic valve at opening 0 has a hole along its axis that no usual half thickness closes. With inner radii of
- * 0.02 the cusps nearly meet there. */
+/* At opening 0, the paper's aortic valve has a hole along its axis that no usual half thickness closes. If the inner radii are
+ * 0.02, the cusps nearly meet there. */
 TEST(the_papers_aortic_valve_leaks_along_its_axis) {
   const test_mesh nodes = tube(1.2, -1, 1.5, 0.05);
   riis_mesh *mesh = mesh_from(&nodes);
@@ -277,7 +277,7 @@ TEST(the_papers_aortic_valve_leaks_along_its_axis) {
     assert_true(open.distance > 0.3 && open.distance < 0.33 && hypot(open.point[0], open.point[1]) < 0.2);
     const riis_passage closed = passage_of(new_surface(aortic_with_free_edges_at(0.02), &options), mesh, NULL, &e);
     assert_int_equal(closed.state, RIIS_PASSAGE_CLOSED);
-    /* The expected distance lies between two distances: of a node on the axis, and of the corners of three free edges. */
+    /* The expected distance lies between the distances of two places: a node on the axis, and the corners of three free edges. */
     CHECK_NEAR(closed.distance, 0.02 * sqrt(2), 1e-3);
     assert_true(hypot(closed.point[0], closed.point[1]) < 0.01);
   }
@@ -287,8 +287,8 @@ static double distance_of(const double *p, const double *q) {
   return hypot(hypot(p[0] - q[0], p[1] - q[1]), p[2] - q[2]);
 }
 
-/* Copies the surface without the triangles that have a vertex in the ball. *reach gets the distance of these triangles'
- * farthest corner from the ball's centre. */
+/* Copies the surface without the triangles that have a vertex in the ball. *reach gets the largest distance of these triangles'
+ * corners from the ball's centre. */
 static riis_surface *without_ball(const riis_surface *surface, const double *centre, double radius, double *reach) {
   const riis_triangles all = triangles_of(surface);
   int32_t *ids = own(malloc((size_t)all.n_triangles * 3 * sizeof *ids));
@@ -312,7 +312,7 @@ static riis_surface *without_ball(const riis_surface *surface, const double *cen
   return surface_from(&arrays, &options);
 }
 
-/* A hole into the narrow gap between two leaflets may stay closed. So the hole's centre is far from other leaflets. */
+/* A hole into the narrow gap between two leaflets may stay closed. The hole's centre is therefore far from other leaflets. */
 static const double *centre_of_hole(const riis_triangles *all) {
   for (;;) {
     const int64_t t = random_integer(0, all->n_triangles - 1), leaflet = all->patch_id[t] / 4;
@@ -344,7 +344,7 @@ TEST(a_pierced_leaflet_is_found_where_it_is) {
   }
 }
 
-/* Passages also exist for distances to points of the patches, by the paper's method. */
+/* A passage is also found if distances are measured to points of the patches, as the paper does. */
 TEST(other_distances_have_passages) {
   const test_mesh nodes = tube(1.2, -1, 1.5, 0.15);
   riis_mesh *mesh = mesh_from(&nodes);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Results must not depend on the position, rotation or unit of valve and mesh, or on the order of nodes and triangles. */
+ * Results must not depend on the position, rotation or unit of the valve and the mesh, or on the order of nodes and triangles. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -25,7 +25,8 @@ static void distances(const riis_surface *surface, const double *xyz, double lim
   free_owned_after(owned_before);
 }
 
-/* Checks that the distances b equal the distances a times the scale. A node near the limit may be on either side of the limit. */
+/* Checks that the distances b equal the distances a times the scale. A node near the limit may be within it in one result and
+ * beyond it in the other. */
 static void check_scaled(const double *a, const double *b, double scale, double limit, double tolerance) {
   int n_near = 0;
   for (int i = 0; i < n; ++i) {
@@ -79,7 +80,7 @@ TEST(rigid_motion_and_unit_do_not_matter) {
     distances(surface, moved_nodes, 0.3 * options.scale, moved, moved_leaflet);
     CHECK_NEAR(info_of(surface).area / (options.scale * options.scale), 6.98, 0.01);
     free_one_owned(surface);
-    /* Coordinates of about 300 have 300 times the rounding error. */
+    /* The coordinates are about 300, so their rounding error is 300 times as large. */
     check_scaled(plain, moved, options.scale, 0.3, 1e-12 * options.scale);
     int n_other_leaflet = 0; /* nodes where two leaflets are equally near */
     for (int i = 0; i < n; ++i) n_other_leaflet += leaflet[i] != moved_leaflet[i];
@@ -123,7 +124,7 @@ TEST(order_of_triangles_does_not_matter) {
   for (int i = 0; i < n; ++i) CHECK_SAME(shuffled[i], plain[i]);
 }
 
-/* Each cusp of the valve is its own mirror image, so the distances are also symmetric. */
+/* Each cusp of the valve equals its mirror image, so the distances are also symmetric. */
 TEST(cusps_are_symmetric) {
   static double plain[n], mirrored[n], mirrored_nodes[3 * n];
   riis_surface *surface = aortic_surface(NULL);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The library warns if a mesh, a surface and a half thickness can hardly be in one unit. The warning comes once. A part of a mesh
- * that lies elsewhere gets no warning. The warning depends on the bounding box of the nodes, which is tested for every layout of
- * the coordinates. */
+ * The library warns if the sizes of a mesh, a surface and a half thickness suggest different units. The warning comes once. A
+ * distant part of a mesh gets no warning. The warning depends on the bounding box of the nodes. The box is tested for every
+ * layout of the coordinates. */
 #include <pthread.h>
 #include <riis/riis.h>
 
@@ -79,7 +79,7 @@ TEST_WITH(sizes_that_fit_are_no_news, start_listening, stop_listening) {
   assert_int_equal(n_warnings(1, RIIS_AUTO, 0, 4), 0);
   assert_int_equal(n_warnings(0.01, RIIS_AUTO, 0, 0.04), 0);
   assert_int_equal(n_warnings(10, RIIS_AUTO, 0, 400), 0);
-  /* A mesh far from the valve may be a part of a larger mesh, whose other parts belong to other processes. */
+  /* A mesh far from the valve may be one process's part of a larger mesh. */
   assert_int_equal(n_warnings(1, RIIS_AUTO, 100, 4), 0);
   assert_int_equal(n_warnings(1, RIIS_AUTO, 1e6, 0.2), 0);
   assert_int_equal(n_warnings(0.01, RIIS_AUTO, -3, 1), 0);
@@ -99,7 +99,7 @@ TEST_WITH(sizes_that_do_not_fit_are_told, start_listening, stop_listening) {
               "half thickness is 0.001");
   assert_int_equal(n_warnings(1, RIIS_AUTO, 0, 4e4), 1);
   expect_text("the mesh is more than 50 times as large as the surface", "40000 (mesh", "half thickness is 0.1");
-  /* The half thickness is in centimetres, and the other sizes are not. */
+  /* The half thickness is in centimetres. The other sizes are in another unit. */
   assert_int_equal(n_warnings(0.01, 0.1, 0, 0.04), 1);
   expect_text("the half thickness is larger than the surface", "0.04 (mesh", "half thickness is 0.1");
   assert_int_equal(n_warnings(0.3, 0.5, 0, 0.4), 1);
@@ -121,8 +121,8 @@ TEST_WITH(one_warning_a_mesh_and_surface, start_listening, stop_listening) {
   mark(first, other);
   mark(first, other);
   assert_int_equal(warnings.n, 3);
-  /* Surfaces are created and destroyed. Each surface counts as new, even if it has the address of an earlier surface. The
-   * library's list of warned surfaces eventually fills up. */
+  /* Surfaces are created and destroyed. A surface counts as new even if it has the address of an earlier surface. In the end, the
+   * library's list of warned surfaces is full. */
   for (int i = 0; i < 20; ++i) {
     free_one_owned(second);
     second = aortic_surface(NULL);
@@ -131,7 +131,7 @@ TEST_WITH(one_warning_a_mesh_and_surface, start_listening, stop_listening) {
   }
 }
 
-/* Without a log function, a warning does not count as given. */
+/* If there is no log function, a warning does not count as given. */
 TEST_WITH(a_late_listener_is_told, start_listening, stop_listening) {
   riis_surface *surface = aortic_surface(NULL);
   riis_mesh *mesh = cube(0, 0.01);
@@ -178,7 +178,7 @@ TEST_WITH(threads_share_the_one_warning, start_listening, stop_listening) {
   assert_int_equal(warnings.n, 1);
 }
 
-/* A layout of nodes with a stride, in which x is first or last. */
+/* A layout of nodes with a stride. The coordinate x is first or last. */
 typedef struct layout {
   int64_t stride;
   int first[3]; /* the index of the first x, y and z */
@@ -197,8 +197,8 @@ static riis_status create(const layout *lies, int n, riis_mesh **mesh) {
                           lies->stride, mesh);
 }
 
-/* All nodes but one are within a hundredth of the surface, so the warning is absent only if the box contains that node. The test
- * puts this node into every lane of the registers, on every axis and in both directions. */
+/* One node is far from the surface, and all others are within a hundredth of it. The warning is absent only if the box contains
+ * the far node. The test puts this node into every lane of the registers, on every axis and in both directions. */
 TEST_WITH(the_box_holds_every_node, start_listening, stop_listening) {
   riis_surface *surface = aortic_surface(NULL);
   for (int l = 0; l < n_layouts; ++l)
@@ -221,7 +221,7 @@ TEST_WITH(the_box_holds_every_node, start_listening, stop_listening) {
           }
 }
 
-/* The message names the first of two bad coordinates, wherever they are. */
+/* Of two bad coordinates, the message names the first, wherever they are. */
 TEST_WITH(the_first_bad_coordinate_is_named, start_listening, stop_listening) {
   const double bad[] = {NAN, INFINITY, -INFINITY, 1.1e60, -1.1e60};
   for (int l = 0; l < n_layouts; ++l)

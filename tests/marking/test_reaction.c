@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests the forces and moments of the flow. Plates are compared with closed forms. Surfaces of all kinds are compared with plain
- * loops that search all edges. Leaflets of a symmetric valve are compared with each other after a turn. The sums over leaflets,
- * edges and ranks must add up to the sums over the whole surface. */
+ * Tests the forces and moments of the flow. Plates are compared with closed forms, and surfaces of all kinds with plain loops
+ * that search all edges. The leaflets of a symmetric valve are compared after a turn. The sums over leaflets, edges and ranks
+ * must add up to the sums over the whole surface. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -65,9 +65,9 @@ static riis_reaction reaction_to(sums *to, const double *about, int64_t n_leafle
 
 /* --- Plates ---------------------------------------------------------------------------------------------------------- */
 
-/* A plate 0 <= a <= 2, 0 <= b <= 1 in a frame. It has the leaflet 0 for a < 1 and the leaflet 3 for a > 1. Nodes are the centres
- * of cells with the side h. On each side of the plate lie n_layers layers of nodes. The sum of h K over the layers is therefore
- * exactly R / eps. The sum over the cells of a layer integrates a linear function exactly. */
+/* A plate 0 <= a <= 2, 0 <= b <= 1 in a frame. The plate has the leaflet 0 for a < 1 and the leaflet 3 for a > 1. Nodes are the
+ * centres of cells with the side h. Each side of the plate has n_layers layers of nodes. The sum of h K over the layers is
+ * therefore exactly R / eps. The sum over the cells of a layer integrates a linear function exactly. */
 enum { n_layers = 5, n_long = 32, n_wide = 16 };
 static const double plate_length = 2, plate_width = 1, plate_h = 1.0 / 16, plate_eps = 5.0 / 16;
 
@@ -79,7 +79,7 @@ typedef struct {
   riis_marks *marks;
 } plate;
 
-/* Makes a plate that turns about the hinge a = 0. Its angular velocity is spin times the frame's second axis. The flow has the
+/* Makes a plate that turns about the hinge a = 0. The angular velocity is `spin` times the frame's second axis. The flow has the
  * velocity `along` in the frame. */
 static plate new_plate(double spin, const double *along) {
   plate made = {.frame = random_frame(), .n = 2 * n_layers * n_long * n_wide};
@@ -114,8 +114,8 @@ static plate new_plate(double spin, const double *along) {
   return made;
 }
 
-/* In a flow u the force on the plate is (R / eps) u A, and it acts at the plate's centre. For a leaflet, or for a strip along
- * an edge, the formula holds with its area. */
+/* In a flow u the force on the plate is (R / eps) u A, and it acts at the plate's centre. The formula also holds for a leaflet or
+ * for a strip along an edge, with the area of this part. */
 TEST(a_closed_plate_takes_the_drop) {
   for (int trial = 0; trial < trials_of(18); ++trial) {
     const double u[3] = {between(-1, 1), between(-1, 1), between(-2, 2)}, r = pow(10, between(-2, 4));
@@ -124,7 +124,7 @@ TEST(a_closed_plate_takes_the_drop) {
     const riis_resistance resistance = resistance_of(r);
     const riis_flow_arrays flow = flow_of(p.n, p.velocity, p.weight);
     sums got = {.all = {0}};
-    /* Edges across the plate at a = (k + 1/2) / 4 take strips of the width 1/4. */
+    /* Each edge across the plate at a = (k + 1/2) / 4 gets the force of a strip of the width 1/4. */
     double edges[8][2][3];
     for (int k = 0; k < 8; ++k)
       for (int end = 0; end < 2; ++end) place(&p.frame, 0.25 * (k + 0.5), end, 0, edges[k][end]);
@@ -159,9 +159,9 @@ TEST(a_closed_plate_takes_the_drop) {
   }
 }
 
-/* A plate of width w and length a turns about its hinge in a fluid at rest. The force is (R / eps) spin w a^2 / 2. The moment
- * about the hinge is (R / eps) spin w a^3 / 3, against the spin. The sum over cells gives the integral of a^2 times the factor
- * 1 - (h / 2a)^2. The power of the forces at the nodes must be the moment times the spin. */
+/* A plate of width w and length a turns about its hinge in a fluid at rest. In the frame, the force is (R / eps) spin w a^2 / 2.
+ * The moment about the hinge is (R / eps) spin w a^3 / 3, against the spin. The sum over cells is the integral of a^2, multiplied
+ * by 1 - (h / 2a)^2. The power of the forces at the nodes must be the moment times the spin. */
 TEST(a_hinged_plate_has_its_moment) {
   for (int trial = 0; trial < trials_of(18); ++trial) {
     static const double rest[3] = {0, 0, 0};
@@ -170,8 +170,8 @@ TEST(a_hinged_plate_has_its_moment) {
     const riis_resistance resistance = resistance_of(r);
     const riis_flow_arrays flow = flow_of(p.n, p.velocity, p.weight);
     sums got = {.all = {0}};
-    /* The edges are the quarters of the hinge, and each gets a strip along a. The moment of a strip about the middle of its
-     * edge is parallel to the hinge. */
+    /* The edges are the quarters of the hinge, and each gets the force of a strip along a. The moment of a strip about its edge's
+     * middle is parallel to the hinge. */
     double hinge[4][2][3];
     for (int k = 0; k < 4; ++k)
       for (int end = 0; end < 2; ++end) place(&p.frame, 0, 0.25 * (k + end), 0, hinge[k][end]);
@@ -205,13 +205,13 @@ TEST(a_hinged_plate_has_its_moment) {
   }
 }
 
-/* If two edges are equally far from a node, the first edge gets the whole force of the node. */
+/* If two edges are equally far from a node, the first edge gets the node's whole force. */
 TEST(the_first_of_equally_near_edges_gets_the_share) {
   static const double u[3] = {0, 0, 1}, about[3] = {0, 0, 0};
   const plate p = new_plate(0, u);
   const riis_resistance resistance = resistance_of(1);
   const riis_flow_arrays flow = flow_of(p.n, p.velocity, p.weight);
-  /* The same edge fifty times among edges that are far away. */
+  /* One edge occurs fifty times among edges that are far away. */
   double edges[50][2][3];
   for (int k = 0; k < 50; ++k)
     for (int end = 0; end < 2; ++end)
@@ -225,7 +225,7 @@ TEST(the_first_of_equally_near_edges_gets_the_share) {
 
 /* --- Any surface, any nodes ------------------------------------------------------------------------------------------ */
 
-/* Makes random edges near the surface. Some have no length, some occur twice, and some form chains with common ends. */
+/* Makes random edges near the surface. Some edges have no length, some occur twice, and some form chains with common ends. */
 static int64_t random_edges(const riis_surface *surface, double (*edges)[2][3]) {
   const riis_triangles triangles = triangles_of(surface);
   const int64_t n = 1 + any_of(random_bits(&rng) % 2 ? 20 : max_edges);
@@ -242,7 +242,7 @@ static int64_t random_edges(const riis_surface *surface, double (*edges)[2][3]) 
   return n;
 }
 
-/* Finds the nearest edge by a loop over all edges. Returns -1 if double precision cannot tell which edge is nearer. */
+/* Finds the nearest edge by a loop over all edges. Returns -1 if the distances are too close for double precision to decide. */
 static int64_t nearest_edge(int64_t n, const double (*edges)[2][3], const int32_t *leaflet_of, int32_t leaflet,
                             const double *p) {
   int64_t nearest = -1;
@@ -341,7 +341,7 @@ static void check_case(int kind, int32_t triangulation, int trial) {
     check_exact(of_edge + i, got->edge_force + 3 * i, got->edge_moment + 3 * i, before->edge_force + 3 * i,
                 before->edge_moment + 3 * i);
 
-  /* The bits of the sums must not depend on the number of threads, or on the other sums that the call adds. */
+  /* The bits of the sums must not depend on the number of threads, or on other sums in the same call. */
   memset(got, 0, sizeof *got);
   CHECK_OK(riis_marks_add_reaction(f.marks, &resistance, &flow, &reaction));
   static const int32_t threads[3] = {2, 3, 8};
@@ -368,8 +368,8 @@ static void check_case(int kind, int32_t triangulation, int trial) {
     assert_memory_equal(got, other, sizeof *got);
   }
 
-  /* The sums of leaflets, and the sums of edges, must add up to the sum of the whole. The sums of a leaflet's edges must add up
-   * to the sum of the leaflet. The error is at most 1e-12 of the sum of magnitudes. */
+  /* The sums of all leaflets must add up to the sum of the whole surface, and so must the sums of all edges. The sums of a
+   * leaflet's edges must add up to the sum of this leaflet. The error is at most 1e-12 of the sum of magnitudes. */
   const double tolerance = 1e-12 * (double)expected->size, of_moments = 1e-12 * (double)expected->arm;
   for (int c = 0; c < 3; ++c) {
     double force = 0, moment = 0, edge_force = 0, edge_moment = 0, of_first = 0;
@@ -419,9 +419,10 @@ TEST(sums_are_those_of_plain_loops) {
 
 /* --- Symmetric valves ------------------------------------------------------------------------------------------------ */
 
-/* A symmetric valve stands in a flow along its axis. After a turn about the axis, the force on one leaflet is the force on the
- * next leaflet. The same holds for moments. The axis is oblique to the rows of nodes. A node that is nearest to the line where
- * two closed leaflets touch belongs to the leaflet with the lower id. This makes a difference of up to 2.5 percent here. */
+/* A symmetric valve stands in a flow along its axis. A turn about the axis maps the force on one leaflet to the force on the next
+ * leaflet. The turn maps moments likewise. The axis is oblique to the rows of nodes. Two closed leaflets touch along a line. A
+ * node nearest to this line belongs to the leaflet with the lower id. The choice of this leaflet changes the forces by up to 2.5
+ * percent. */
 TEST(leaflets_of_symmetric_valves_share_alike) {
   const struct {
     const char *kind;
@@ -544,7 +545,7 @@ TEST(refusals_leave_the_sums) {
   CHECK_OK(riis_reaction_init(&bad, sizeof bad));
   REFUSED_BY(f.marks, RIIS_INVALID_ARGUMENT, "reaction has no sum to add to");
 
-  /* The forces of the whole surface and of leaflets do not need RIIS_FIELD_POINT. */
+  /* The forces on the whole surface and on leaflets do not need RIIS_FIELD_POINT. */
   riis_marks *bare = new_result();
   CHECK_OK(riis_mark_nodes(f.surface, mesh_from(&f.nodes), NULL, bare));
   bad = good;
@@ -556,7 +557,7 @@ TEST(refusals_leave_the_sums) {
   bad.moment = NULL, bad.n_edges = 0, bad.edges = NULL;
   CHECK_OK(riis_marks_add_reaction(bare, &resistance, &flow, &bad));
 
-  /* A rank whose nodes are all far from the surface must refuse the same input as the other ranks. */
+  /* A rank whose nodes are all far from the surface must also refuse wrong input. */
   const double far_away[3] = {1e3, 1e3, 1e3};
   riis_marks *empty_handed = marks_of(f.surface, 1, far_away, 1);
   const riis_flow_arrays of_one = flow_of(1, f.velocity, f.weight);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests resistance, reaction and band sums. Integrals over a grid are compared with the areas of discs, cylinders and
- * spheres, and sums with plain loops. Refusals leave the arrays as they were. */
+ * Tests resistance, reaction and band sums. Integrals over a grid are compared with the areas of discs, cylinders and spheres.
+ * Sums are compared with plain loops. Refusals leave the arrays as they were. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -21,7 +21,7 @@ static riis_resistance resistance_of(double r) {
   return resistance;
 }
 
-/* Returns K by the header's formula. */
+/* Returns K by the formula in the header. */
 static double coefficient_at(double r, double eps, double distance) {
   return distance < eps ? r / eps * (1 + cos(pi * distance / eps)) / (2 * eps) : 0;
 }
@@ -39,7 +39,7 @@ static void into_frame(double a, double b, double c, double *p) {
 static void disc(double s, double t, double *p) {
   into_frame(disc_radius * t * cos(2 * pi * s), disc_radius * t * sin(2 * pi * s), 0, p);
 }
-/* A cylinder. Its angle is slightly wider than half a radian. */
+/* A cylinder. The cylinder's angle is slightly wider than half a radian. */
 static void cylinder(double s, double t, double *p) {
   const double angle = 0.9 * (s - 0.5);
   into_frame(cylinder_radius * cos(angle), cylinder_radius * sin(angle), 0.7 * t, p);
@@ -51,8 +51,8 @@ static void cap(double s, double t, double *p) {
              sphere_radius * cos(polar), p);
 }
 
-/* Makes a frame whose axes are far from the grid's directions. Otherwise an edge of the band would move past a whole row of
- * nodes at once. */
+/* Makes a frame whose axes are far from the grid's directions. Along a direction of the grid, an edge of the band would move past
+ * a whole row of nodes at once. */
 static void random_frame(void) {
   const double a = between(0.3, 0.6), b = between(0.3, 0.6);
   const double ca = cos(a), sa = sin(a), cb = cos(b), sb = sin(b);
@@ -66,7 +66,7 @@ static riis_surface *surface_of(shape at, int n, int m, double half_thickness) {
   int32_t *ids = own(malloc((size_t)(n * m) * 4 * sizeof *ids));
   for (int j = 0; j <= m; ++j)
     for (int i = 0; i <= n; ++i) at((double)i / n, (double)j / m, xyz + 3 * (j * (n + 1) + i));
-  /* The two ends of a closed shape coincide to the last bit. */
+  /* In a closed shape, the two ends coincide to the last bit. */
   for (int j = 0; j <= m; ++j)
     if (at != cylinder) memcpy(xyz + 3 * (j * (n + 1) + n), xyz + 3 * j * (n + 1), 3 * sizeof *xyz);
   for (int i = 1; i <= n; ++i)
@@ -109,9 +109,9 @@ static double integral_of(const riis_surface *surface, const riis_resistance *re
   return sum * volume;
 }
 
-/* Without the rim, the integral of K is the area times R / eps. This is exact for a plane. It is also exact for a cylinder,
- * because the excess outside balances the deficit inside. For a sphere there is an additional factor 1 + c eps^2 / r^2. Here c
- * = 1/3 - 2/pi^2 is the integral of x^2 (1 + cos pi x) from 0 to 1. */
+/* Without the rim, the integral of K is the area times R / eps. The formula is exact for a plane. The formula is also exact for a
+ * cylinder, because the excess outside balances the deficit inside. For a sphere, the integral has an additional factor 1 + c
+ * eps^2 / r^2. The constant c = 1/3 - 2/pi^2 is the integral of x^2 (1 + cos pi x) from 0 to 1. */
 TEST(the_integral_is_the_area) {
   const double c = 1.0 / 3 - 2 / (pi * pi);
   CHECK_NEAR(c, 0.1307, 1e-4);
@@ -182,8 +182,8 @@ static riis_mark_list fields_of(const flow *f) {
   return fields;
 }
 
-/* Compares K, K times the surface's velocity, and the force with a plain loop over all nodes, whatever fields the marking
- * keeps. */
+/* Compares three results with a plain loop over all nodes: K, K times the surface's velocity, and the force. The marking keeps
+ * any fields. */
 TEST(sums_are_those_of_plain_loops) {
   for (int trial = 0; trial < trials_of(36); ++trial) {
     const int owned_before = n_owned();
@@ -227,7 +227,7 @@ TEST(sums_are_those_of_plain_loops) {
     CHECK_OK(add_reaction_to(f.result, &resistance, n, f.velocity, f.weight, force));
     for (int c = 0; c < 3; ++c) CHECK_NEAR(force[c], expected_force[c], 1e-12 * (1 + scale));
 
-    /* The calls may add K alone, K u alone, or neither. */
+    /* A call may add K alone, K u alone, or nothing. */
     double *alone = own(calloc((size_t)n * 3, sizeof *alone)), *both = own(calloc((size_t)n * 4, sizeof *both));
     CHECK_OK(add_resistance_to(f.result, &resistance, n, NULL, NULL));
     CHECK_OK(add_resistance_to(f.result, &resistance, n, both, moves ? both + n : NULL));
@@ -246,8 +246,8 @@ TEST(sums_are_those_of_plain_loops) {
   }
 }
 
-/* The result's lists and the arrays have the same K and K u, to the last bit. Arrays by component and arrays with gaps get
- * the same bits. Both lists contain K and K u, and the marking does not need the field of velocities for this. */
+/* The result's lists and the arrays have the same K and K u, to the last bit. Arrays by component and arrays with gaps get the
+ * same bits. The marking does not need the field of velocities for K u. */
 TEST(lists_and_layouts_have_the_same_bits) {
   for (int trial = 0; trial < trials_of(36); ++trial) {
     const int owned_before = n_owned();
@@ -284,7 +284,7 @@ TEST(lists_and_layouts_have_the_same_bits) {
           CHECK_SAME(list.K_u_surface[3 * j + c] + 0.0, momentum[3 * list.node_id[j] + c] + 0.0);
       }
     }
-    /* K is every fifth number of its array. Each component of K u has its own block, with a stride of two. */
+    /* K fills every fifth number of its array. Each component of K u has a separate block, with a stride of two. */
     double *gaps = own(calloc((size_t)n * 11, sizeof *gaps));
     riis_resistance_arrays arrays;
     CHECK_OK(riis_resistance_arrays_init(&arrays, sizeof arrays));
@@ -306,7 +306,7 @@ TEST(lists_and_layouts_have_the_same_bits) {
   }
 }
 
-/* The force on the surface is the momentum that the flow loses. Ranks that share the nodes add their parts. */
+/* The force on the surface is the momentum that the flow loses. The sums of ranks that share the nodes add up. */
 TEST(ranks_add_up) {
   for (int trial = 0; trial < trials_of(24); ++trial) {
     const int owned_before = n_owned();
@@ -384,7 +384,7 @@ TEST(band_sums_are_those_of_a_plain_loop) {
     const riis_mark_list fields = fields_of(&f);
     for (int i = 0; i < 5; ++i) {
       double inner = i ? between(0, 0.25) : 0, outer = i > 1 ? between(inner, 0.25) : 0.25;
-      /* A band from a distance to the same distance contains a node at exactly this distance. */
+      /* A band whose inner and outer distance are equal contains a node at exactly this distance. */
       if (i == 4) inner = outer = within.distance[random_bits(&rng) % (uint64_t)within.n];
       riis_band_sums expected = {{0, 0}, {0, 0}, {0, 0}}, sums;
       double scale = 0;
@@ -413,7 +413,7 @@ TEST(band_sums_are_those_of_a_plain_loop) {
   CHECK_MET(n_rim > 100);
 }
 
-/* The pressure jumps across the surface. The mean on each side is the pressure there. */
+/* The pressure jumps across the surface. On each side, the mean of the nodes is the pressure of this side. */
 TEST(a_jump_of_pressure_is_measured) {
   random_frame();
   riis_surface *surface = surface_of(disc, 100, 10, 0.1);
@@ -433,7 +433,7 @@ TEST(a_jump_of_pressure_is_measured) {
   }
   riis_band_sums sums;
   CHECK_OK(band_sums_of(result, 0.1, 0.2, nodes.n, pressure, weight, &sums, sizeof sums));
-  /* The disc's orientation is random: its normals are along the frame's third axis or opposite to it. */
+  /* The disc's orientation is random: its normals point along the frame's third axis or against it. */
   const double mean[2] = {sums.sum[0] / sums.weight[0], sums.sum[1] / sums.weight[1]};
   const int turned = mean[0] < mean[1];
   CHECK_NEAR(mean[turned], 12, 1e-12);
@@ -532,7 +532,7 @@ TEST(refusals_leave_the_arrays) {
                 riis_marks_add_resistance(f.result, &resistance, &arrays));
   UNCHANGED();
 
-  /* Calls are refused if the marks lack a field that they need. */
+  /* A call is refused if the marks lack a field that it needs. */
   const char *lacks = "options.fields = 0";
   resistance.rim = RIIS_RIM_CUT;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "RIIS_RIM_CUT needs RIIS_FIELD_RIM|options.fields = 0",

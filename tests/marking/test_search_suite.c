@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The neighbour search is compared with the exhaustive search bit by bit. Some of the nodes are also compared with brute force
- * in extended precision. Meshes, surfaces, placements, half thicknesses, limits, masks and threads are random.
- * RIIS_TEST_LONG=1 continues until ten million pairs of a node and a surface have been compared with brute force. */
+ * Compares the neighbour search with the exhaustive search bit by bit. Some nodes are also compared with brute force in extended
+ * precision. Meshes, surfaces, placements, half thicknesses, limits, masks and threads are random. RIIS_TEST_LONG=1 continues
+ * until brute force has checked ten million pairs of a node and a surface. */
 #include <riis/riis.h>
 
 #include "oracle.h"
@@ -14,8 +14,8 @@
 
 /* --- Brute force ------------------------------------------------------------------------------------------------------ */
 
-/* Triangles are grouped into blocks with bounding boxes. A block or triangle is skipped if its box is farther, by more than
- * any rounding, than the closest triangle so far. The distance of every other triangle is computed in extended precision. */
+/* Triangles are grouped into blocks with bounding boxes. A block or a triangle is skipped if its box is farther than the closest
+ * triangle so far, by more than any rounding. The distance of every other triangle is computed in extended precision. */
 enum { per_block = 16 };
 typedef struct brute_force {
   int64_t n;
@@ -64,7 +64,7 @@ static double to_box_sq(const double *p, const double *box) {
   return sum;
 }
 
-/* Returns the distance to the closest triangle if it is at most `reach`, otherwise any number above `reach`. */
+/* Returns the distance to the closest triangle if it is at most `reach`. Otherwise returns any number above `reach`. */
 static long double brute_force_distance(const brute_force *b, const double *p, double reach) {
   long double least = INFINITY;
   double least_sq = reach * reach * (1 + 1e-9);
@@ -110,7 +110,7 @@ static void place(const placement *p, test_mesh *mesh) {
   }
 }
 
-/* A valve, or triangles, from which surfaces can be made again at other positions. */
+/* A valve or triangles, from which surfaces at other positions can be made. */
 typedef struct shape {
   riis_valve *valve; /* or NULL */
   int is_mitral;
@@ -135,7 +135,7 @@ static shape random_shape(void) {
   return s;
 }
 
-/* Makes the surface, or updates it a step later. */
+/* Makes the surface, or updates it to a later step. */
 static void update_surface(riis_surface **surface, shape *s, const riis_surface_options *options) {
   if (s->valve) {
     s->opening += s->step;
@@ -212,7 +212,7 @@ static void compare_with_brute_force(const riis_surface *surface, const test_mes
   free_owned_after(owned_before);
 }
 
-/* Checks that clusters with every instruction set give the exhaustive search's result, bit by bit. */
+/* Checks that the search over clusters gives the exhaustive search's result bit by bit, with every instruction set. */
 static void compare_clusters(const riis_surface *surface, const riis_mesh *mesh, const riis_mark_options *asked,
                              const riis_marks *exhaustive, riis_marks *clustered) {
   riis_mark_options options = *asked;
@@ -240,7 +240,7 @@ static void one_case(int kind, int64_t n_nodes, int64_t n_compared) {
   shape s = random_shape();
   riis_surface *surface = NULL;
   update_surface(&surface, &s, NULL);
-  /* The box is around the surface, or the surface extends beyond the box. */
+  /* The box contains the surface, or the surface extends beyond the box. */
   riis_surface_info info = info_of(surface);
   double lower[3], upper[3], spacing;
   for (int c = 0; c < 3; ++c) {
@@ -305,7 +305,7 @@ static void one_case(int kind, int64_t n_nodes, int64_t n_compared) {
   free_owned_after(owned_before);
 }
 
-/* Brute force with boxes gives the same distances as a plain loop. */
+/* Brute force with boxes must give the distances of a plain loop. */
 TEST(boxes_leave_nothing_out) {
   for (int trial = 0; trial < trials_of(36); ++trial) {
     const int owned_before = n_owned();

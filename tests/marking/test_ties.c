@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests velocities of nodes that are equally near to several leaflets, or to several patches of one leaflet. Such a node
- * gets the mean velocity that a loop over all triangles gives, with the same bits from any search. The sums of K and K u
- * over symmetric meshes stay the same if the mesh moves by a rounding error or is split into parts. Nodes without ties have
- * the velocity of their closest triangle. */
+ * Tests velocities of nodes that are equally near to several leaflets, or to several patches of one leaflet. A node with such a
+ * tie gets the mean velocity that a loop over all triangles gives. Every search gives the same bits. If a symmetric mesh is moved
+ * by a rounding error or split into parts, the sums of K and K u stay the same. Nodes without ties have the velocity of their
+ * closest triangle. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -45,7 +45,7 @@ static void place(int64_t n, double *xyz, double degrees, const double *offset) 
   }
 }
 
-/* Returns the centres of cells around a surface. Some of them lie in the planes of symmetry x = 0 and y = 0. */
+/* Returns the centres of cells around a surface. Some centres lie in the planes of symmetry x = 0 and y = 0. */
 static test_mesh symmetric_cells(const riis_surface *surface, double spacing) {
   const riis_surface_info info = info_of(surface);
   const double margin = 1.5 * info.half_thickness;
@@ -59,7 +59,7 @@ static test_mesh symmetric_cells(const riis_surface *surface, double spacing) {
   lower[2] = info.lower[2] - margin, upper[2] = info.upper[2] + margin;
   counts[2] = 1 + (int64_t)ceil((upper[2] - lower[2]) / spacing);
   test_mesh mesh = lattice(counts, lower, upper);
-  /* The lattice's own coordinates are rounded with a bias, so they are symmetrized. */
+  /* The lattice's coordinates are rounded with a bias, so they are made symmetric. */
   for (int64_t i = 0; i < mesh.n; ++i) {
     mesh.xyz[3 * i] = spacing * (double)(i % counts[0] - counts[0] / 2);
     mesh.xyz[3 * i + 1] = spacing * (double)(i / counts[0] % counts[1] - counts[1] / 2);
@@ -107,8 +107,8 @@ static void check_velocities(const riis_surface *surface, const test_mesh *mesh,
   }
 }
 
-/* Checks that other searches, threads and instructions give the same bits, and that a marking without velocity gives the same
- * bits in all other arrays. */
+/* Checks that other searches, threads and instructions give the same bits. A marking without velocities must give the same bits
+ * in all other arrays. */
 static void check_searches(const riis_surface *surface, const test_mesh *from, const riis_marks *expected) {
   static const int32_t searches[] = {RIIS_SEARCH_EXHAUSTIVE, RIIS_SEARCH_NEIGHBOR, RIIS_SEARCH_CLUSTERS};
   const int64_t n = within_in(expected).n;
@@ -137,7 +137,7 @@ static void check_searches(const riis_surface *surface, const test_mesh *from, c
   assert_memory_equal(a.barycentric, b.barycentric, (size_t)n * 24);
   assert_memory_equal(a.side, b.side, (size_t)n * 4);
   assert_memory_equal(b.velocity, fields.velocity, (size_t)n * 24);
-  /* The same holds at every distance. */
+  /* Ties are also right at every other distance. */
   riis_marks *all[2];
   for (int k = 0; k < 2; ++k) {
     riis_mark_options options = mark_options();
@@ -176,7 +176,7 @@ TEST(valves_have_the_means_of_their_leaflets) {
   CHECK_MET((double)all.unclear <= 0.02 * (double)all.nodes);
 }
 
-/* Random triangles occur three times, with permuted coordinates. Nodes on the diagonal are equally far from all three. */
+/* Random triangles occur three times, with permuted coordinates. A node on the diagonal is equally far from the three copies. */
 TEST(three_leaflets_of_arrays_count_alike) {
   tie_counts all = {0, 0, 0, 0, 0};
   for (int trial = 0; trial < trials_of(90); ++trial) {
@@ -224,7 +224,7 @@ typedef struct term {
   double *k, *ku; /* k: (n), ku: (3, n) */
 } term;
 
-/* Computes K and K u of the whole mesh, which is marked in parts with separate coordinates. Each node is moved by `shift`
+/* Computes K and K u of the whole mesh. The mesh is marked in parts that have separate coordinates. Each node is moved by `shift`
  * along each axis. */
 static term term_of(const riis_surface *surface, const test_mesh *mesh, int n_parts, double shift) {
   const size_t n = (size_t)mesh->n;
@@ -303,7 +303,7 @@ TEST(reaction_takes_the_means) {
 
 /* --- Nodes without ties ---------------------------------------------------------------------------------------------- */
 
-/* If the same triangles form one leaflet from arrays, there are no ties. Each node has the velocity of its closest triangle. */
+/* The same triangles from arrays form one leaflet, so they have no ties. Each node has the velocity of its closest triangle. */
 TEST(other_nodes_have_the_closest_triangle_s) {
   int64_t n_single = 0, n_other = 0;
   for (int trial = 0; trial < trials_of(6 * n_kinds); ++trial) {
@@ -340,7 +340,7 @@ TEST(other_nodes_have_the_closest_triangle_s) {
   CHECK_MET(n_single > 1000 && n_other > 10);
 }
 
-/* The sheets are z = 0 and z = 2. A node is nearer to one of them by a given fraction of the half thickness. */
+/* The sheets are z = 0 and z = 2. A node is nearer to one sheet by a given fraction of the half thickness. */
 TEST(ties_end_at_a_millionth) {
   static const struct {
     double nearer;

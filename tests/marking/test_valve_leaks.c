@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests leaks, the edges that cross the surface between unmarked nodes. For valves they are compared with a loop in
- * extended precision. For plates they are known. */
+ * Tests leaks, which are edges that cross the surface between unmarked nodes. The leaks of valves are compared with a loop in
+ * extended precision. The leaks of plates are known. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -15,7 +15,7 @@ static random_source rng;
 /* --- Valves ------------------------------------------------------------------------------------------------------------ */
 
 /* Returns how deep inside the triangle the segment passes, as a fraction of the triangle's size. The result is negative if the
- * segment passes outside. */
+ * segment passes outside the triangle. */
 static long double depth_in(const double *a, const double *b, const double *const *corner) {
   long double e1[3], e2[3], along[3], from[3], p[3], q[3], det = 0, t = 0, u = 0, v = 0;
   for (int i = 0; i < 3; ++i) {
@@ -111,7 +111,7 @@ TEST(valves_leak_where_the_loop_says) {
   for (int i = 0; i < 3; ++i) CHECK_MET(n_leaking[i] > 0);
 }
 
-/* Edges of at most two half thicknesses cannot leak, even if a plane halves an edge of exactly that length. */
+/* Edges of at most two half thicknesses cannot leak, even if a plane halves such an edge. */
 TEST(short_edges_do_not_leak) {
   for (int trial = 0; trial < 4; ++trial) {
     const int owned_before = n_owned();
@@ -137,7 +137,7 @@ static riis_surface *two_plates(void) {
   return surface_from(&arrays, &options);
 }
 
-/* Makes a column of nodes along z, each joined to the next. */
+/* Makes a column of nodes along z. Each node is joined to the next node. */
 static test_mesh column_of_nodes(int64_t n, double from, double step) {
   const int64_t counts[3] = {1, 1, n};
   const double lower[3] = {0, 0, from}, upper[3] = {0, 0, from + step * (double)(n - 1)};
@@ -156,7 +156,7 @@ TEST(what_the_papers_search_misses_leaks) {
   options.search = RIIS_SEARCH_PAPER;
   CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
   const leak_list list = leaks_of(surface, mesh, &options, result);
-  /* If a node is on the plate, two edges touch the plate there. */
+  /* If a node lies on the plate, two edges touch the plate there. */
   assert_true(list.sum.n_edges == 1 || list.sum.n_edges == 2);
   CHECK_NEAR(list.sum.longest_middle[2], 10, 0.06);
 }
@@ -225,7 +225,7 @@ TEST(what_makes_no_sense_is_refused) {
   options.n_threads = -1;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "options.n_threads is -1",
                 find_leaks_in(surface, mesh, result, &options, &leaks));
-  /* After a refused call, the edges of the last call are still in the same memory. */
+  /* After a refused call, the edges of the last good call are still in the same memory. */
   riis_leaks *found = NULL;
   riis_leak_list before, after;
   CHECK_OK(riis_leaks_create(&found));

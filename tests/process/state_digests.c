@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0
- * state_digests [THREADS [INSTRUCTIONS]] prints a digest for each of 60 states of valves, one for each of 36 placements, and a
- * last one of them all. A state's digest covers triangles, marks, fields, K, velocities, derivatives, the orifice and the
- * reaction. The valves have all kinds, both triangulations, angles, warps, skirts, bumps and placements. A placement's digest
- * covers the sizes and the rotation that riis_place finds for landmarks, and the placed triangles. Equal lines of two runs mean
- * equal bits. This program takes sums, products, quotients and roots only, so it does not depend on the C library itself.
+ * state_digests [THREADS [INSTRUCTIONS]] prints a digest for each of 60 states of valves, one for each of 36 placements, and one
+ * of all of them. A state's digest covers triangles, marks, fields, K, velocities, derivatives, the orifice and the reaction. The
+ * valves have all kinds, both triangulations, angles, warps, skirts, bumps and placements. A placement's digest covers the sizes
+ * and the rotation that riis_place finds for landmarks, and the placed triangles. Equal lines of two runs mean equal bits. This
+ * program uses only sums, products, quotients and roots, so it does not depend on the C library.
  *
- * state_digests cosine prints a digest of the C library's own cosine. */
+ * state_digests cosine prints a digest of the C library's cosine. */
 #include <inttypes.h>
 #include <math.h>
 #include <riis/riis.h>
@@ -73,7 +73,7 @@ static void add_triangles(const riis_surface *surface) {
   add(triangles.vertex_id, 3 * triangles.n_triangles * (int64_t)sizeof *triangles.vertex_id);
 }
 
-/* Puts the nodes into the box around the surface, a little off a grid. */
+/* Puts the nodes into the box around the surface, slightly off a grid. */
 static void put_nodes(const riis_surface *surface, double *xyz) {
   riis_triangles triangles;
   CHECK(riis_surface_get_triangles(surface, &triangles, sizeof triangles));
@@ -196,7 +196,7 @@ static void add_state(int state, int32_t n_threads, int32_t instructions) {
   riis_valve_destroy(&now);
 }
 
-/* Landmarks of a patient, first in the valve's frame in centimetres. */
+/* Makes landmarks of a patient, in the valve's frame and in centimetres. */
 enum { most_landmarks = 24, n_placements = 4 * n_kinds };
 typedef struct patient {
   int n;
@@ -211,7 +211,7 @@ static void add_landmark(patient *p, int32_t role, double x, double y, double z,
   ++p->n;
 }
 
-/* Adds the nadirs of cusps, and the commissures between them. Cosine and sine are those of half a cusp's sector. */
+/* Adds the nadirs of cusps, and the commissures between them. `cosine` and `sine` belong to half the angle of a cusp's sector. */
 static void add_cusps(patient *p, int n_cusps, double cosine, double sine) {
   double x = 1, y = 0;
   for (int i = 0; i < 2 * n_cusps; ++i) {
@@ -225,7 +225,7 @@ static void add_cusps(patient *p, int n_cusps, double cosine, double sine) {
   }
 }
 
-/* Adds twelve points of an annulus, some of them with roles of their own. */
+/* Adds twelve points of an annulus. Some of these points have roles. */
 static void add_annulus(patient *p, const char *kind) {
   const int is_tricuspid = strcmp(kind, "tricuspid") == 0, is_rigid = strcmp(kind, "bileaflet") == 0;
   const double half_root = 0.8660254037844386, wide = is_rigid ? 1.2 : 1.9, deep = is_rigid ? 1.2 : 1.5;
@@ -243,7 +243,7 @@ static void add_annulus(patient *p, const char *kind) {
   if (is_rigid) add_landmark(p, RIIS_LANDMARK_HINGE, 0.15, -1.1, 0, -1, -1);
 }
 
-/* Turns and moves the landmarks, and scatters each by a millimetre. The flow is the turned z axis. */
+/* Turns and moves the landmarks, and shifts each at random by a millimetre. The flow is the turned z axis. */
 static void put_into_patient(patient *p, double *flow) {
   double q[4], norm = 0;
   for (int i = 0; i < 4; ++i) q[i] = between(-1, 1), norm += q[i] * q[i];

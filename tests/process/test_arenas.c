@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Walks along an adjacency run in TBB arenas. An arena is kept for later walks, and is lent to one walk at a time. */
+ * Walks along an adjacency run in TBB arenas. An arena is kept for later walks, and serves one walk at a time. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -42,7 +42,7 @@ TEST_WITH(each_number_of_threads_has_one, keep, let_go) {
 TEST_WITH(callers_at_once_have_one_each, keep, let_go) {
   assert_true(walk_at_once(2, 1));
   assert_int_equal(arenas_made(), 2);
-  /* Arenas of two threads exist for all five callers at the same time. At most five arenas of three threads exist. */
+  /* Five callers at the same time need an arena of two threads each. At most five arenas of three threads exist. */
   assert_true(walk_at_once(5, 200));
   assert_in_range(arenas_made(), 6, 10);
 }
@@ -102,7 +102,8 @@ TEST_WITH(a_child_of_fork_walks_alone_and_ends, keep, let_go) {
   assert_int_equal(arenas_made(), 1);
 }
 
-/* This handler was registered first, so it runs last. A caller's static object may start a walk in its destructor. */
+/* This handler was registered first, so it runs last. The handler stands for the destructor of a caller's static object, which
+ * may start a walk. */
 static pid_t process;
 static void walk_at_exit(void) {
   if (getpid() != process) return; /* a forked child also comes here */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests the handles, exceptions, structs and spans of riis.hpp through C wrappers. The sanitized build finds leaks of memory. */
+ * Tests the handles, exceptions, structs and spans of riis.hpp through C wrappers. The build with a sanitizer finds leaks of
+ * memory. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -8,7 +9,7 @@
 #include "handles.h"
 #include "searches.h"
 
-/* The ten-line example in the header's comment gives the same marks as C. */
+/* The example of ten lines in the header's comment gives the same marks as C. */
 TEST(marks_are_those_of_c) {
   riis_valve *valve = new_valve("mitral");
   riis_surface_options options = surface_options();

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Results do not depend on the caller's environment, and the library does not change it: floating-point traps, rounding,
- * flush-to-zero, OpenMP settings, parallel regions, errors and logs of several threads, standard output and error. */
+ * Results do not depend on the caller's environment, and the library does not change this environment. The cases are
+ * floating-point traps, rounding, flush-to-zero, OpenMP settings, parallel regions, errors and logs of several threads, and
+ * standard output and error. */
 #ifndef _GNU_SOURCE
 #define _GNU_SOURCE /* for feenableexcept */
 #endif
@@ -48,7 +49,7 @@ static uint64_t digest_of_a_step(int threads) {
 static uint64_t expected;
 
 TEST(traps_do_not_fire_and_stay) {
-  if (feenableexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW) == -1) skip(); /* most processors of ARM have no traps */
+  if (feenableexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW) == -1) skip(); /* most ARM processors have no traps */
   const uint64_t got = digest_of_a_step(2);
   const int traps = fegetexcept();
   fedisableexcept(FE_ALL_EXCEPT);
@@ -102,7 +103,7 @@ TEST(openmp_settings_stay) {
   assert_int_equal(chunk, 7);
 }
 
-/* Each of the caller's threads marks on its own. All read one surface and one mesh. */
+/* Each of the caller's threads marks separately. All threads read one surface and one mesh. */
 TEST(works_inside_a_parallel_region) {
   int n_wrong = 0;
 #pragma omp parallel for num_threads(3) reduction(+ : n_wrong)
@@ -119,7 +120,7 @@ TEST(works_inside_a_parallel_region) {
     if (riis_marks_create(&result) == RIIS_OK && riis_mark_nodes(surface, mesh, NULL, result) == RIIS_OK)
       counts[i] = marked_list(result).n_nodes;
     riis_marks_destroy(&result);
-    /* In any thread, the first query with a side makes the data that sides need. */
+    /* The first query with a side makes the data for sides, whatever its thread. */
     riis_closest closest;
     if (riis_closest_point(surface, nodes + 3 * i, &closest, sizeof closest) != RIIS_OK) counts[i] = -2;
   }
@@ -141,7 +142,7 @@ TEST(errors_belong_to_their_thread) {
     snprintf(part, sizeof part, "n_nodes is %d;", -1 - t);
     assert_non_null(strstr(texts[t], part));
   }
-  /* A call that succeeds does not change the message. */
+  /* A successful call does not change the message. */
   riis_valve *valve = NULL;
   assert_true(riis_valve_create("none", &valve) != RIIS_OK);
   valve = new_valve("aortic");
@@ -168,7 +169,7 @@ TEST(log_goes_to_the_callers_function_only) {
   assert_string_equal(line, "");
 }
 
-/* A step and a refusal run while both standard streams are redirected to a file, which must stay empty. */
+/* Both standard streams are redirected to a file during a step and a refusal. The file must stay empty. */
 TEST(nothing_is_printed) {
   FILE *file = tmpfile();
   assert_non_null(file);

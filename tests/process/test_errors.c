@@ -119,7 +119,7 @@ TEST(null_arguments_are_named) {
   NULL_IS_NAMED("surface", find_passage_between(NULL, mesh, NULL, 1, &n, 1, &n, NULL, 56));
   NULL_IS_NAMED("mesh", find_passage_between(surface, NULL, NULL, 1, &n, 1, &n, NULL, 56));
   NULL_IS_NAMED("passage", find_passage_between(surface, mesh, NULL, 1, &n, 1, &n, NULL, 56));
-  /* Destroy functions accept NULL, a NULL handle, and a handle, which becomes NULL. */
+  /* A destroy function accepts NULL, a NULL handle, and a handle, which becomes NULL. */
   riis_valve_destroy(NULL);
   riis_surface_destroy(NULL);
   riis_mesh_destroy(NULL);
@@ -133,7 +133,7 @@ TEST(null_arguments_are_named) {
   }
 }
 
-/* All handles have one type in Fortran, so a program with swapped handles compiles. */
+/* In Fortran all handles have one type, so a program with swapped handles compiles. */
 TEST(swapped_handles_are_refused) {
   riis_valve *valve = NULL;
   riis_surface *surface = NULL;
@@ -207,12 +207,12 @@ TEST(parameters_are_refused_by_name) {
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'nothing'", riis_valve_get(valve, "nothing", 1, values));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "parameter_id is -1|0 to 43", riis_valve_get_parameter(valve, -1, NULL, 72));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "parameter_id is 44", riis_valve_get_parameter(valve, 44, NULL, 72));
-  /* No refused call changed the valve. */
+  /* The refused calls have not changed the valve. */
   CHECK_OK(riis_valve_get(valve, "root_radius", 1, values));
   CHECK_SAME(values[0], 1.29);
   CHECK_OK(riis_valve_get(valve, "right.translation", 3, values));
   CHECK_SAME(values[2], -1.0);
-  /* A name longer than any message. */
+  /* This name is longer than any message. */
   char long_name[5000];
   memset(long_name, 'x', sizeof long_name - 1);
   long_name[sizeof long_name - 1] = 0;
@@ -258,7 +258,7 @@ TEST(surface_options_are_refused_by_name) {
   options = surface_options();
   options.tolerance = 1e-6;
   CHECK_REFUSED(RIIS_LIMIT_EXCEEDED, "16777216 triangles|tolerance", riis_surface_create(valve, &options, &surface));
-  options.half_thickness = 1e-50; /* each value is in range, but the combination makes no sense */
+  options.half_thickness = 1e-50; /* each value is in range, but together they make no sense */
   CHECK_REFUSED(RIIS_LIMIT_EXCEEDED, "tolerance", riis_surface_create(valve, &options, &surface));
 }
 
@@ -299,7 +299,7 @@ TEST(surface_arrays_are_refused_by_name) {
   bad[11] = 1e61;
   ARRAYS_ARE_REFUSED(RIIS_INVALID_SURFACE, (arrays.x = bad, arrays.y = bad + 1, arrays.z = bad + 2),
                      "z of vertex 3 is 1e+61");
-  /* The coordinate is in range before the surface is placed, and out of range afterwards. */
+  /* The coordinate is in range until the surface is placed, and then out of range. */
   bad[11] = 1e59;
   riis_surface_options options = surface_options();
   options.scale = 100;
@@ -381,7 +381,7 @@ TEST(marking_options_are_refused_by_name) {
   MARK_OPTION_IS_REFUSED(n_threads, 4096, "n_threads is 4096");
 }
 
-/* A caller with an older header passes a smaller struct, and only its fields are exchanged. A caller with a newer header is
+/* A caller with an older header passes a smaller struct, and the call uses only its fields. A caller with a newer header is
  * refused. */
 TEST(struct_sizes_are_checked) {
   riis_surface_options options;
@@ -391,10 +391,10 @@ TEST(struct_sizes_are_checked) {
   snprintf(parts, sizeof parts, "options is 136|riis %s ", riis_version_string());
   CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, parts, riis_surface_options_init(&options, 136));
   assert_int_equal(options.zero_area, 0x5a5a5a5a);    /* a field that the caller's struct lacks is untouched */
-  CHECK_OK(riis_surface_options_init(&options, 120)); /* a caller that was compiled before the offset */
+  CHECK_OK(riis_surface_options_init(&options, 120)); /* a caller that was compiled before the offset existed */
   double offset;
   memcpy(&offset, &options.offset, sizeof offset);
-  assert_true(offset > 1); /* 0x5a5a...: untouched, and never read, because struct_size is 120 */
+  assert_true(offset > 1); /* untouched (0x5a5a...) and never read, because struct_size is 120 */
   riis_surface *old = aortic_surface(&options);
   assert_true(info_of(old).offset == 0);
   riis_surface *surface = NULL;

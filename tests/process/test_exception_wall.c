@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests failures inside the library that a caller cannot provoke. Exceptions become a status and a message. If memory
- * runs out, everything stays as it was. */
+ * Tests failures inside the library that a caller cannot cause. Exceptions become a status and a message. If memory runs out, all
+ * objects stay as they were. */
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -14,8 +14,8 @@
 
 enum { limit_is_ignored = 77 };
 
-/* Returns whether a child process can have more address space than its limit, which it has set. Emulators ignore the limit,
- * because they need memory themselves. */
+/* Returns whether a child process can exceed its limit of address space. Emulators ignore the limit, because they need memory
+ * themselves. */
 static int exceeds_limit(const struct rlimit *limit) {
   const size_t size = (size_t)limit->rlim_cur;
   void *memory = mmap(NULL, size, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
@@ -24,7 +24,7 @@ static int exceeds_limit(const struct rlimit *limit) {
   return 1;
 }
 
-/* Updates a surface in a child process with little address space left. An update that needs much more is refused, and the
+/* Updates a surface in a child process with little address space left. An update that needs much more space is refused, and the
  * surface stays as it was. Returns 0 if this holds. */
 static int update_without_memory(void) {
   riis_valve *valve = NULL;
@@ -59,8 +59,8 @@ static int update_without_memory(void) {
   return 0;
 }
 
-/* A check that also runs in a child process. The valve has many patches, and the first patch already has too many quads. The
- * library makes the curves of a few patches before it counts the quads. It must not make all curves, which would take a gigabyte.
+/* This check also runs in a child process. The valve has many patches, and the first patch already has too many quads. The
+ * library makes the curves of a few patches before it counts the quads. If it made all curves, this would take a gigabyte.
  * Returns 0 if this holds. */
 static int refusal_with_little_memory(void) {
   enum { n_patches = 200, n_curves = 4 * n_patches };
@@ -113,7 +113,7 @@ static void check_in_child(int (*returns_0)(void)) {
   assert_int_equal(WEXITSTATUS(status), 0);
 }
 
-/* The test that forks must be first, because OpenMP does not survive a fork after it has started threads. */
+/* The test that forks must be first, because OpenMP cannot survive a fork after it has started threads. */
 TEST(memory_that_runs_out_changes_nothing) { check_in_child(update_without_memory); }
 
 TEST(what_is_too_much_is_not_made) { check_in_child(refusal_with_little_memory); }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * A process may be forked while another thread is inside the library. In the child, the memory pools and locks are free.
- * This child makes no surface, because TBB would wait for threads that the child lacks. If the parent used several threads,
- * the library runs on one thread in the child. One is the default, and a request for more threads is refused. */
+ * A process may be forked while another thread is inside the library. In the child, the memory pools and locks are free. The
+ * child here makes no surface, because TBB would wait for threads that the child lacks. If the parent used several threads, the
+ * library runs on one thread in the child. The default is then one thread, and a request for more threads is refused. */
 #ifndef _GNU_SOURCE
 #define _GNU_SOURCE /* for fork */
 #endif
@@ -44,7 +44,7 @@ static void *go_on_stepping(void *status_of_thread) {
   return NULL;
 }
 
-/* Marks keep TBB's arenas, and riis_set_log sets the log. Both take a lock for a moment. */
+/* Marks keep TBB's arenas, and riis_set_log sets the log. Each takes a lock for a moment. */
 static riis_status take_locks(void) {
   riis_marks *marks = NULL;
   const riis_status status = riis_marks_create(&marks);
@@ -70,8 +70,8 @@ static riis_status copy_often(const riis_valve *valve) {
   return status;
 }
 
-/* Returns whether a forked process can copy valves, take the locks and end. If a lock stayed locked, the process would wait until
- * its alarm ends it. */
+/* Returns whether a forked process can copy valves, take the locks and end. If a lock stayed locked, an alarm would end the
+ * process. */
 static int child_goes_on(const riis_valve *valve) {
   int outcome = 0;
   const pid_t child = fork();
@@ -83,9 +83,8 @@ static int child_goes_on(const riis_valve *valve) {
          WEXITSTATUS(outcome) == child_passed;
 }
 
-/* The other thread holds a lock part of the time, so some forks happen while a lock is held. The address sanitizer of gcc 12 does
- * not unlock its own allocator in a child. With it, a child waits for ever if the other thread was allocating an object of the
- * same size, so these tests are left out. */
+/* A second thread holds a lock part of the time, so some forks happen while a lock is held. The address sanitizer of gcc 12 does
+ * not unlock its allocator in a child. The child may then wait for ever, so these tests are omitted with this sanitizer. */
 static void children_go_on_beside(void *(*other)(void *)) {
   if (is_sanitized()) skip();
   pthread_t thread;
@@ -248,7 +247,7 @@ static int has_threads(const scene *s) {
   return all_have(s, 2, RIIS_OK, NULL) ? 0 : 2;
 }
 
-/* The test of a parent with one thread runs first, while the process has not used threads yet. */
+/* The test of a parent with one thread runs first, because the process has not used threads yet. */
 TEST(a_child_of_one_thread_has_threads) {
   const scene s = scene_by(1);
   CHECK_OK(mark(&s, RIIS_SEARCH_CLUSTERS, 1, s.result));

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The loops of a time step run on OpenMP's threads until one of them is waited for. Then they run for a while on a team, which
- * does not wait for a thread that does not come. If teams were waited for, the calling thread calls a team late. The
- * threads are always OpenMP's in two cases: if the user binds OpenMP's threads to places (OMP_PROC_BIND), and inside a
- * caller's parallel region. */
+ * The loops of a time step run on OpenMP's threads until a loop has waited for one of these threads. Then the loops run for a
+ * while on a team, which does not wait for a late thread. If loops have waited for teams, the calling thread calls a team later.
+ * OpenMP's threads always run the loops in two cases: if the user binds them to places (OMP_PROC_BIND), and inside a caller's
+ * parallel region. */
 #include "loops.h"
 #include "sanitized.h"
 #include "test_support.h"
@@ -11,13 +11,13 @@
 
 static int is_bound(void) { return omp_get_proc_bind() != omp_proc_bind_false; }
 
-/* This case comes first, while a team has one worker. */
+/* This case comes first, because the team then has one worker. */
 TEST(loops_end_while_a_thread_is_held) {
   assert_true(loops_while_a_thread_is_held(200));
   for (int i = 0; i < 2000 && !is_short_test(); ++i) assert_true(loops_while_a_thread_is_held(10));
 }
 
-/* This case comes before all loops of OpenMP. One of these may wait long, and then all loops run on teams for a while. */
+/* This case comes before all loops of OpenMP. After a long wait in such a loop, all loops would run on teams for a while. */
 TEST(more_threads_than_processors_are_a_team) { assert_int_equal(too_many_threads_are_a_team(), !is_bound()); }
 
 TEST(each_block_runs_once) {
@@ -27,7 +27,7 @@ TEST(each_block_runs_once) {
       for (int64_t n_blocks = 0; n_blocks < 40; n_blocks += 13) {
         const int n_expected = n_blocks > 1 ? n_threads[i] : 1;
         assert_int_equal(team_loop_once(n_blocks, n_threads[i]), n_expected);
-        /* OpenMP's threads wait for each other, which takes long on a busy machine. */
+        /* OpenMP's threads wait for all others, which takes long on a busy machine. */
         if (repeat < 2) assert_int_equal(loop_once(n_blocks, n_threads[i]), n_expected);
       }
 }
@@ -51,7 +51,7 @@ TEST(the_lowest_failing_block_is_reported) {
 TEST(lower_blocks_run_after_a_failure) {
   int64_t n_higher = 0;
   assert_int_equal(block_that_fails_first(100, 30, &n_higher), 30);
-  /* The exception may be stored only after the calling thread has gone on. That is rare. */
+  /* Rarely, the exception is stored only after the calling thread has gone on. */
   int n_with_none = 0;
   for (int repeat = 0; repeat < 20; ++repeat) {
     assert_int_equal(block_that_fails_first(100, -1, &n_higher), 50);
@@ -73,9 +73,9 @@ TEST(the_threads_leave_signals_to_the_caller) {
   assert_true(seen.takes_error_signals);
 }
 
-/* If a loop waited for all of its threads, or for a lock that a held thread has, this would wait for ever. To show the case of
- * the lock, the thread has to be held at many points. A sanitizer's own locks must not be held, so with a sanitizer the
- * thread is held once, asleep. This is the first test, so the team has only one more thread. */
+/* This test would wait for ever if a loop waited for all of its threads, or for a lock that a delayed thread has. To test the
+ * lock, the thread must be delayed at many points. A delayed thread must not hold a sanitizer's lock. With a sanitizer the thread
+ * is therefore delayed once, asleep. This test is first, because the team then has only one additional thread. */
 TEST(a_long_wait_chooses_a_team) {
   if (is_bound())
     assert_false(wait_long_for_a_thread());
@@ -101,7 +101,7 @@ TEST(the_choice_lasts_for_a_while) {
   assert_true(takes_team_at(101, 1, waits, ended));
   assert_true(takes_team_at(349, 1, waits, ended));
   assert_false(takes_team_at(351, 1, waits, ended));
-  /* The second wait comes in the first loop after the pause, so the next pause is twice as long. */
+  /* The first loop after the pause waits a second time, so the next pause is twice as long. */
   assert_true(takes_team_at(899, 2, waits, ended));
   assert_false(takes_team_at(901, 2, waits, ended));
   assert_true(takes_team_at(1999, 3, waits, ended));
@@ -112,8 +112,8 @@ TEST(the_choice_lasts_for_a_while) {
   assert_false(takes_team_at(12401, 8, waits, ends));
 }
 
-/* Two waits double the pause to 500 ms. Then come n_calm loops without a wait, and at the end a loop
- * with a wait. All of these end at 1000 ms. */
+/* Two waits double the pause to 500 ms. Then n_calm loops do not wait, and the last loop waits. All these loops end at 1000
+ * ms. */
 static int takes_team_after_calm(double now, int n_calm) {
   double waits[40] = {10, 5}, ended[40] = {100, 400};
   for (int i = 0; i <= n_calm; ++i) ended[2 + i] = 1000;
@@ -121,7 +121,7 @@ static int takes_team_after_calm(double now, int n_calm) {
   return takes_team_at(now, 3 + n_calm, waits, ended);
 }
 
-/* Even on a quiet machine, a loop sometimes waits long. */
+/* Some loops wait long even on a quiet machine. */
 TEST(rare_waits_do_not_prolong_the_choice) {
   assert_true(takes_team_after_calm(1999, 31));
   assert_false(takes_team_after_calm(2001, 31));
@@ -143,12 +143,12 @@ TEST(a_loop_is_alone_for_the_mean_loss) {
   double lost[64] = {4}, ended[64] = {0};
   for (int i = 0; i < 64; ++i) ended[i] = 100;
   assert_true(alone_at(1, 0, NULL, NULL) == 0);
-  /* A sixteenth of a loss counts, and half of this after each second. */
+  /* A sixteenth of a loss counts. After each second, half of it still counts. */
   CHECK_NEAR(alone_at(100, 1, lost, ended), 4.0 / 16, 1e-5);
   CHECK_NEAR(alone_at(1100, 1, lost, ended), 4.0 / 32, 1e-5);
   CHECK_NEAR(alone_at(3100, 1, lost, ended), 4.0 / 128, 1e-5);
   assert_true(alone_at(7000, 1, lost, ended) == 0);
-  /* Loops without a loss reduce the mean, and gains count as no loss. */
+  /* A loop without a loss reduces the mean, and a gain counts as no loss. */
   lost[1] = -3;
   CHECK_NEAR(alone_at(100, 2, lost, ended), 4.0 / 16 * 15 / 16, 1e-5);
   assert_true(alone_at(100, 64, lost, ended) < 5e-3);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Without semaphores a loop runs on the calling thread, as without memory for threads. The functions below replace those of the C
- * library, and fail as Darwin's do. */
+ * Without semaphores a loop runs on the calling thread, as it does without memory for threads. The functions below replace those
+ * of the C library, and fail as on Darwin. */
 #include "loops.h"
 #include "test_support.h"
 

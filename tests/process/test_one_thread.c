@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * n_threads = 1 starts no thread: after each call the process has as many threads as before the first. The default, 0, also
- * starts no thread if there is little work. With 2 threads requested, the process has more threads, which shows that the
- * count works. Calls on one thread come first, because OpenMP and TBB keep the threads that they start. */
+ * n_threads = 1 starts no thread: the process always has as many threads as before the first call. With little work, the default,
+ * 0, also starts no thread. With 2 threads requested, the process has more threads, which shows that the test counts correctly.
+ * Calls on one thread come first, because OpenMP and TBB keep the threads that they start. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -82,7 +82,7 @@ static void check_surfaces(int32_t triangulation, double tolerance) {
   riis_crossing_options of_crossings;
   CHECK_OK(riis_crossing_options_init(&of_crossings, sizeof of_crossings));
   of_crossings.n_threads = n_threads_asked;
-  const int n_kinds = n_threads_asked == 1 ? 5 : 4; /* by default the coapting valve may start threads */
+  const int n_kinds = n_threads_asked == 1 ? 5 : 4; /* the coapting valve may start threads by default */
   for (int k = 0; k < n_kinds; ++k) {
     riis_valve *valve = new_valve(kinds[k]), *before = new_valve(kinds[k]);
     riis_surface *surface = NULL;
@@ -104,7 +104,7 @@ static void check_surfaces(int32_t triangulation, double tolerance) {
 TEST(surfaces_of_valves) {
   check_surfaces(RIIS_TRIANGULATION_ADAPTED, 0.05);
   check_surfaces(RIIS_TRIANGULATION_FIXED, 0.05);
-  if (is_short_test()) return; /* on one thread, more triangles take no other path */
+  if (is_short_test()) return; /* on one thread, a larger mesh would run the same code */
   check_surfaces(RIIS_TRIANGULATION_ADAPTED, 0.005);
   check_surfaces(RIIS_TRIANGULATION_FIXED, 0.01);
 }
@@ -147,7 +147,7 @@ TEST(surfaces_from_arrays) {
   CALL_ALONE(updated);
 }
 
-/* Makes adjacencies of all kinds. The last one is the lattice's own. */
+/* Makes adjacencies of all kinds. The last one is the adjacency of the lattice. */
 static riis_adjacency *make_adjacencies(void) {
   riis_mesh_cells cells;
   riis_mesh_faces faces;
@@ -229,7 +229,8 @@ TEST(little_work_by_default) {
   check_markings(25);
 }
 
-/* OpenMP and TBB each start at most one more thread. After a long wait for OpenMP's thread, the library starts one of its own. */
+/* OpenMP and TBB each start at most one more thread. After a long wait for OpenMP's thread, the library starts a thread
+ * itself. */
 TEST(two_threads_are_more) {
   const riis_surface_options options = options_with(2, RIIS_TRIANGULATION_ADAPTED, 0.005);
   new_surface(new_valve("aortic"), &options);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  * Every single allocation of the library's own code fails once, and so does every request of Embree to its memory monitor. The
- * call must then return RIIS_OUT_OF_MEMORY, change nothing and leak nothing, and the same call must succeed afterwards.
- * Without RIIS_TEST_LONG=1 some allocations of long calls are left out. */
+ * call must then return RIIS_OUT_OF_MEMORY, change nothing and leak nothing. If it is repeated, it must succeed. Some allocations
+ * of long calls are skipped without RIIS_TEST_LONG=1. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -11,9 +11,9 @@
 #include "sanitized.h"
 #include "searches.h"
 
-/* --- Digests of the content of objects. Contents with equal bits have equal digests. ------------------------------------ */
+/* --- Digests of the content of objects. Equal bits have equal digests. ------------------------------------ */
 
-static riis_surface_options coarse; /* gives few triangles, for speed; set it before making a digest */
+static riis_surface_options coarse; /* gives few triangles, for speed; must be set before a digest */
 
 static inline uint64_t add_bytes(uint64_t digest, const void *data, size_t n) {
   const unsigned char *bytes = data;
@@ -117,15 +117,16 @@ static void check_digest(const scenario *s, const world *w, uint64_t expected, c
   if (digest_of(w) != expected) fail_msg("%s, allocation %lld: something else %s", s->name, (long long)n, when);
 }
 
-static int n_grown; /* how many calls have kept memory because they were the first calls of their kind */
+static int n_grown; /* how many calls have kept memory because they were the first of their kind */
 
-/* Makes allocation n fail in a new process state. Returns how many allocations failed, or 0 if there are fewer than n. */
+/* Makes allocation n of the call fail, on new objects. Returns how many allocations failed, or 0 if the call makes fewer than
+ * n. */
 static int64_t try_one(const scenario *s, const reference *expected, int whose, int64_t n, int and_all_after,
                        int attempt) {
   const live before = live_now();
   world w = {.scenario = s};
   s->make(&w);
-  /* A refused call leaves another message, so the failing call must write its own message. */
+  /* A refused call sets another message first, so the failing call must write its message. */
   assert_int_equal(riis_marks_create(NULL), RIIS_INVALID_ARGUMENT);
   memory_fail(whose, n, and_all_after);
   riis_status status = s->call(&w);
@@ -133,12 +134,12 @@ static int64_t try_one(const scenario *s, const reference *expected, int whose, 
   if (n_failed > 0) {
     n_injected[whose] += n_failed;
   }
-  /* A call that continued is checked below. */
+  /* If the call went on without the memory, it is checked below. */
   if (n_failed > 0 && !((s->flags & MAY_GO_ON) && status == RIIS_OK)) {
     ++n_calls_failed[whose];
     check_status(s, status, n);
-    /* There are two variants of a failure at allocation n. One variant checks everything before it repeats the call.
-     * The other repeats it immediately. */
+    /* A failure at allocation n has two variants. The first variant checks everything and then repeats the call. The second
+     * variant repeats the call immediately. */
     if ((n + and_all_after) % 2 == 0 || (s->flags & IS_FIRST))
       check_digest(s, &w, expected->before, "after the failure", n);
     if (!(s->flags & IS_FIRST)) status = s->call(&w);
@@ -149,13 +150,13 @@ static int64_t try_one(const scenario *s, const reference *expected, int whose, 
   }
   destroy(&w);
   const live after = live_now();
-  /* When a thread first works for Embree, Embree allocates memory for it, and keeps this memory. TBB's threads may begin such
-   * work at any time. So memory is a leak only if it remains after each of several attempts. */
+  /* When a thread first works for Embree, Embree allocates memory for this thread and keeps it. TBB's threads may begin such work
+   * at any time. Memory therefore counts as a leak only if it remains after each of several attempts. */
   if (after.embree == before.embree + 1 && after.library == before.library &&
       after.embree_bytes == before.embree_bytes && attempt < 5)
     return try_one(s, expected, whose, n, and_all_after, attempt + 1);
   const int grew = memcmp(&before, &after, sizeof before) != 0;
-  /* Memory that a first call of its kind allocates and keeps is accepted, but only for one such call. */
+  /* A first call of its kind may allocate memory and keep it. The test accepts such memory only for one call. */
   if (grew && (!(s->flags & IS_FIRST) || n_grown++ > 0))
     fail_msg("%s, allocation %lld: leaks %lld of the library's, %lld of Embree's, %lld bytes of Embree's", s->name,
              (long long)n, (long long)(after.library - before.library), (long long)(after.embree - before.embree),
@@ -178,15 +179,16 @@ static reference reference_of(const scenario *s) {
   return made;
 }
 
-/* Each of the first allocations of a call fails, and then some random ones. After allocation n, at most n / share are skipped. A
- * call that samples a surface makes more than a thousand allocations, and each trial is slow with a sanitizer. */
+/* Each of the first allocations of a call fails, and then some random allocations fail. After allocation n, at most n / share
+ * allocations are skipped. A call that samples a surface makes more than a thousand allocations, and each trial is slow with a
+ * sanitizer. */
 #if defined(IS_SANITIZED)
 enum { n_first = 4, share = 1, n_of_workers = 1 };
 #else
 enum { n_first = 64, share = 16, n_of_workers = 3 };
 #endif
 
-/* Makes allocations 1, 2, ... fail until the call makes no more. Returns the last one that failed. */
+/* Makes allocations 1, 2, ... fail until the call makes no more allocations. Returns the last number that failed. */
 static int64_t try_all(const scenario *s, int whose) {
   const reference expected = reference_of(s);
   const int is_whole = is_long_test();
@@ -216,8 +218,8 @@ TEST(embrees_memory_runs_out) {
   assert_int_equal(memory_live_bytes_of_embree(), 0);
 }
 
-/* Chance decides which thread does which work, so the test repeats until another thread allocates. The mesh is large enough to
- * give work to all threads. */
+/* Chance decides which thread does which work. The test therefore repeats the call until another thread allocates. The mesh is
+ * large enough to give work to all threads. */
 TEST(memory_of_other_threads_runs_out) {
   set_nodes(is_short_test() ? 32 : 45);
   for (int i = 0; i < n_scenarios; ++i) {
@@ -228,13 +230,13 @@ TEST(memory_of_other_threads_runs_out) {
     for (; n_failed < n_of_workers && n_tries < 2000; ++n_tries)
       n_failed += try_one(s, &expected, MEMORY_OF_WORKERS, 1 + n_tries % 3, 0, 1);
     printf("%s: %lld failures in %lld tries\n", s->name, (long long)n_failed, (long long)n_tries);
-    /* The calling thread may end a short loop before the others come. A walk of the paper's search is also short. */
+    /* The calling thread may end a short loop before other threads begin. A walk of the paper's search is also short. */
     const int is_short = (s->flags & IS_SHORT) || s->search == RIIS_SEARCH_PAPER;
     if (n_failed < 1 && !is_short) fail_msg("%s: no other thread allocated", s->name);
   }
 }
 
-/* All allocations fail, even for the C++ library's exceptions and for the message. */
+/* All allocations fail, including those for the C++ library's exceptions and for the message. */
 TEST(all_memory_runs_out) {
   if (!memory_of_all_can_fail()) skip();
   for (int i = 0; i < n_scenarios; ++i) {

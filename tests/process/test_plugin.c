@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * This program does not link riis. It loads and unloads a plug-in that links riis. Threads that marked nodes for the plug-in
- * exist longer than it, so their code must stay in memory. */
+ * This program does not link riis. The program loads and unloads a plug-in that links riis. Threads that marked nodes for the
+ * plug-in outlive it, so their code must stay in memory. */
 #ifndef _GNU_SOURCE
 #define _GNU_SOURCE /* for usleep */
 #endif
@@ -14,7 +14,7 @@ typedef int64_t mark_function(int32_t n_threads);
 
 static const char *path; /* of the plug-in */
 
-/* Loads the plug-in, marks and unloads it. The pause afterwards lets waiting threads run their code. */
+/* Loads the plug-in, marks nodes and unloads it. During the pause afterwards, waiting threads can run their code. */
 static int64_t mark_by_plugin(int32_t n_threads) {
   void *const plugin = dlopen(path, RTLD_NOW | RTLD_LOCAL);
   mark_function *mark = NULL;

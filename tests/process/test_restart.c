@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  * Tests a restart in the middle of a cycle. Two valves follow laws of opening, and a restart file holds only the states of these
- * laws. To the end of the cycle, K and K u_surface have the same bits as without the restart. */
+ * laws. Until the end of the cycle, K and K u_surface have the bits of a run without the restart. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -81,7 +81,7 @@ static void add_resistance(const moving_valve *valve, const riis_mesh *mesh, rii
   CHECK_OK(add_resistance_to(result, &resistance, n_nodes, fields, fields + n_nodes));
 }
 
-/* Runs from the state before the step `first` to the step `last`. `fields` gets K and K u_surface of every step. */
+/* Runs the steps from `first` to `last`, starting from the state before. `fields` gets K and K u_surface of every step. */
 static void run(laws *state, int first, int last, double *fields, const double *xyz) {
   const int n = n_owned();
   const moving_valve aortic = valve_at("aortic", state->aortic.opening, 0.8),

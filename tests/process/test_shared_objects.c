@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Threads share new objects, whose parts are made when a thread first needs them. There are more threads than processors, so the
- * system also interrupts a thread while it makes a part. ./run tsan shows whether each part is handed over in an order that every
- * processor keeps. The emulator of ./run arm64 keeps the order of the processor on which it runs, so it cannot show that. */
+ * Threads share new objects. A part of an object is made when a thread first needs it. There are more threads than processors, so
+ * the system also interrupts a thread that is making a part. ./run tsan shows whether each part is handed over in an order that
+ * every processor keeps. The emulator of ./run arm64 keeps the order of the processor on which it runs, so it cannot show
+ * this. */
 #include <omp.h>
 #include <riis/riis.h>
 
@@ -127,7 +128,7 @@ TEST(more_threads_than_processors_make_the_parts_of_new_objects) {
     int n_wrong = 0, n_ran = 0;
 #pragma omp parallel num_threads(n_threads) reduction(+ : n_wrong, n_ran)
     {
-      /* All begin at once. Neighbours begin with different calls, and in each repeat another call comes first. */
+      /* All threads begin at once. Neighbouring threads begin with different calls, and each repeat starts with another call. */
       const int first = omp_get_thread_num() % 2 ? repeat : repeat + 1 + omp_get_thread_num();
       ++n_ran;
 #pragma omp barrier

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Marking inside tasks of the caller's TBB gives the same bits as marking outside. The caller's settings stay. */
+ * Marking inside tasks of the caller's TBB gives the same bits as marking outside. The caller's settings stay as they were. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -51,7 +51,7 @@ static void expect_same_as_outside(int region) {
   int most_at_once = 0;
   for (int count = 0; count < 4; ++count)
     for (int repeat = 0; repeat < trials_of(9); ++repeat) {
-      /* The mesh is new each time, so one of the tasks has to prepare it. */
+      /* The mesh is new each time, so one of the tasks must prepare it. */
       free_one_owned(mesh);
       mesh = mesh_from(&nodes);
       work w = {.surface = surface, .mesh = mesh, .expected = expected};
@@ -77,7 +77,7 @@ TEST(in_the_callers_arena_of_one) { expect_same_as_outside(TBB_ARENA_OF_ONE); }
 TEST(under_the_callers_limit_of_one) { expect_same_as_outside(TBB_LIMIT_OF_ONE); }
 
 int main(void) {
-  /* Nothing may be printed. If more threads are requested than TBB can give, it reports this on stderr. */
+  /* Nothing may be printed. TBB reports on stderr if a caller requests more threads than it can give. */
   FILE *captured = tmpfile();
   const int terminal = dup(STDERR_FILENO);
   if (!captured || terminal < 0 || dup2(fileno(captured), STDERR_FILENO) < 0) return 1;

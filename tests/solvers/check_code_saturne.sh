@@ -1,9 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_code_saturne.sh SOURCE_DIR BUILD_DIR WORK_DIR CMAKE PYTHON
-# Runs the closed valve of examples/code_saturne on 1 and 2 ranks with the riis of a build tree. The script checks the pressure
-# drop and the marks. Then it shows that bad input stops the solver with a message that names the time step, and that check.py
-# refuses bad records.
+# Runs the closed valve of examples/code_saturne on 1 and 2 ranks, with the riis of a build tree. The script checks the pressure
+# drop and the marks. Bad input must stop the solver with a message that names the time step. check.py must refuse bad records.
 set -euo pipefail
 source=$1 build=$2 work=$3 cmake=$4 python=$5
 here=$source/tests/solvers
@@ -63,7 +62,7 @@ done
 refused c bad_setting "VALVE_HALF_THICKNESS is '2 mm', but must be a number from" VALVE_HALF_THICKNESS="2 mm"
 refused reference no_table "cannot read REFERENCE_CELLS, 'nowhere'" REFERENCE_CELLS=nowhere
 
-# check.py must refuse bad records. Each is a copy with one fault.
+# check.py must refuse bad records. Each record is a copy with one fault.
 # judged STATUS TEXT FILE SED: check.py must end with STATUS and print TEXT.
 judged() {
   local status=0 said
@@ -80,6 +79,6 @@ judged 2 "is no list of cells" c/RESU/closed_2/cells_00008.0.csv '3s/,.*//'
 judged 1 "FAILED  C, head losses: the drop is" c/RESU/closed_1/history.csv '9s/^(([^,]*,){9})([^,]*)/\11\3/'
 judged 1 "FAILED  C, head losses, 2 ranks: the same cells are marked in 7 of 8" c/RESU/closed_2/history.csv \
   '4s/^(([^,]*,){5})[^,]*/\10000000000000000/'
-# Changes K of a cell and leaves its centre.
+# Changes K of a cell without its centre.
 judged 1 "FAILED  C, head losses, 2 ranks: " c/RESU/closed_2/cells_00008.0.csv '3s/[^,]*$/0x1p+3/'
 echo "check.py refuses bad records"

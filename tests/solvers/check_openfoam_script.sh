@@ -1,7 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_openfoam_script.sh SOURCE WORK
-# Checks that examples/openfoam/openfoam.sh refuses faults with the right messages. Functions here replace OpenFOAM's programs.
+# Checks that examples/openfoam/openfoam.sh refuses faults with the right messages. Functions of this script replace OpenFOAM's
+# programs.
 # shellcheck disable=SC2317 # openfoam.sh calls the functions
 set -euo pipefail
 source=$1 work=$2
@@ -25,7 +26,7 @@ ends 2 "./run openfoam: '1.6' is not a size of edges" run_openfoam --size 1.6
 ends 2 "./run openfoam: '0.00' is not a size of edges" run_openfoam --size 0.00
 ends 2 "./run openfoam: '0.1 0.2' is not a size of edges" run_openfoam --size 0.1 0.2
 
-# --headers compiles the plug-in that fits the headers, and ends where the compiler ends.
+# --headers compiles the plug-in that fits the headers. The script ends with the compiler's result.
 ends 2 "./run openfoam: '' lacks src/finiteVolume or src/meshTools" run_openfoam --headers
 ends 2 "./run openfoam: '/nowhere' lacks src/finiteVolume or src/meshTools" run_openfoam --headers /nowhere
 fake_cxx() { [[ "$*" != *"$refused_file" ]] && printf '%s\n' "$*" >>"$work/compiled"; }
@@ -45,8 +46,8 @@ refused_file=riisLaw.C
 ends 1 "riisValve.C" run_openfoam --headers "$work/com"
 unset CXX
 
-# The plug-in takes the library of the build folder, if there is one. Otherwise it compiles the library, and keeps it inside. An
-# earlier plug-in leaves nothing behind.
+# If the build folder has the library, the plug-in uses it. Otherwise the script compiles the library into the plug-in. No file of
+# an earlier plug-in remains.
 mkdir -p "$work/top"
 plugin_in() {
   build=build n_jobs=1 library_fails=${2:-}
@@ -103,7 +104,7 @@ ends 1 "an unknown key: the solver ended, but it had written $of_cases/bad/0.002
   of_refused "an unknown key" bad "unknown key 'closesBelow'"
 (($(wc -l <"$of_out/refusals.txt") == 1)) || problem "refusals.txt has what was not refused: $(<"$of_out/refusals.txt")"
 
-# If a program fails, the end of its log is shown.
+# If a program fails, the script shows the end of its log.
 mkdir -p "$of_cases/logged"
 ends 1 "failed: sh -c echo its last words; exit 7; the end of $of_cases/logged/log.sh:
 its last words" of_logged logged sh sh -c 'echo its last words; exit 7'
@@ -151,14 +152,15 @@ ends 1 "the case $of_cases/second is there already" of_copy first second
 ends 0 "" of_copy first third
 [[ -d $of_cases/third ]] || problem "there is no copy"
 
-# A restart continues from a time: later times are removed, earlier ones are kept.
+# A restart continues from a time. Later times are removed, and earlier times are kept.
 mkdir -p "$of_cases/beat/processor0/"{0,0.16,0.2,0.22,0.3,1e-05,constant} "$of_cases/beat/postProcessing"
 of_forget_after beat 0.2
 left=$(cd "$of_cases/beat" && echo processor0/* postProcessing*)
 [[ $left == 'processor0/0 processor0/0.16 processor0/0.2 processor0/1e-05 processor0/constant postProcessing*' ]] ||
   problem "after of_forget_after there is: $left"
 
-# of_height must add a leaflet height that the dictionary lacks. Otherwise the test of a restart would not get its other valve.
+# of_height must add a leaflet height that the dictionary lacks. Otherwise the test of a restart would run without a changed
+# valve.
 mkdir -p "$of_cases/tall/system"
 echo 'valve { kind trileaflet; }' >"$of_cases/tall/system/fvOptions"
 ends 0 "" of_height tall 1.123456789012

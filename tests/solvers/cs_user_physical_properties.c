@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Makes the solver diverge: from the third time step its pressures are NaN. Only tests use this file. */
+ * Makes the solver diverge: from the third time step on, its pressures are NaN. Only tests use this file. */
 #include "cs_defs.h"
 #include "cs_headers.h"
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tests which runs examples/dealii/check.py refuses, on invented tables."""
+"""Tests which invented tables examples/dealii/check.py refuses."""
 import contextlib
 import csv
 import io
@@ -50,7 +50,7 @@ class Checks(unittest.TestCase):
         return folder
 
     def said(self, call, *arguments):
-        """The text that a check prints, or the text of its refusal."""
+        """Returns the text that a check prints, or the text of its refusal."""
         with contextlib.redirect_stdout(io.StringIO()) as text:
             try:
                 call(*arguments)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tests which differences examples/fenicsx/check.py refuses when it compares two runs, on invented points."""
+"""Tests which differences between two runs examples/fenicsx/check.py refuses. The points of the runs are invented."""
 import pathlib
 import sys
 import unittest

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tests the numbers and the refusals of examples/left_heart on invented flows and tables, without OpenFOAM.
+"""Tests the numbers and refusals of examples/left_heart without OpenFOAM. Flows and tables are invented.
 
-RIIS_VOLUME_SEARCH is the library of examples/left_heart/coupled/volumeSearch.C. It is empty if Python cannot load the library.
+RIIS_VOLUME_SEARCH is the library of examples/left_heart/coupled/volumeSearch.C. The variable is empty if Python cannot load the
+library.
 """
 import contextlib
 import io
@@ -32,7 +33,8 @@ OPEN = HEAD + "0.3,2e-5,0,5\n0.5,1e-4,0,5\n1,3e-4,0,5\n"
 
 
 def square(n, velocity):
-    """Returns points y and z of a square of 80 mm below z = 0, its triangles, and the velocities there."""
+    """Returns the points y and z of a square of 80 mm below z = 0. Also returns its triangles and the velocities at the
+    points."""
     y, z = np.meshgrid(np.linspace(-40e-3, 40e-3, n), np.linspace(-80e-3, 0, n), indexing="ij")
     points = np.column_stack([y.ravel(), z.ravel()])
     here = np.arange(n * n).reshape(n, n)
@@ -42,14 +44,14 @@ def square(n, velocity):
 
 class Vortex(unittest.TestCase):
     def test_rigid_rotation(self):
-        """Around a disc in rigid rotation, the circulation is twice its area times the angular velocity."""
+        """A disc in rigid rotation has a circulation of twice its area times the angular velocity."""
         for turn in (7.0, -7.0):
             circulation, _, radius = clinic.vortex(*square(81, lambda y, z: np.column_stack([-turn * z, turn * y])))
             self.assertEqual(radius, 18)
             self.assertAlmostEqual(circulation / (2 * turn * np.pi * 18e-3**2), 1, delta=0.03)
 
     def test_middle(self):
-        """A vortex that turns only within 9 mm of a point is found there."""
+        """The search finds a vortex that turns only within 9 mm of a point."""
         def velocity(y, z):
             turn = 7 * (np.hypot(y - 6e-3, z + 33e-3) < 9.5e-3)
             return np.column_stack([-turn * (z + 33e-3), turn * (y - 6e-3)])
@@ -69,7 +71,7 @@ class Diseases(unittest.TestCase):
     CLIP = {clinic.BACK: 10, clinic.MITRAL_AREA: 1.8}
 
     def missed(self, **hearts):
-        """Returns what the hearts miss, in words."""
+        """Returns, in words, which targets the hearts miss."""
         with unittest.mock.patch.object(check, "failures", []), contextlib.redirect_stdout(io.StringIO()):
             clinic.demand_diseases(hearts)
             return check.failures
@@ -91,20 +93,21 @@ class Diseases(unittest.TestCase):
             self.assertIn(words, missed[0])
 
     def test_regurgitant_area(self):
-        """Blood at 100 mmHg leaves an area of 0.3 cm2 at 5.02 m/s. The flow at small differences does not count."""
+        """At 100 mmHg, blood leaves an area of 0.3 cm2 at 5.02 m/s. Flow at small pressure differences does not count."""
         difference = np.array([100.0, 100.0, 20.0, -5.0])
         flow = np.array([-0.3 * 502, -0.3 * 502, -400, 300])  # ml/s
         self.assertAlmostEqual(clinic.regurgitant_area(flow, difference), 0.3, delta=1e-3)
 
 
 class Dilated(unittest.TestCase):
-    """The heart that a large regurgitation has dilated."""
+    """Returns the heart that a large regurgitation has dilated."""
 
     RADIUS, LENGTH, BASE = 28e-3, 73e-3, 0.01095
     AXIAL = BASE / LENGTH  # the apex rests
 
     def case(self):
-        """Returns a case whose mesh is a half ellipsoid below z = 0. Its last points are the apex and the middle of the base."""
+        """Returns a case whose mesh is half an ellipsoid below z = 0. The mesh's last points are the apex and the middle of the
+        base."""
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         case = pathlib.Path(folder.name)
@@ -133,7 +136,7 @@ class Dilated(unittest.TestCase):
         return case, points, np.array(faces)
 
     def test_start_of_the_wall(self):
-        """The run starts with the volume of the heart without space, and all further volumes follow it."""
+        """The run starts with the volume of the heart model without space. All further volumes also follow this model."""
         case, points, faces = self.case()
         time = np.arange(0, zero_d.PERIOD, 1e-3)
         rows = np.ones((len(time), len(zero_d.COLUMNS)))
@@ -196,11 +199,11 @@ class Tables(unittest.TestCase):
             self.assertTrue(orifice.is_open(0.31))
 
     def test_displaced_volume(self):
-        """Without a pressure difference and inertia, opening leaflets push the blood that they displace, step by step, in the
-        heart in space.
+        """Without a pressure difference and inertia, opening leaflets push the blood that they displace. In the heart in space,
+        the leaflets push step by step.
 
-        At the end of each step, they are in that step's position. They therefore move half a step later than in the heart without
-        space.
+        At the end of each step, the leaflets are in that step's position. The leaflets therefore move half a step later than in
+        the heart without space.
         """
         orifice = self.read(WELL)
         valve = zero_d.Valve("aortic", orifice)
@@ -227,7 +230,7 @@ class Tables(unittest.TestCase):
             self.assertAlmostEqual(flow[row], value, delta=close)
 
     def test_crossed_lines(self):
-        """Lines cross a triangulated square if they pass through its plane within it."""
+        """A line crosses a triangulated square if it passes through the square's plane inside the square."""
         random = np.random.default_rng(3)
         start, end = random.uniform(-1, 1, (2, 400, 3))
         points = np.array([(-0.5, -0.5, 0.1), (0.5, -0.5, 0.1), (0.5, 0.5, 0.1), (-0.5, 0.5, 0.1)])
@@ -261,7 +264,7 @@ class Tables(unittest.TestCase):
         self.assertAlmostEqual(flow / (area * np.sqrt(2 * 100 * zero_d.MMHG / zero_d.RHO)), 1, delta=1e-3)
 
     def test_run_that_was_cut_off(self):
-        """The later table counts from its own start."""
+        """The later table counts from its start."""
         for start, rows in (("0", "1 10\n2 20\n3 30\n"), ("2", "3 31\n4 41\n")):
             folder = self.folder / "postProcessing/inflow" / start
             folder.mkdir(parents=True)
@@ -270,12 +273,12 @@ class Tables(unittest.TestCase):
 
 
 class Search(unittest.TestCase):
-    """The search for a volume, in blood whose pressure echoes from trial to trial: p = (1 - c) (A - Z q) + c p_before."""
+    """Tests the search for a volume. The pressure of the blood echoes from trial to trial: p = (1 - c) (A - Z q) + c p_before."""
 
     INERTANCE, TIME_STEP, ELASTANCE = 7e7, 2e-3, 1.5e8  # Z in Pa s/m3, s, Pa/m3
 
     def steps(self, echo):
-        """Returns the residual in Pa and the number of trials for each step, and the Z and c that were found."""
+        """Returns the residual in Pa and the number of trials for each step. Also returns the Z and c that the search found."""
         search = study.library(os.environ["RIIS_VOLUME_SEARCH"])
         volume, pressure, flow = 120e-6, 1.5e4, 0.0
         state = search.search_new(1e7, 3e9, 2000, volume, pressure, 1)
@@ -306,7 +309,8 @@ class Search(unittest.TestCase):
             self.assertLess(residuals.max(), 66, f"echo {echo}")  # 0.5 mmHg
             self.assertLessEqual(trials[10:].max(), 9, f"echo {echo}")
             self.assertAlmostEqual(found, echo, delta=0.02)
-            # The second trial of a step does not know the change before it, so Z is too large, which is safe.
+            # The second trial of a step does not know the change before it. Z is therefore too large in this trial, which is
+            # safe.
             self.assertTrue(0.99 <= slope / self.INERTANCE <= 2, f"echo {echo}: {slope}")
 
 

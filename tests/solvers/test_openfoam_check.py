@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tests which faults examples/openfoam/check.py refuses, on invented files in OpenFOAM's format."""
+"""Tests which invented files in OpenFOAM's format examples/openfoam/check.py refuses."""
 import contextlib
 import io
 import pathlib
@@ -34,7 +34,7 @@ def text_of(values, binary):
 
 
 class Files(unittest.TestCase):
-    """Writes cases into a separate folder, and compares a check's output."""
+    """Writes cases into a separate folder, and checks the output of a check."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -47,7 +47,7 @@ class Files(unittest.TestCase):
         path.write_bytes(data if isinstance(data, bytes) else data.encode())
 
     def parts(self, case, parts):
-        """Writes the meshes of ranks that have these cells. Returns their folders."""
+        """Writes the meshes of ranks with these cells. Returns their folders."""
         folders = []
         for rank, ids in enumerate(parts):
             folder = case / f"processor{rank}" if len(parts) > 1 else case
@@ -69,7 +69,7 @@ class Files(unittest.TestCase):
             f" in the library\nExecutionTime = {1 + i / 4} s\n" for i, (time, x, n) in enumerate(zip(times, opening, cells))))
 
     def valve(self, case):
-        """Writes the dictionary of a valve whose leaflets have 8 cm2."""
+        """Writes the dictionary of a valve with leaflets of 8 cm2."""
         self.write(case / "system/fvOptions", "aorticValve { resistance 1e3; halfThickness 1e-3; }\n")
         self.write(case / "postProcessing/aorticValve/0.01/leaflets.vtk",
                    "# vtk\nPOINTS 3 double\n0 0 0\n0.04 0 0\n0 0.04 0\nPOLYGONS 1 4\n3 0 1 2\n")
@@ -403,9 +403,8 @@ class Sizes(Files):
 
 class Hexahedra(Files):
     def test_drops_by_hand(self):
-        """With eps = h, the middle cell alone has K, or two cells at the distance h / 2 each have half of the largest K.
-        With eps = 2 h the middle cell has twice the K of its neighbours. With many cells the sum is the integral of
-        K."""
+        """With eps = h, either the middle cell alone has K, or two cells at the distance h / 2 each have half of the largest K.
+        With eps = 2 h the middle cell has twice the K of its neighbours. With many cells the sum is the integral of K."""
         printed = self.printed(check.hexahedra, "1", "2", "1000")
         found = [tuple(map(float, pair)) for pair in re.findall(r"\(\(R / eps\) u\) (\S+) to (\S+)\n", printed)]
         self.assertEqual(found[0], (0, 0.5))
@@ -413,7 +412,7 @@ class Hexahedra(Files):
 
 
 class Expected(Files):
-    """Closed leaflets in a duct, with invented logs and pressures."""
+    """Tests closed leaflets in a duct, with invented logs and pressures."""
 
     def setUp(self):
         super().setUp()
@@ -478,7 +477,8 @@ class Expected(Files):
         self.stopped("there are 12 cases, not 11", check.expected, *self.cases[1:])
 
     def test_cubes_have_the_sum_of_harmonic_means(self):
-        """On cubes of 1 mm, centres lie 1.3, 0.3, ... -1.2 mm from the leaflet, and the four faces' cells are left out."""
+        """Cells are cubes of 1 mm. The cells' centres lie 1.3, 0.3, ... -1.2 mm from the leaflet, and the cells at the four faces
+        are omitted."""
         heights = numpy.array([-1.8, -0.8, 0.2, 1.2])
         k = numpy.where(abs(heights) < 1.5, (1 + numpy.cos(numpy.pi * heights / 1.5)) / 3, 0)
         form = 2 / (1 / k[1] + 1 / k[2]) + 2 / (1 / k[2] + 1 / k[3])
@@ -489,7 +489,7 @@ class Expected(Files):
 
 
 class Table(Files):
-    """The table of a valve in a heartbeat, and in three heartbeats with arteries."""
+    """Tests the table of a valve in one heartbeat, and in three heartbeats with arteries."""
 
     def setUp(self):
         super().setUp()
@@ -604,7 +604,7 @@ class Physiological(Table):
 
 
 class Moving(Files):
-    """Cases of moving valves with invented forces, volumes and jets."""
+    """Tests cases of moving valves with invented forces, volumes and jets."""
     OPENS = ("hexahedra-28", "hexahedra-32", "tetrahedra", "box-28", "box-32")
     SAME = ("ranks-2", "ranks-4", "two-valves", "pisoFoam", "tetrahedra-ranks-2", "tetrahedra-ranks-4")
 
@@ -618,7 +618,7 @@ class Moving(Files):
             self.forces(f"{mesh}-riisSource", [0.03, 0.04, 0.1])
         for name in self.SAME:
             self.forces(name, [0.03, 0.04, 0.1])
-        # Two valves share the force. The second line of a valve comes from the last corrector.
+        # Two valves share the force. A valve's second line comes from the last corrector.
         self.forces("two-valves", [0.015, 0.02, 0.05], ("first", "second"))
         (self.folder / "pisoFoam/log.pimpleFoam").rename(self.folder / "pisoFoam/log.pisoFoam")
         for solver in ("PCG", "riisSource"):
@@ -798,7 +798,7 @@ class Beat(Files):
 
 class Model(Files):
     def cases(self, spoil=None, by=0.0, last="0.04"):
-        """Writes a run and its run by modelFoam, in which one value of the field `spoil` differs."""
+        """Writes a run, and its run by modelFoam. One value of the field `spoil` differs."""
         k = numpy.where(numpy.arange(N) < 150, self.random.random(N) + 1, 0)
         values = {check.K_NAME: k, "p": self.random.random(N), "U": self.random.random((N, 3))}
         shutil.rmtree(self.folder / "box-model", ignore_errors=True)
@@ -822,7 +822,7 @@ class Restart(Files):
     TIMES = ("0.2", "0.22", "0.24")
 
     def restart(self, change=lambda cases: None):
-        """Makes two equal runs with a valve and two without. `change` may spoil them."""
+        """Makes two equal runs with a valve and two equal runs without. `change` may alter them."""
         k = numpy.where(numpy.arange(N) < 150, self.random.random(N) + 1, 0)
         values = {check.K_NAME: k, check.KU_NAME: numpy.stack([k, k, k], axis=1),
                   "p": self.random.random(N), "U": self.random.random((N, 3))}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tests which faults examples/openfoam/follow.py refuses, on invented files in OpenFOAM's format."""
+"""Tests which invented files in OpenFOAM's format examples/openfoam/follow.py refuses."""
 import math
 import re
 import shutil
@@ -54,7 +54,7 @@ class Follow(Files):
         self.write_case("follow-deform", swing, 2, deforms=True)
 
     def bend(self, i, points):
-        """Moves points in addition to the rigid motion."""
+        """Moves points, in addition to the rigid motion."""
         return numpy.outer(numpy.sin(400 * points[:, 2] + 300 * points[:, 0]) * i / 8, [2e-4, 0, 1e-4])
 
     def write_case(self, name, motion, ranks, deforms=False, velocity=True, k=None, ku=None, shift=None, force=1.0,
@@ -175,7 +175,8 @@ class Angle(Files):
         self.keys = {"pressureGain": 20, "flowGain": 2e6, "friction": 50, "vortexGain": 7e6, "angleMin": 5, "angleMax": 75}
         self.k = self.random.random(N) + 1
         times = DT * numpy.arange(1, 31)
-        # At a constant pressure, without the other terms, angle'' = a cos(angle): 2 a sin(angle) is the square of the rate.
+        # At a constant pressure, without the other terms, angle'' = a cos(angle). The square of the rate is therefore 2 a
+        # sin(angle).
         self.keys.update(flowGain=0, friction=0, vortexGain=0, angleMin=0, angleMax=60)
         at, rate, self.opening = 0.0, 0.0, []
         for _ in times:

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""check_columns.py FILE...: no line is too long. Files of other kinds are left alone.
+"""check_columns.py FILE...: no line may be too long. Files of other kinds are ignored.
 
-Code has at most 130 columns, fixed-form Fortran 72, documents 100. In a document, blocks of code may have 130. Tables, links on a
-line of their own, HTML comments, and blocks of output (```text, or indented) may be longer.
+Code has at most 130 columns, fixed-form Fortran 72, and documents 100. In a document, blocks of code may have 130. The following
+parts may be longer: tables, links alone on a line, HTML comments, and blocks of output (```text, or indented).
 """
 
 import re
@@ -16,7 +16,7 @@ _LINK = re.compile(r"\s*([-*]|\d+\.)? *\(?(!?\[[^]]*\]\([^)]*\)|\[[^]]*\]: \S+|<
 
 
 def limit_of(path, text):
-    """Returns a file's limit, or None if it has none."""
+    """Returns the limit of a file, or None if the file has no limit."""
     if path.endswith(".template.md"):  # its lines are wrapped again after numbers have replaced the names
         return CODE
     if path.endswith(".md"):
@@ -58,7 +58,7 @@ def too_long(path):
     if limit is None:
         return None
     if path.endswith(".md"):
-        text = re.sub(r"<!--(=[\w.]+|/)-->", "", text)  # readers do not see the marks of numbers that a program writes
+        text = re.sub(r"<!--(=[\w.]+|/)-->", "", text)  # readers do not see the marks around numbers that a program writes
     lines = text.split("\n")
     limits = limits_of_document(lines, limit) if path.endswith(".md") else [limit] * len(lines)
     return [(i, len(line), most) for i, (line, most) in enumerate(zip(lines, limits), 1) if most and len(line) > most]

@@ -1,9 +1,10 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_floors.sh SOURCE_FOLDER
-# The folders of the library, src/riis, are ordered as floors: no file may include a file of a later floor. So are the folders of
-# src/riis_vtk. All other products use the library only by its public headers. The files in src/common include no product's
-# headers. The plug-ins also leave out src/common, because users build them without the library's sources.
+# The folders of the library, src/riis, are ordered as floors: a file may not include a file of a later floor. The folders of
+# src/riis_vtk are also ordered as floors. All other products use only the public headers of the library. The files in src/common
+# include no headers of a product. The plug-ins may not include src/common, because users build them without the library's
+# sources.
 set -euo pipefail
 cd "$1"
 declare -A floors=(
@@ -17,7 +18,8 @@ complain() {
   failed=1
 }
 
-# floor_of PRODUCT FOLDER: sets `position` to the position of a folder among the floors of a product, or complains and fails.
+# floor_of PRODUCT FOLDER: sets `position` to the position of a folder among the floors of a product. Reports an unknown folder
+# and fails.
 floor_of() {
   local floor
   position=0
@@ -30,7 +32,7 @@ floor_of() {
 }
 
 # includes_of FOLDER: prints "FILE LINE INCLUDED FOLDER" for each include. INCLUDED is the header's first folder, and FOLDER the
-# second. For a header without a folder, FOLDER stands for it.
+# second. For a header without a second folder, FOLDER is the first.
 includes_of() {
   grep -rnoE '^ *# *include *"[^"]+"' "$1" | sed -E 's/^([^:]*):([0-9]+):[^"]*"([^"/]+)\/?([^"/]*).*$/\1 \2 \3 \4/'
 }
@@ -55,7 +57,8 @@ for product in */; do
   done < <(includes_of "$product")
 done
 
-# check_floors PRODUCT: the includes of its floors. Paths of riis begin with the floor, and paths of riis_vtk with the product.
+# check_floors PRODUCT: checks the includes of the product's floors. Paths of riis begin with the floor, and paths of riis_vtk
+# with the product.
 check_floors() {
   local folder own position file line first second included
   for folder in "$1"/*/; do

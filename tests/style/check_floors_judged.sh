@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_floors_judged.sh SOURCE_FOLDER SCRATCH_FOLDER
-# check_floors.sh must accept the library. It must refuse an include of a later floor, a folder that is not in the plan, and an
-# include of the library's internals by another product.
+# check_floors.sh must accept the library. The script must refuse an include of a later floor, a folder that is not in the plan,
+# and an include of the library's internals by another product.
 set -euo pipefail
 check=$(dirname "$0")/check_floors.sh
 sources=$1 scratch=$2

@@ -7,7 +7,7 @@ unset RIIS_LINTED # lint.sh must check here, even if .ci/run has
 lint=$(readlink -f "$(dirname "$0")")/lint.sh
 sources=$(readlink -f "$1") scratch=$2
 
-# plant: makes a project with one file of each language. It contains long lines that are allowed.
+# plant: makes a project with one file of each language. The project contains long lines that are allowed.
 plant() {
   local long
   rm -rf "$scratch"

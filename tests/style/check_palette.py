@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""check_palette.py FOLDER: all pictures take their colours from one palette, whose colours are distinct in every kind of colour
-vision.
+"""check_palette.py FOLDER: all pictures must take their colours from one palette. The palette's colours must be distinct in every
+kind of colour vision.
 
-The palette is distinct_colours of src/riis_vtk/picture/drawing.hpp. How protanopes, deuteranopes and tritanopes see a colour
-follows from the matrices of Machado, Oliveira, Fernandes (2009) for the severity 1. Two colours count as distinct if
-their difference in CIELAB is at least LEAST. The palette of matplotlib and its Set2 must fail.
+The palette is distinct_colours of src/riis_vtk/picture/drawing.hpp. The matrices of Machado, Oliveira, Fernandes (2009) for the
+severity 1 give the colours that protanopes, deuteranopes and tritanopes see. Two colours count as distinct if their difference in
+CIELAB is at least LEAST. As a test of this check, the palette of matplotlib and its Set2 must fail.
 """
 
 import itertools

@@ -78,7 +78,7 @@ shell() {
       status=1
     fi
   done
-  # macOS has bash 3.2, and `run` begins before it can refuse that.
+  # macOS has bash 3.2. `run` starts in it, before it can refuse it.
   ! grep -snE 'mapfile|readarray|(declare|local) -[An]|\$\{[a-z_]+(,|\^)|&>>|\|&|coproc|;;&|wait -n' run |
     sed 's/^/bash 3.2 lacks: run:/' | grep . >&2 || status=1
   # Scripts that `run` reads are checked together with `run`, because they use its variables.
@@ -104,7 +104,7 @@ includes() {
     g++ -std=c++17 -fopenmp -DRIIS_X86_KERNELS -Iinclude -Isrc/riis -Isrc -w -fsyntax-only
 }
 
-# clang-tidy finds no unused using-declarations in batches of files.
+# In batches of files, clang-tidy does not find unused using-declarations.
 usings() {
   local file name status=0
   ending '^(src|bench)/.*\.cpp$'
@@ -133,7 +133,7 @@ warned() {
 clang() {
   local status=0
   mapfile -t found < <(compiled_files | grep -E "$of_bench|$of_tests" | grep -v -E "$of_sanitize")
-  # CMake gives no option for a standard that gcc has by itself, and clang 14 has another one.
+  # If a standard is gcc's default, CMake gives no option for it. The default of clang 14 differs.
   printf '%s\n' "${found[@]}" | sed '/\.c$/d' | warned --extra-arg=-std=gnu++17 || status=1
   printf '%s\n' "${found[@]}" | sed -n '/\.c$/p' | warned || status=1
   return "$status"
@@ -163,7 +163,7 @@ check() {
   echo "$part: fine, ${#found[@]} files, $((SECONDS - start)) s"
 }
 
-# All parts run at the same time, because some of them use only one processor. What they say is printed in turn.
+# All parts run at the same time, because some of them use only one processor. The output of the parts is printed in turn.
 said=$(mktemp -d)
 trap 'rm -rf "$said"' EXIT
 declare -A running=()

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Wraps for C the points of known distance that bench/accuracy makes. */
+ * Lets C code use the points of known distance that bench/accuracy makes. */
 #ifndef RIIS_TEST_ACCURACY_H
 #define RIIS_TEST_ACCURACY_H
 
@@ -25,12 +25,12 @@ int truth_of(const riis_patches *patches, const char *kind, int64_t n, uint64_t 
              known_truth *truth);
 void truth_free(known_truth *truth);
 
-/* Offsets are in half thicknesses. Point i has the offset number i modulo n_offsets, unless the point is left out. */
+/* Offsets are in half thicknesses. Each kept point i has the offset number i modulo n_offsets. */
 enum { n_offsets = 6 };
 double truth_offset(int64_t i);
 double truth_largest_share_of_radius(void);
 
-/* Gives the point (u, v) of patch 0. */
+/* Writes the point (u, v) of patch 0. */
 int smooth_point(const riis_patches *patches, double u, double v, double *point, double *normal, double *curvature);
 
 #ifdef __cplusplus

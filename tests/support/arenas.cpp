@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t n_first = 32;
 
-// Makes a walk whose every body calls at_body.
+// Makes a walk in which each body calls at_body.
 template <class AtBody>
 walk_seen walk(int n_threads, const AtBody &at_body) {
   std::array<std::atomic<int>, 2 * n_first> n_met{};

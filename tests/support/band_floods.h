@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Finds the nodes outside a band with an offset, by the oracle, so that flood fills can pass them. Include after band_oracle.h
- * and flood_fill.h. */
+ * Finds the nodes outside a band with an offset. A flood fill then passes through these nodes. Include after band_oracle.h and
+ * flood_fill.h. */
 #ifndef RIIS_TEST_BAND_FLOODS_H
 #define RIIS_TEST_BAND_FLOODS_H
 
-/* The triangles of a surface with another half thickness, so that they do not move. */
+/* The triangles of a surface with another half thickness. The triangles stay the same: without a copy, another half thickness
+ * could change them. */
 static inline riis_surface *same_triangles(const riis_surface *surface, double half_thickness, double offset) {
   const riis_triangles all = triangles_of(surface);
   riis_surface_arrays arrays = triangle_arrays(all.n_vertices, all.xyz, all.n_triangles, NULL);
@@ -14,7 +15,7 @@ static inline riis_surface *same_triangles(const riis_surface *surface, double h
   return surface_from(&arrays, &options);
 }
 
-/* Writes 1 for nodes that the oracle does not mark. */
+/* Writes 1 for each node that the oracle does not mark. */
 static inline void open_nodes(const riis_surface *surface, const test_mesh *nodes, double eps, double offset,
                               uint8_t *is_open) {
   const riis_triangles all = triangles_of(surface);

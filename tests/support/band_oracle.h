@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Places nodes beside a band with an offset: signed distances by normals that are summed over all triangles, in long double.
- * Include after handles.h. */
+ * Computes where nodes lie relative to a band with an offset. The signs of the distances come from normals that are summed over
+ * all triangles, in long double. Include after handles.h. */
 #ifndef RIIS_TEST_BAND_ORACLE_H
 #define RIIS_TEST_BAND_ORACLE_H
 
 typedef long double real;
 
 typedef struct band_place {
-  real distance, height; /* the height over the closest point, along the unit normal there */
+  real distance, height; /* the height over the closest point, along the surface's unit normal there */
   real normal[3], way[3];
   int is_on_rim;
 } band_place;
@@ -29,7 +29,7 @@ static inline int64_t band_position(const riis_triangles *all, int64_t triangle_
   return i;
 }
 
-/* Finds the closest point of a triangle. Each weight that is 0 names a corner that the point does not need. */
+/* Finds the closest point of a triangle. If a corner's weight is 0, the closest point does not depend on this corner. */
 static inline void closest_weights(const real *p, real (*corner)[3], real *weight) {
   real least = INFINITY, ab[3], ac[3], ap[3], normal[3], to_b[3], to_c[3];
   for (int k = 0; k < 3; ++k) {
@@ -51,7 +51,8 @@ static inline void closest_weights(const real *p, real (*corner)[3], real *weigh
   if (u > 0 && v > 0 && u + v < 1) weight[0] = 1 - u - v, weight[1] = u, weight[2] = v;
 }
 
-/* Adds the normals of all triangles with the corners whose weights are not 0. At a vertex, angles weigh them. */
+/* Sums the normals of all triangles that share the corners whose weights are positive. At a vertex, each normal is weighted by
+ * the triangle's angle. */
 static inline void sum_normals(const riis_triangles *all, real (*corner)[3], const real *weight, real *sum) {
   int n_wanted = 0;
   for (int k = 0; k < 3; ++k) n_wanted += weight[k] > 0;
@@ -79,7 +80,7 @@ static inline void sum_normals(const riis_triangles *all, real (*corner)[3], con
   }
 }
 
-/* Places a node whose closest triangle is known, and for which it is known whether the closest point is on the rim. */
+/* Computes the place of a node from its closest triangle. The caller also says whether the closest point is on the rim. */
 static inline band_place place_of(const riis_triangles *all, const double *node, int64_t triangle_id, int is_on_rim) {
   real p[3] = {node[0], node[1], node[2]}, corner[3][3], weight[3], size, at;
   band_place place = {.is_on_rim = is_on_rim};
@@ -98,7 +99,7 @@ static inline band_place place_of(const riis_triangles *all, const double *node,
   return place;
 }
 
-/* Returns the distance from the middle of the band with the half thickness eps and the offset o. */
+/* Returns the distance of a node from the middle of the band. The band has the half thickness eps and the offset o. */
 static inline real from_middle(const band_place *place, real eps, real o) {
   if (!place->is_on_rim) return fabsl(place->height - o * eps);
   real sum = 0;

@@ -41,7 +41,7 @@ static inline riis_surface *bileaflet_surface(const bileaflet *of, const riis_su
   return surface;
 }
 
-/* Makes a valve with random values that fit together, whose leaflets close to an angle below most_closed. */
+/* Makes a valve with random values that are valid together. The leaflets close to an angle below most_closed. */
 static inline bileaflet random_bileaflet(random_source *random, double most_closed) {
   bileaflet made = bileaflet_defaults();
   made.radius = random_between(random, 0.5, 2);
@@ -58,7 +58,7 @@ static inline double angle_of(const bileaflet *of, double opening) {
   return degree * (of->closed_angle + opening * (of->open_angle - of->closed_angle));
 }
 
-/* Turns a point by half a turn about the axis, from one leaflet to the other. */
+/* Rotates a point by 180 degrees about the axis, from one leaflet to the other. */
 static inline void half_turn(int32_t leaflet_id, double *p) {
   if (leaflet_id != RIIS_LEAFLET_NEGATIVE) return;
   p[0] = -p[0], p[1] = -p[1];
@@ -85,16 +85,16 @@ static inline void from_leaflet(const bileaflet *of, int32_t leaflet_id, double 
   half_turn(leaflet_id, p);
 }
 
-/* Returns the squared distance from a point of the leaflet's plane to the point of the rim at an angle about the axis.
- * `stretch` is the rim's stretch along the slope. */
+/* Returns the squared distance from a point of the leaflet's plane to the rim's point at an angle about the axis. `stretch` is
+ * the factor by which the slope lengthens the rim. */
 static inline double to_rim_sq(const bileaflet *of, double stretch, double x, double y, double around) {
   const double dx = stretch * (of->radius * cos(around) - x), dy = of->radius * sin(around) - y;
   return dx * dx + dy * dy;
 }
 
 /* Returns the distance from a point outside the leaflet to its outline, within the leaflet's plane. (x, y) is the point's
- * position on the closed leaflet, seen along the axis. The middle edge is a segment. The rim is an ellipse, which is searched
- * by golden sections between samples. */
+ * position on the closed leaflet, seen along the axis. The middle edge is a segment. The rim is an ellipse. A golden-section
+ * search between samples finds the rim's nearest point. */
 static inline double to_outline(const bileaflet *of, double x, double y) {
   const double stretch = 1 / cos(degree * of->closed_angle), x0 = of->gap / 2, R = of->radius;
   const double y_end = sqrt(R * R - x0 * x0), whole = atan2(y_end, x0);
@@ -127,20 +127,20 @@ static inline double to_bileaflet_leaflet(const bileaflet *of, int32_t leaflet_i
   return is_over ? fabs(at.off) : hypot(at.off, to_outline(of, x, at.y));
 }
 
-/* Returns the distance of a point from the nearer leaflet. */
+/* Returns the distance from a point to the nearer leaflet. */
 static inline double to_bileaflet(const bileaflet *of, const double *p) {
   return fmin(to_bileaflet_leaflet(of, RIIS_LEAFLET_POSITIVE, p), to_bileaflet_leaflet(of, RIIS_LEAFLET_NEGATIVE, p));
 }
 
-/* Returns the distance from a half disc, which is the half x >= 0 of a disc of this radius. The disc's plane contains the
- * hinge at slope 0, and its centre is at slope -offset. */
+/* Returns the distance from a point to the half x >= 0 of a disc of this radius. The hinge lies in the disc's plane at slope 0.
+ * The disc's centre is at slope -offset. */
 static inline double to_half_disc(double radius, double offset, in_leaflet at) {
   const double x = at.slope + offset, from_centre = hypot(x, at.y);
   if (x >= 0) return hypot(at.off, fmax(from_centre - radius, 0));
   return hypot(at.off, hypot(x, fmax(fabs(at.y) - radius, 0)));
 }
 
-/* Returns the area of both leaflets. Each is a segment of a disc, stretched along the slope. */
+/* Returns the area of both leaflets together. Each leaflet is a segment of a disc that is stretched along the slope. */
 static inline double bileaflet_area(const bileaflet *of) {
   const double R = of->radius, x0 = of->gap / 2;
   return 2 * (R * R * acos(x0 / R) - x0 * sqrt(R * R - x0 * x0)) / cos(degree * of->closed_angle);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Provides the reference for every search, in tests and benchmarks: a loop over all triangles with the library's
+// Provides the reference with which tests and benchmarks compare every search: a loop over all triangles with the library's
 // decision kernel.
 #pragma once
 
@@ -18,7 +18,7 @@ inline ClosestTriangle closest_by_brute_force(const TriangleSet &set, Vec3 p) {
   for (std::int64_t i = 0; i < set.n_triangles(); ++i) {
     const auto [a, b, c] = set.corners(i);
     const double distance_sq = closest_point_on_triangle(p, a, b, c).distance_sq;
-    // Positions ascend, so this finds the lowest of several equally near triangles.
+    // Positions ascend, so the loop finds the lowest of several equally near triangles.
     if (distance_sq < best.distance_sq) best = {distance_sq, i};
   }
   return best;

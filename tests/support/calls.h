@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Wraps calls of riis: they take plain arguments instead of structs, and return riis's status. Other functions return the
- * content of a handle as a struct. */
+ * Wraps calls of riis. Some functions take plain arguments instead of structs, and return riis's status. Other functions return
+ * the content of a handle as a struct. */
 #ifndef RIIS_TEST_CALLS_H
 #define RIIS_TEST_CALLS_H
 
@@ -91,7 +91,7 @@ static inline riis_status find_passage_between(const riis_surface *surface, cons
   return riis_find_passage(surface, mesh, &ends, options, passage, struct_size);
 }
 
-/* Finds crossings and gives the list without its arrays. */
+/* Finds crossings, and returns the list without its arrays. */
 static inline riis_status find_crossings_in(const riis_surface *surface, const riis_crossing_options *options,
                                             riis_crossing_list *list) {
   riis_crossings *crossings = NULL;
@@ -103,7 +103,7 @@ static inline riis_status find_crossings_in(const riis_surface *surface, const r
   return status;
 }
 
-/* Finds leaks and gives the list without its arrays. */
+/* Finds leaks, and returns the list without its arrays. */
 static inline riis_status find_leaks_in(const riis_surface *surface, const riis_mesh *mesh, const riis_marks *marks,
                                         const riis_mark_options *options, riis_leak_list *list) {
   riis_leaks *leaks = NULL;
@@ -123,7 +123,7 @@ static inline riis_triangles triangles_of(const riis_surface *surface) {
   return triangles;
 }
 
-/* Returns a list of the marks, with n_nodes -1 if riis refuses. */
+/* Returns a list of the marks. The list's n_nodes is -1 if riis refuses. */
 static inline riis_mark_list list_of(const riis_marks *marks, int32_t which) {
   riis_mark_list list;
   memset(&list, 0, sizeof list);

@@ -5,7 +5,7 @@
 
 static random_source rng;
 
-/* Returns whether the call was refused because this processor lacks the instructions. */
+/* Returns whether riis refused the call because this processor lacks the instructions. */
 static inline int is_refused(riis_status status, int32_t instructions) {
   if (status == RIIS_OK) return 0;
   char text[64];
@@ -15,11 +15,11 @@ static inline int is_refused(riis_status status, int32_t instructions) {
   return 1;
 }
 
-static int32_t most_threads; /* largest number of threads in any marking */
+static int32_t most_threads; /* the largest number of threads in any marking */
 static int64_t most_within;
 
-/* Marks with all instruction sets, and with 1 to max_threads threads. expected_search is the search that must run. If
- * `fresh`, each marking gets a new mesh. */
+/* Marks with every instruction set, and with 1 to max_threads threads. Checks that each marking uses expected_search. If `fresh`
+ * is not 0, each marking gets a new mesh. */
 static inline void check_with(const riis_surface *surface, riis_mesh *mesh, riis_mark_options options, int max_threads,
                               int32_t expected_search) {
   const int owned_before = n_owned();
@@ -56,7 +56,7 @@ static inline void check_with(const riis_surface *surface, riis_mesh *mesh, riis
   free_owned_after(owned_before);
 }
 
-/* Gives a random point of the surface's triangles, moved by at most `off`. */
+/* Writes a random point of the surface's triangles, shifted by at most `off`. */
 static inline void point_near(const riis_surface *surface, double off, double *p) {
   const riis_triangles all = triangles_of(surface);
   const int64_t *id = all.vertex_id + 3 * (random_bits(&rng) % (uint64_t)all.n_triangles);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Measures valves with three cusps, from their triangles: free edges, the orifice, and the sectors that keep cusps
- * apart. Include after handles.h. */
+ * Measures valves with three cusps from their triangles: the free edges, the orifice, and the sectors in which the cusps stay.
+ * Include after handles.h. */
 #ifndef RIIS_TEST_CUSP_CHECKS_H
 #define RIIS_TEST_CUSP_CHECKS_H
 
@@ -25,7 +25,8 @@ static inline void free_edge_lengths(const riis_surface *surface, double *length
     }
 }
 
-/* Returns the area of a disc around the axis that no triangle covers, seen along the axis. It uses a grid of n x n squares. */
+/* Returns the area of the opening inside a disc around the axis, seen along the axis. No triangle covers this area, which is
+ * counted on a grid of n x n squares. */
 static inline double orifice_area(const riis_surface *surface, double radius, int n) {
   const riis_triangles all = triangles_of(surface);
   const double h = 2 * radius / n;
@@ -63,8 +64,8 @@ static inline double orifice_area(const riis_surface *surface, double radius, in
   return (double)n_open * h * h;
 }
 
-/* Returns how far a cusp extends beyond its sector, which is the wedge between its two commissures. The wedges are convex,
- * so cusps that stay in their wedges do not cross. */
+/* Returns how far a cusp extends beyond its sector, which is the wedge between its two commissures. Wedges are convex, so cusps
+ * that stay inside their wedges do not cross. */
 static inline double reach_out_of_sectors(const riis_surface *surface, const double *turn, const double *half_angle) {
   const riis_triangles all = triangles_of(surface);
   double worst = 0;
@@ -79,7 +80,7 @@ static inline double reach_out_of_sectors(const riis_surface *surface, const dou
   return worst;
 }
 
-/* Returns the least cosine of the angle between a triangle's normal and the direction outwards and up. A fold would reverse the
+/* Returns the least cosine of the angle between a triangle's normal and the direction outwards and up. A fold would reverse a
  * normal. */
 static inline double least_uprightness(const riis_surface *surface, const double *turn) {
   const riis_triangles all = triangles_of(surface);
@@ -98,8 +99,8 @@ static inline double least_uprightness(const riis_surface *surface, const double
   return least;
 }
 
-/* Checks 101 openings. Free edges must keep their length at opening 0, up to a given fraction. The orifice must grow, and cusps
- * must neither cross nor fold. Returns the orifice at opening 1. */
+/* Checks 101 openings. A free edge must keep its length at opening 0, to within the given fraction. The orifice must grow from
+ * each opening to the next. Cusps must not cross or fold. Returns the orifice at opening 1. */
 static inline double check_opening(riis_valve *valve, double radius, const double *turn, const double *half_angle,
                                    double share, const char *name) {
   double at_rest[3] = {0, 0, 0}, least[3] = {1, 1, 1}, most[3] = {1, 1, 1}, orifice = -1;
@@ -131,14 +132,14 @@ static inline double check_opening(riis_valve *valve, double radius, const doubl
   return orifice;
 }
 
-/* The nodes of a grid around the axis. */
+/* Describes the nodes of a grid around the axis. */
 enum { n_across = 67, n_up = 76, n_nodes = n_across * n_across * n_up };
 
-/* Returns the place of a node of the grid beside the axis, from -radius to radius. */
+/* Returns the coordinate of a grid node across the axis, from -radius to radius. */
 static inline double grid_place(int i, double radius) { return radius * (2.0 * i / (n_across - 1) - 1); }
 
-/* Marks the nodes near the surface in a grid of height 3, then fills from below over all 26 neighbours. The nodes at the places
- * (n_across, n_across) of `is_wall` are closed. Returns whether the fill reaches the top. */
+/* Marks the nodes near the surface in a grid of height 3, then fills the grid from below through all 26 neighbours. The nodes
+ * above and below the places `is_wall` (n_across, n_across) are closed. Returns whether the fill reaches the top. */
 static inline int leaks_between(const riis_surface *surface, const uint8_t *is_wall, double radius, double bottom) {
   double *nodes = own(malloc(3 * n_nodes * sizeof *nodes));
   uint8_t *is_closed = own(malloc(n_nodes * sizeof *is_closed));

@@ -33,7 +33,7 @@ static inline int pthread_barrier_destroy(pthread_barrier_t *barrier) {
   return pthread_cond_destroy(&barrier->have_all_come) != 0 || pthread_mutex_destroy(&barrier->mutex) != 0;
 }
 
-/* No traps: their test is skipped. */
+/* macOS lacks floating-point traps, so the test of traps is skipped. */
 static inline int feenableexcept(int traps) { return (void)traps, -1; }
 static inline int fedisableexcept(int traps) { return (void)traps, 0; }
 static inline int fegetexcept(void) { return 0; }

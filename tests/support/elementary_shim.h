@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Wraps common/elementary.hpp for C: the sines, cosines and arc tangents whose bits depend on the argument alone. */
+ * Lets C code use common/elementary.hpp. The sines, cosines and arc tangents of this header have the same bits on every
+ * machine. */
 #ifndef RIIS_TESTS_ELEMENTARY_SHIM_H
 #define RIIS_TESTS_ELEMENTARY_SHIM_H
 

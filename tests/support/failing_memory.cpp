@@ -19,20 +19,20 @@
 
 namespace {
 
-// The addresses at which an object (executable or library) is mapped.
+// The addresses at which the executable or a library is mapped.
 struct Object {
   std::uintptr_t begin = 0, end = 0;
 
   bool has(std::uintptr_t address) const { return address >= begin && address < end; }
 };
 
-// Returns the object that contains the function of this name.
+// Returns the executable or library that contains the function of this name.
 Object object_of(const char *function) {
   struct Sought {
     std::uintptr_t address;
     Object found;
   } sought{reinterpret_cast<std::uintptr_t>(dlsym(RTLD_DEFAULT, function)), {}};
-  // A static library exports nothing, so its functions are in the same object as this one.
+  // A static library exports nothing, so its functions are in the object of this function.
   if (!sought.address) sought.address = reinterpret_cast<std::uintptr_t>(&object_of);
   dl_iterate_phdr(
       [](dl_phdr_info *info, std::size_t, void *data) {
@@ -67,8 +67,8 @@ std::atomic<const Objects *> objects{nullptr};  // null until the program starts
 alignas(Objects) char objects_place[sizeof(Objects)];
 [[gnu::constructor]] void find_objects() { objects = new (objects_place) Objects; }
 
-// Returns the owner of the first caller outside the C++ library. Code of that library, such as std::string, allocates on behalf
-// of its callers.
+// Returns the owner of the first caller outside the C++ library. The C++ library allocates on behalf of its callers, for example
+// in std::string.
 Owner owner_behind_standard_library() {
   struct Walk {
     bool was_in_it = false;
@@ -109,7 +109,7 @@ const void *this_thread() {
   return &mark;
 }
 
-// Counts an allocation by the tested owner. Returns true if this allocation has to fail.
+// Counts an allocation by the tested owner. Returns true if this allocation must fail.
 bool is_to_fail() {
   const std::int64_t left = n_left.fetch_sub(1);
   if (left > 1 || (left < 1 && !fails_on)) return false;
@@ -117,9 +117,9 @@ bool is_to_fail() {
   return true;
 }
 
-// Precedes every object that operator new returns.
+// This header stands before every object that operator new returns.
 struct alignas(16) Header {
-  std::uint32_t offset;  // position of the object in its block
+  std::uint32_t offset;  // the object's position in its block
   Owner owner;
 };
 
@@ -192,7 +192,8 @@ void operator delete[](void *p, std::align_val_t, const std::nothrow_t &) noexce
 
 extern "C" {
 
-// Replaces Embree's function of this name. Its declaration is the same in both versions of Embree, so neither header is needed.
+// Replaces Embree's function of this name. The function's declaration is the same in both versions of Embree, so neither header
+// is needed.
 void *rtcNewDevice(const char *config) {
   const auto find = [](const char *name) {
     void *const function = dlsym(RTLD_NEXT, name);
@@ -210,8 +211,8 @@ void *rtcNewDevice(const char *config) {
         device,
         [](void *, ssize_t bytes, bool post) {
           const bool refused = bytes > 0 && failing == MEMORY_OF_EMBREE && is_to_fail();
-          // Embree reports memory before or after it allocates. A late report counts even if it is refused, because the memory
-          // already exists.
+          // Embree reports memory before or after it allocates the memory. A report after the allocation counts even if it is
+          // refused, because the memory already exists.
           if (!refused || post) live_bytes_of_embree += bytes;
           return !refused;
         },

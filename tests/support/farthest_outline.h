@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The outline of leaflets by rays: the farthest points of triangles in many directions, seen along an axis. */
+ * Finds the outline of leaflets, seen along an axis. In each of many directions, the triangles' farthest point belongs to the
+ * outline. */
 #ifndef RIIS_TEST_FARTHEST_OUTLINE_H
 #define RIIS_TEST_FARTHEST_OUTLINE_H
 
 #include <math.h>
 #include <stdint.h>
 
-/* A frame whose third direction is the axis of view. */
+/* Two unit vectors across the axis of view, which is the third direction of the frame. */
 typedef struct frame {
   double x[3], y[3];
 } frame;
@@ -30,7 +31,7 @@ static inline void seen_from(const frame *of, const double *p, double *out) {
 }
 
 /* The outline of triangles seen along an axis: the farthest points of their edges from the middle, in many directions. Edges
- * inside a leaflet count too, and do no harm: the boundary is farther from the middle, or triangles cover the area between. */
+ * inside a leaflet also count. Such edges do no harm, because the boundary is farther out or triangles cover the area between. */
 enum { n_directions = 1440 };
 typedef struct outline {
   double middle[2], distance[n_directions], reach;
@@ -47,7 +48,7 @@ static inline void add_edge(outline *to, const double *from, const double *until
     return;
   }
   const double size = hypot(a[0], a[1]), other = hypot(b[0], b[1]), most = fmax(size, other);
-  if (turning <= 1e-10 * size * other) return; /* the edge is seen from its end */
+  if (turning <= 1e-10 * size * other) return; /* seen along the axis, the edge is only a point */
   const double low = atan2(a[1], a[0]), wide = atan2(turning, a[0] * b[0] + a[1] * b[1]);
   for (int i = (int)ceil(low / turn_of_direction); i * turn_of_direction <= low + wide; ++i) {
     const double c = cos(i * turn_of_direction), s = sin(i * turn_of_direction);
@@ -57,7 +58,7 @@ static inline void add_edge(outline *to, const double *from, const double *until
   }
 }
 
-/* Returns the outline of triangles, whose vertices are `ids` of `xyz`. */
+/* Returns the outline of triangles. `ids` are the positions of the triangles' vertices in `xyz`. */
 static inline outline outline_of(const double *xyz, int64_t n_triangles, const int64_t *ids, const frame *seen) {
   outline made = {{0, 0}, {0}, 0};
   for (int64_t i = 0; i < 3 * n_triangles; ++i) {
@@ -75,7 +76,7 @@ static inline outline outline_of(const double *xyz, int64_t n_triangles, const i
   return made;
 }
 
-/* Returns whether a point, relative to the middle, is inside. */
+/* Returns whether a point is inside the outline. The point is given relative to the middle. */
 static inline int is_inside(const outline *of, double x, double y) {
   const double direction = atan2(y, x) / turn_of_direction, share = direction - floor(direction);
   const int first = ((int)floor(direction) % n_directions + n_directions) % n_directions;

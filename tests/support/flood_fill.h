@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Provides a serial flood fill that labels open regions, random graphs, and meshes in a tube. Include after
- * searches.h and random_meshes.h. */
+ * Provides a serial flood fill that labels open regions, random graphs, and meshes in a tube. Include after searches.h and
+ * random_meshes.h. */
 #ifndef RIIS_TEST_FLOOD_FILL_H
 #define RIIS_TEST_FLOOD_FILL_H
 
-/* Returns the mesh with rows in both directions and without ghost nodes. The test owns the arrays. */
+/* Returns a copy of the mesh whose rows have both directions of each edge and no ghost nodes. The test owns the arrays. */
 static inline test_mesh both_ways(const test_mesh *mesh) {
   test_mesh made = {.n = mesh->n, .xyz = mesh->xyz};
   int64_t *pairs = malloc((size_t)(2 * mesh->offsets[mesh->n] + 1) * sizeof *pairs), n_pairs = 0;
@@ -16,7 +16,7 @@ static inline test_mesh both_ways(const test_mesh *mesh) {
   return made;
 }
 
-/* Labels the open regions: walks from each open node that has no label yet, in ascending order. The rows must have both
+/* Labels the open regions. A walk starts at each open node without a label, in ascending order. The rows must have both
  * directions of each edge. Returns the number of regions. */
 static inline int64_t flood_fill(const test_mesh *rows, const uint8_t *is_open, int64_t *label) {
   int64_t *stack = malloc((size_t)(rows->n + 1) * sizeof *stack), n_regions = 0;
@@ -38,8 +38,8 @@ static inline int64_t flood_fill(const test_mesh *rows, const uint8_t *is_open, 
   return n_regions;
 }
 
-/* Makes random nodes in a cube, and random rows. Edges have one or both directions. Rows may contain repeats, the node itself,
- * and ghost nodes up to n + 5. */
+/* Makes random nodes in a cube, and random rows. Edges have one or both directions. Rows may repeat a neighbour, and may contain
+ * the node itself and ghost nodes up to n + 5. */
 static inline test_mesh random_graph(int64_t n, double edges_per_node) {
   test_mesh mesh = {.n = n};
   mesh.xyz = own(malloc((size_t)n * 3 * sizeof *mesh.xyz));
@@ -57,7 +57,7 @@ static inline test_mesh random_graph(int64_t n, double edges_per_node) {
   return mesh;
 }
 
-/* Makes a mesh that borrows coordinates and rows, which may name ghost nodes up to n + 5. */
+/* Makes a mesh that borrows coordinates and rows. The rows may name ghost nodes up to n + 5. */
 static inline riis_mesh *mesh_of_graph(const test_mesh *graph) {
   riis_mesh *mesh = mesh_of(graph->n, graph->xyz);
   riis_csr csr = csr_of(graph);
@@ -66,7 +66,7 @@ static inline riis_mesh *mesh_of_graph(const test_mesh *graph) {
   return mesh;
 }
 
-/* Makes a surface of a few triangles in the cube, with a random half thickness. */
+/* Makes a surface with a few triangles in the cube and a random half thickness. */
 static inline riis_surface *random_surface(void) {
   static const int32_t ids[18] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17};
   double xyz[54];
@@ -78,7 +78,7 @@ static inline riis_surface *random_surface(void) {
   return surface_from(&arrays, &options);
 }
 
-/* Makes a lattice along z, cut to a tube around the z axis. */
+/* Makes a lattice of nodes inside a tube around the z axis. */
 static inline test_mesh tube(double radius, double from, double to, double spacing) {
   const int64_t across = 1 + 2 * (int64_t)ceil(radius / spacing), along = 1 + (int64_t)ceil((to - from) / spacing);
   const int64_t counts[3] = {across, across, along};

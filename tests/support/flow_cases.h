@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Provides moving surfaces of all kinds, nodes around them, and a flow at these nodes, for tests of forces. Include after
+ * For tests of forces, provides moving surfaces of all kinds, the nodes around them, and a flow at these nodes. Include after
  * handles.h, sanitized.h, searches.h and shapes.h. */
 #ifndef RIIS_TEST_FLOW_CASES_H
 #define RIIS_TEST_FLOW_CASES_H
@@ -44,7 +44,7 @@ static inline riis_valve *valve_of(int kind, double opening) {
     if (kind == 3) CHECK_OK(riis_valve_set_scalar(valve, "ring_height", 0.6));
     return valve;
   }
-  /* Two unit squares, the leaflets 2 and 6, turn up as they open. */
+  /* The leaflets 2 and 6 are unit squares that turn upwards as they open. */
   shape squares = {0}, up;
   add_line(&squares, 0, 0, 0, 1, 0, 0), add_line(&squares, 0, 1, 0, 1, 1, 0);
   add_line(&squares, 0, 0, 0, 0, 1, 0), add_line(&squares, 1, 0, 0, 1, 1, 0);
@@ -61,7 +61,7 @@ static inline riis_valve *valve_of(int kind, double opening) {
   return valve;
 }
 
-/* Makes a moving surface of the given kind and triangulation, with a random placement, and marks nodes around it. */
+/* Makes a moving surface with the given kind and triangulation and a random placement. Marks the nodes around it. */
 static inline riis_surface *moving_surface(int kind, int32_t triangulation) {
   riis_surface_options options = surface_options();
   options.triangulation = triangulation;

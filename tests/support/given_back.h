@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Makes the caller's arrays from the triangles of a surface, as if they came from a file. Include after handles.h. */
+ * Copies the triangles of a surface into arrays of the caller, as if the arrays came from a file. Include after handles.h. */
 #ifndef RIIS_TEST_GIVEN_BACK_H
 #define RIIS_TEST_GIVEN_BACK_H
 
-/* Copies the triangles. With has_attachment, the arrays name the attached vertices. */
+/* Copies the triangles. If has_attachment is not 0, the arrays also name the attached vertices. */
 static inline riis_surface_arrays given_back(const riis_surface *surface, int has_attachment) {
   const riis_triangles all = triangles_of(surface);
   const size_t n_points = (size_t)all.n_vertices, n_faces = (size_t)all.n_triangles;
@@ -19,7 +19,7 @@ static inline riis_surface_arrays given_back(const riis_surface *surface, int ha
   riis_attachment held;
   CHECK_OK(riis_surface_get_attachment(surface, &held, sizeof held));
   for (int64_t i = 0; i < 2 * held.n_edges; ++i)
-    for (int64_t id = 0; id < all.n_vertices; ++id) /* also other vertices at this place */
+    for (int64_t id = 0; id < all.n_vertices; ++id) /* other vertices at this place are also attached */
       if (memcmp(xyz + 3 * id, held.edges + 3 * i, 3 * sizeof *xyz) == 0) attached[id] = 1;
   arrays.attached = attached;
   return arrays;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Makes surfaces that many tests start from. The test owns the objects that functions here return: see owned.h. Include
- * after riis.h and test_support.h. */
+ * Makes surfaces that many tests start from. Objects that these functions return belong to the test (owned.h). Include after
+ * riis.h and test_support.h. */
 #ifndef RIIS_TEST_HANDLES_H
 #define RIIS_TEST_HANDLES_H
 
@@ -81,7 +81,7 @@ static inline riis_surface_info info_of(const riis_surface *surface) {
   return info;
 }
 
-/* Returns whether two surfaces have the same information (except times), vertices, triangles and ids, to the last bit. */
+/* Returns whether two surfaces have the same vertices, triangles, ids and information, to the last bit. Times may differ. */
 static inline int is_same_content(const riis_surface *a, const riis_surface *b) {
   const riis_triangles s = triangles_of(a), t = triangles_of(b);
   const riis_surface_info of_a = info_of(a), of_b = info_of(b);
@@ -95,7 +95,7 @@ static inline int is_same_content(const riis_surface *a, const riis_surface *b) 
          memcmp(s.patch_id, t.patch_id, n * sizeof *s.patch_id) == 0;
 }
 
-/* Returns the velocities (3, n_vertices), or NULL unless the last update gave velocities. */
+/* Returns the velocities (3, n_vertices), or NULL if the last update gave none. */
 static inline const double *velocity_of(const riis_surface *surface) { return triangles_of(surface).velocity; }
 
 static inline riis_closest closest_to(const riis_surface *surface, double x, double y, double z) {
@@ -115,7 +115,7 @@ static inline riis_points points_at(int64_t n, const double *xyz) {
   return points;
 }
 
-/* Makes n random triangles in [-1,1]^3, all with an area: xyz (9 n), ids (3 n). */
+/* Makes n random triangles in [-1,1]^3 with xyz (9 n) and ids (3 n). Each triangle has a positive area. */
 static inline void random_soup(random_source *random, int64_t n, double size, double **xyz, int32_t **ids) {
   *xyz = own(malloc((size_t)n * 9 * sizeof **xyz));
   *ids = own(malloc((size_t)n * 3 * sizeof **ids));

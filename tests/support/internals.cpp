@@ -63,7 +63,7 @@ T *room(std::size_t n) {
   return static_cast<T *>(std::malloc(std::max<std::size_t>(n, 1) * sizeof(T)));
 }
 
-// Makes a curve of n cubics, 12 numbers each.
+// Makes a curve of n cubics, with 12 numbers each.
 Curve chain(std::int64_t n_spans, const double *control) {
   Vector<Bezier> spans;
   for (std::int64_t i = 0; i < n_spans; ++i) spans.push_back(curve(3, control + 12 * i));
@@ -374,8 +374,8 @@ riis_status wall_meets(const char *exception) {
       std::atomic<bool> has_failed{false};
       parallel_for(2, 2, [&](std::int64_t block, int) {
         const auto start = std::chrono::steady_clock::now();
-        // The first block waits for a short time until another block has failed. With a single thread, no other block can
-        // fail meanwhile.
+        // The first block waits for a short time until another block has failed. With a single thread, no other block can fail
+        // during this wait.
         while (block == 0 && !has_failed && std::chrono::steady_clock::now() - start < std::chrono::milliseconds(500))
           std::this_thread::yield();
         if (block == 0) std::this_thread::sleep_for(std::chrono::milliseconds(20));

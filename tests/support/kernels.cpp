@@ -30,7 +30,7 @@ const Kernels &of(int set) {
   return kernels(static_cast<InstructionSet>(set));
 }
 
-// Makes the filter's input as cluster_search.cpp does.
+// Makes the filter's input in the way of cluster_search.cpp.
 struct Filter {
   std::vector<TriangleGroup> groups;
   std::vector<GroupBounds> bounds;
@@ -85,7 +85,7 @@ struct Filter {
   }
 };
 
-// Makes a box of each n_together nodes.
+// Makes a box around every n_together nodes.
 Boxes boxes_of(const kernel_filter &filter, int n_together) {
   Boxes boxes;
   for (int i = 0; i < 3; ++i)

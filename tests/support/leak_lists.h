@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Gives leaking edges as lists, and makes meshes with rows. Include after searches.h. */
+ * Gives the edges that leak as lists, and makes meshes with rows. Include after searches.h. */
 #ifndef RIIS_TEST_LEAK_LISTS_H
 #define RIIS_TEST_LEAK_LISTS_H
 

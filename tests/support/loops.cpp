@@ -24,7 +24,7 @@ struct Seen {
   std::int64_t n_of_caller = 0;  // number of blocks that the calling thread ran
 };
 
-// With `choice`, the loop runs on a team.
+// If `choice` is given, the loop runs on a team.
 Seen run_loop(std::int64_t n_blocks, int n_threads, LoopChoice *choice = nullptr) {
   struct Thread {
     std::int64_t last = -1;
@@ -44,7 +44,7 @@ Seen run_loop(std::int64_t n_blocks, int n_threads, LoopChoice *choice = nullptr
       return;
     }
     Thread &thread = threads[static_cast<std::size_t>(number)];
-    // A thread goes from its share to the next shares, and from the last share to the first.
+    // After its own share, a thread goes on to the next shares. After the last share comes the first share.
     thread.n_descents += block < thread.last;
     if (thread.n_inside.fetch_add(1) != 0 || block == thread.last || thread.n_descents > (number == 0 ? 0 : 1))
       is_right = false;
@@ -68,7 +68,7 @@ void wait_a_second_for(const std::atomic<int> &number, int value) {
   for (int i = 0; i < 10'000 && number.load() < value; ++i) std::this_thread::sleep_for(std::chrono::microseconds(100));
 }
 
-// Runs a loop of two blocks on a team. Each of two threads has to run one block. Calls look() on the second thread.
+// Runs a loop of two blocks on a team of two threads. Each thread must run one block. The second thread calls look().
 template <class Look>
 void run_on_both_threads(const Look &look) {
   std::atomic<int> n_come{0};
@@ -102,13 +102,13 @@ int loop_once(int64_t n_blocks, int n_threads) {
 
 namespace {
 
-// A loop whose bodies count their runs, and may throw the number of their block.
+// A loop whose bodies count their runs. A body may throw the number of its block.
 struct FailingLoop {
   explicit FailingLoop(std::int64_t n_blocks) : n_runs(static_cast<std::size_t>(n_blocks)) {}
 
   void begin(std::int64_t block) { n_runs[static_cast<std::size_t>(block)].fetch_add(1, std::memory_order_relaxed); }
-  // Returns the block whose exception leaves run(), or the number of blocks if no exception does. Returns -1 if a lower block
-  // did not run, or if a block ran twice.
+  // Returns the block whose exception leaves run(), or the number of blocks if no exception leaves it. Returns -1 if a block did
+  // not run before the first failing block, or if a block ran twice.
   template <class Run>
   std::int64_t caught(const Run &run) const {
     const auto n_blocks = static_cast<std::int64_t>(n_runs.size());
@@ -157,7 +157,7 @@ int64_t block_that_fails_first(int64_t n_blocks, int64_t also_failing, int64_t *
     }
     if (block == 0) {
       wait_for(has_failed, 1);
-      std::this_thread::sleep_for(std::chrono::milliseconds(2));  // the exception is on its way
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));  // the exception is thrown but not yet caught
     }
     if (block == also_failing) throw block;
   };
@@ -202,7 +202,7 @@ int caller_calls_a_team_later() {
       1'000'000, 2,
       [&](std::int64_t, int thread) {
         if (n_come >= 2) return;
-        // The calling thread is alone until another thread comes. Then both wait for each other.
+        // The calling thread works alone until a second thread comes. Then each thread waits for the other thread.
         if (thread == 1 || n_alone.load() >= 10) {
           n_come.fetch_add(1);
           wait_for(n_come, 2);
@@ -235,7 +235,8 @@ int wait_long_for_a_thread() {
 #if defined(RIIS_STD_THREADS)
   return next_loop_is_on_a_team();  // every loop runs on a team, so no wait chooses a team
 #endif
-  // On a busy machine an earlier wait may have chosen a team, for 2 seconds at most. Its calling thread may run both blocks.
+  // On a busy machine, an earlier wait may have chosen a team for at most 2 seconds. A team's calling thread may run both blocks,
+  // so the loop is repeated.
   for (bool are_openmps = false; !are_openmps;) {
     std::atomic<int> n_come{0};
     parallel_for(2, 2, [&](std::int64_t, int thread) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Defines scenarios that call every public function that allocates, each at least once. Include after the digests. */
+ * Defines scenarios that call every public function that allocates. Include after the digests. */
 #ifndef RIIS_TEST_MEMORY_SCENARIOS_H
 #define RIIS_TEST_MEMORY_SCENARIOS_H
 
@@ -13,7 +13,7 @@ typedef struct world {
   const struct scenario *scenario;
 } world;
 
-/* A scenario makes one call. For each run a new world is made, the call runs, and the world is destroyed. */
+/* A scenario makes one call. Each run makes a new world, makes the call, and destroys the world. */
 typedef struct scenario {
   const char *name;
   void (*make)(world *w);
@@ -24,11 +24,11 @@ typedef struct scenario {
 } scenario;
 enum {
   MAKES_A_SCENE = 1,
-  ON_WORKERS = 2,     /* threads other than the calling one also allocate */
+  ON_WORKERS = 2,     /* other threads than the caller also allocate */
   ALLOCATES_NONE = 4, /* the library's own code allocates nothing */
   IS_FIRST = 8,       /* the first such call in this process also makes data for later calls */
-  MAY_GO_ON = 16,     /* the call can do without the memory, and then succeeds */
-  IS_SHORT = 32       /* on a busy machine, the calling thread may have ended the loop before the others come */
+  MAY_GO_ON = 16,     /* without the memory, the call still succeeds */
+  IS_SHORT = 32       /* on a busy machine, the calling thread may end the loop before other threads begin */
 };
 
 /* --- Objects that all scenarios share
@@ -56,7 +56,7 @@ static void set_nodes(int64_t n) {
   for (int64_t i = 0; i < nodes.n; ++i) mask[i] = i % 7 != 0;
 }
 
-/* Before a call that creates an object, a handle holds this object. The call may overwrite the handle only on success. */
+/* Before a call that creates an object, the handle points to this object. The call may overwrite the handle only on success. */
 static char no_object;
 #define MADE(type, handle, create)                                                                    \
   do {                                                                                                \
@@ -72,7 +72,7 @@ static char no_object;
 static riis_status make_aortic(world *w) { MADE(riis_valve, w->valve, riis_valve_create("aortic", &made)); }
 static riis_status make_mitral(world *w) { MADE(riis_valve, w->valve, riis_valve_create("mitral", &made)); }
 
-/* Makes a valve of two patches side by side, lifted by z in the middle. It has 7 straight and bent curves. */
+/* Makes a valve of two patches side by side, lifted by z in the middle. The valve has 7 straight and bent curves. */
 static riis_status patches_valve(double z, riis_valve **valve) {
   static const int32_t degree[7] = {2, 2, 2, 2, 1, 1, 1}, curve_id[8] = {0, 1, 4, 5, 2, 3, 5, 6};
   double control[54];
@@ -202,7 +202,7 @@ static riis_status update_from_triangles(world *w) {
   return riis_surface_update_from_arrays(w->surface, &arrays, &options);
 }
 
-/* Makes the first query with a side on this surface. */
+/* Makes this surface's first query that also asks for a side. */
 static riis_status closest_point(world *w) {
   const double point[3] = {0.1, 0.2, 0.3};
   riis_closest closest, before;
@@ -228,7 +228,7 @@ static riis_status closest_points(world *w) {
   return status;
 }
 
-/* The right cusp is turned, so that it crosses the other cusps. */
+/* The right cusp is turned so far that it crosses the other cusps. */
 static void crossing(world *w) {
   const double turned[3] = {0, 0, 60};
   aortic(w);
@@ -269,7 +269,7 @@ static riis_status from_grid(world *w) {
   MADE(riis_adjacency, w->adjacency, riis_adjacency_create_from_grid(22, 22, 22, w->scenario->n_threads, &made));
 }
 
-/* A strip of tetrahedra: cell i has the nodes i to i + 3. */
+/* A strip of tetrahedra. Cell i has the nodes i to i + 3. */
 enum { n_cells = 9000 };
 static int32_t *strip;
 static riis_status from_cells(world *w) {
@@ -321,8 +321,8 @@ static riis_status mark_masked_and_wide(world *w) {
   options.node_mask = mask;
   return riis_mark_nodes(w->surface, w->mesh, &options, w->result);
 }
-/* Scenarios that mark into a result of earlier markings. After one marking it needs more memory, and after several it has
- * enough. */
+/* These scenarios mark into a result that was used before. After one earlier marking, the result needs more memory. After
+ * several, it has enough. */
 static void marked_before(world *w) {
   ready_to_mark(w);
   CHECK_OK(mark(w));
@@ -331,7 +331,7 @@ static void marked_often(world *w) {
   ready_to_mark(w);
   for (int i = 0; i < 3; ++i) CHECK_OK(mark(w));
 }
-/* The leaflets of a closed valve meet, so a marking with velocities stores ties. */
+/* The leaflets of a closed valve touch, so a marking with velocities stores ties: points of several leaflets at one distance. */
 static void tied_and_ready(world *w) {
   riis_valve *closed = NULL, *open = NULL;
   ready_to_mark(w);
@@ -356,12 +356,12 @@ static void minimized_and_ready(world *w) {
   ready_to_mark(w);
   CHECK_OK(by_minimization(w));
 }
-/* The mesh has balls or clusters of old positions, so they must be computed again. */
+/* The mesh has balls or clusters of old positions, so the call must compute them again. */
 static void marked_and_moved(world *w) {
   marked_often(w);
   CHECK_OK(riis_mesh_update(w->mesh, nodes.n, nodes.xyz, nodes.xyz + 1, nodes.xyz + 2, 3));
 }
-/* The result has marked a smaller mesh, so all its arrays with one entry per node are too short. */
+/* The result has marked a smaller mesh, so its arrays with one entry per node are too short. */
 static void marked_little(world *w) {
   const riis_csr fewer = csr_of(&fewer_nodes);
   ready_to_mark(w);
@@ -373,7 +373,7 @@ static void marked_little(world *w) {
 }
 static riis_status dense(world *w) { return dense_of(w->result, nodes.n, RIIS_FAR_DISTANCE, marks, NULL, NULL, NULL); }
 
-/* The surface is so thin that edges cross it between unmarked nodes. */
+/* The surface is so thin that edges of the mesh cross it between unmarked nodes. */
 static void thin_and_marked(world *w) {
   ready_to_mark(w);
   riis_surface_options thin = coarse;
@@ -397,7 +397,7 @@ static riis_status label_regions(world *w) {
   const riis_mark_options options = options_of(w, RIIS_AUTO);
   return riis_label_open_regions(w->mesh, w->result, &options, nodes.n, labels, NULL);
 }
-/* The passage leads from the first node to the last one, which are corners of the lattice. */
+/* The passage leads from the first node to the last node, which are corners of the lattice. */
 static riis_status find_passage(world *w) {
   const riis_mark_options options = options_of(w, RIIS_AUTO);
   const int64_t from = 0, to = nodes.n - 1;
@@ -408,7 +408,7 @@ static riis_status find_passage(world *w) {
   return status;
 }
 
-/* Returns a digest of the world. Objects that the call only reads are left out, because their digests would take most of the
+/* Returns a digest of the world. The digest leaves out objects that the call only reads, because they would take most of the
  * time. */
 static uint64_t digest_of(const world *w) {
   uint64_t digest = UINT64_C(0xcbf29ce484222325);

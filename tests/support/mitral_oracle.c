@@ -18,7 +18,8 @@ typedef struct cubic {
 struct mitral_oracle {
   cubic annulus[6], anterior, scallop[3];
   real u_pm, u_al, triangle, bulge; /* bulge is tan(surface_angle) / 2 */
-  /* The cleft: the parameter at one third of the closed anterior edge's length, blended between the values of both valves. */
+  /* The cleft is the parameter at one third of the closed anterior edge's length. The parameters of the closed and the open valve
+   * are blended. */
   real cleft;
   real translation[3];
 };
@@ -56,7 +57,7 @@ static real speed(const cubic *c, real t) {
   return norm(derivative);
 }
 
-/* Returns the length of a short piece by Boole's rule. */
+/* Returns the length of a short span by Boole's rule. */
 static real piece(const cubic *c, real a, real b) {
   const real h = (b - a) / 4;
   return (b - a) / 90 *
@@ -71,8 +72,8 @@ static void measure(cubic *c) {
 
 static real length(const cubic *c) { return c->length_to[STEPS]; }
 
-/* Returns the parameter at arc length s. It uses Newton's method within one step of the table, or bisection if Newton's method
- * would leave the bracket. */
+/* Returns the parameter at arc length s. Newton's method searches within one step of the table. Where Newton's method would leave
+ * the bracket, bisection replaces it. */
 static real parameter_at(const cubic *c, real s) {
   int first = 0, last = STEPS;
   while (last - first > 1) {
@@ -98,7 +99,7 @@ static real parameter_at(const cubic *c, real s) {
   return t;
 }
 
-/* Gives the control points of the curve's part between the parameters a and b. They are the blossom's values at (a,a,a),
+/* Gives the control points of the curve between the parameters a and b. These points are the blossom's values at (a,a,a),
  * (a,a,b), (a,b,b), (b,b,b). */
 static void restrict_to(const cubic *c, real a, real b, real part[4][3]) {
   for (int i = 0; i < 4; ++i)
@@ -114,7 +115,8 @@ static void restrict_to(const cubic *c, real a, real b, real part[4][3]) {
 
 /* ---- The annulus ---- */
 
-/* Endpoints P and tangents T of "Annulus", with P^5 as corrected in row 1. The open annulus lies in the plane z = 0. */
+/* The endpoints P and tangents T of the paper's section "Annulus". Row 1 corrects P^5. The open annulus lies in the plane z =
+ * 0. */
 static void annulus_curves(const mitral_parameters *p, int is_open, cubic annulus[6]) {
   const real ap = p->AP_diameter, alpm = p->ALPM_diameter, ratio = p->ALPM_position_ratio, it = p->IT_distance;
   const real id = p->indent_depth, z = is_open ? 0 : 1, h_at = z * p->anterior_horn_height;
@@ -141,7 +143,7 @@ static real annulus_length(const cubic annulus[6]) {
   return sum;
 }
 
-/* Gives A(u) and the unit vector along A'(u). By "resampled uniformly", the paper means by arc length. */
+/* Gives A(u) and the unit vector along A'(u). Where the paper says "resampled uniformly", it means by arc length. */
 static void annulus_at(const cubic annulus[6], real u, real *point, real *tangent) {
   real s = u * annulus_length(annulus);
   int i = 0;
@@ -155,8 +157,8 @@ static void annulus_at(const cubic annulus[6], real u, real *point, real *tangen
 
 /* ---- The leaflets' free edges ---- */
 
-/* Rows 2 to 4: U(u, x) is at the distance x from A(u), inwards at angle 0 and down at 90 degrees. The closed state has angle 0
- * and leaves out A's z ("Closed valve"). The open annulus has no z, so both states start from z = 0. */
+/* Rows 2 to 4: U(u, x) is at the distance x from A(u). The angle 0 means inwards, and 90 degrees means down. The closed state has
+ * angle 0 and leaves out A's z ("Closed valve"). The open annulus has no z, so both states start at z = 0. */
 static void reach(const cubic annulus[6], real u, double x, double inward_angle, real *point) {
   real a[3], tangent[3];
   annulus_at(annulus, u, a, tangent);
@@ -170,8 +172,9 @@ static real twice_area(const real *a, const real *b, const real *c) {
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
-/* The section "Leaflets" up to the matrix M, rows 5 to 8. M is affine on the arc's plane, and maps S^0, S^3 and S^tip to
- * start, end and tip. A point therefore keeps its barycentric coordinates. (S^cen follows, because it is a mean.) */
+/* The code follows the paper's section "Leaflets" up to the matrix M, with rows 5 to 8. M is affine on the arc's plane, and maps
+ * S^0, S^3 and S^tip to start, end and tip. A point therefore keeps its barycentric coordinates. (S^cen is a mean of points, so M
+ * also maps it.) */
 static void leaflet_curve(const real *start, const real *tip, const real *end, double arc_angle, real curve[4][3]) {
   const real a = radians(arc_angle), k = 4.0L / 3 * tanl(a / 4);
   const real S[4][2] = {{1, 0}, {1, k}, {cosl(a) + k * sinl(a), sinl(a) - k * cosl(a)}, {cosl(a), sinl(a)}};
@@ -185,7 +188,7 @@ static void leaflet_curve(const real *start, const real *tip, const real *end, d
 
 static real u_pm_of(const mitral_parameters *p) { return 0.5L - (real)p->anterior_ratio / 2; }
 
-/* The curve L_at. Row 9: there is one commissure parameter for both ends. */
+/* The curve L_at. Row 9: both ends of the curve use the same commissure parameter. */
 static void anterior_curve(const mitral_parameters *p, const cubic annulus[6], double inward_angle, real curve[4][3]) {
   const real u_pm = u_pm_of(p);
   real start[3], tip[3], end[3];
@@ -195,8 +198,8 @@ static void anterior_curve(const mitral_parameters *p, const cubic annulus[6], d
   leaflet_curve(start, tip, end, p->leaflet_arc_angle, curve);
 }
 
-/* The open scallops from pm to al, rows 10 to 12. Their ends have the height h_pm and are 2 u_pm / 3 apart. Their tips are
- * half way between the ends. */
+/* The open scallops from pm to al, rows 10 to 12. The ends of the scallops have the height h_pm and are 2 u_pm / 3 apart. Each
+ * tip is half way between two ends. */
 static void open_scallop(const mitral_parameters *p, const cubic annulus[6], int scallop, real curve[4][3]) {
   const real third = u_pm_of(p) / 3, ends[4] = {3 * third, third, 1 - third, 1 - 3 * third};
   const real tips[3] = {2 * third, 0, 1 - 2 * third};
@@ -266,13 +269,13 @@ static void by_length(const cubic *c, real share, real *point) {
   evaluate(c, parameter_at(c, share * length(c)), point);
 }
 
-/* Gives L_po(v) for v in [0, 1] from pm to al. Row 13: each scallop has a third of v. */
+/* Gives L_po(v) for v in [0, 1] from pm to al. Row 13: each scallop takes a third of v's range. */
 static void posterior(const mitral_oracle *o, real v, real *point) {
   const int scallop = 3 * v < 1 ? 0 : 3 * v < 2 ? 1 : 2;
   by_length(&o->scallop[scallop], 3 * v - scallop, point);
 }
 
-/* Gives L(u), by the cases of "Leaflet surfaces". 1 - r_at = 2 u_pm. */
+/* Gives L(u) in the cases of the paper's section "Leaflet surfaces". 1 - r_at = 2 u_pm. */
 static void leaflet_at(const mitral_oracle *o, real u, real *point) {
   const real first = o->u_pm + o->triangle, last = o->u_al - o->triangle;
   if (u < o->u_pm)
@@ -283,8 +286,8 @@ static void leaflet_at(const mitral_oracle *o, real u, real *point) {
     by_length(&o->anterior, u <= first ? 0 : u >= last ? 1 : (u - first) / (last - first), point);
 }
 
-/* Gives A(u), K(u) and L(u). Rows 14 and 15: K is the chord's middle, moved by tan(surface_angle) |L - A| / 2 along (L - A) x
- * A'. If these two vectors are parallel, there is no such direction and no offset. */
+/* Gives A(u), K(u) and L(u). Rows 14 and 15: K is the chord's middle, shifted by tan(surface_angle) |L - A| / 2 along (L - A) x
+ * A'. If L - A and A' are parallel, K is not shifted. */
 static void curve_at(const mitral_oracle *o, real u, real *a, real *k, real *l) {
   real t[3], e[3], n[3];
   annulus_at(o->annulus, u, a, t);

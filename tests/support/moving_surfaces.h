@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Helpers for surfaces that move: values at labels (patch, u, v), kept vertices, and a root that beats. Include after
- * handles.h. */
+ * Helps tests of moving surfaces with values at labels (patch, u, v), copies of vertices, and a valve's root that beats. Include
+ * after handles.h. */
 #ifndef RIIS_TEST_MOVING_SURFACES_H
 #define RIIS_TEST_MOVING_SURFACES_H
 
 /* Writes the value of a label, by linear interpolation in a triangle of labels. Vertex i has the label uv[2 i] and the value
- * values[3 i]. Returns 0 where there is a hole between the triangles of labels. */
+ * values[3 i]. Returns 0 if no triangle contains the label. */
 static inline int value_at_label(const riis_triangles *t, const double *uv, const double *values, int32_t patch,
                                  const double *label, double *value) {
   for (int64_t i = 0; i < t->n_triangles; ++i) {
@@ -24,7 +24,7 @@ static inline int value_at_label(const riis_triangles *t, const double *uv, cons
   return 0;
 }
 
-/* The vertices of a surface, kept after the surface moves on. The test owns the arrays. */
+/* A copy of a surface's vertices, for use after the surface has moved. The test owns the arrays. */
 typedef struct kept_vertices {
   int64_t n;
   double *xyz, *uv;
@@ -38,7 +38,7 @@ static inline kept_vertices vertices_of(const riis_surface *surface) {
   return made;
 }
 
-/* A root that widens unevenly, tilts and shifts during a beat. `of` gives the sizes of these motions. */
+/* A valve's root that widens unevenly, tilts and shifts during a beat. `of` gives the sizes of these motions. */
 static inline void beat(const double *x, double time, const double *of, double *y) {
   const double phase = 2 * acos(-1) * time, angle = atan2(x[1], x[0]), tilt = of[0] * sin(phase);
   const double wide = 1 + of[1] * sin(phase + 0.3) * (1 + 0.5 * cos(2 * angle));

@@ -3,7 +3,8 @@
 #ifndef RIIS_TEST_NEIGHBOR_CHECKS_H
 #define RIIS_TEST_NEIGHBOR_CHECKS_H
 
-/* Marks with both searches and compares the results. The neighbour search uses `result`, or a new one if it is NULL. */
+/* Marks with both searches and compares their results. The neighbour search marks into `result`, or into a new result if it is
+ * NULL. */
 static inline riis_mark_stats check_same_as_exhaustive(const riis_surface *surface, const riis_mesh *mesh,
                                                        riis_mark_options options, riis_marks *result) {
   const int owned_before = n_owned();

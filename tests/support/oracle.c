@@ -19,7 +19,8 @@ static real length_minus(const real *r, real s, const real *e, real t, const rea
   return sqrtl(sum);
 }
 
-/* Finds the vertex, edge or face region into which p projects: C. Ericson, "Real-Time Collision Detection", 5.1.5. */
+/* Finds the vertex, the edge or the interior of the triangle onto which p projects. The method is C. Ericson, "Real-Time
+ * Collision Detection", 5.1.5. */
 long double oracle_point_triangle(const double *p, const double *abc) {
   const double *a = abc, *b = abc + 3, *c = abc + 6;
   real ab[3], ac[3], bc[3], ap[3], bp[3], cp[3];

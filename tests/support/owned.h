@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Records the objects of a test. The test's teardown frees the objects, even after a failed assertion. Each thread has its
- * own list. A thread that the test starts frees its objects with free_owned_after. Include after riis.h and
- * test_support.h; handles.h includes it. */
+ * Records the objects that a test owns. The test's teardown frees these objects, even after a failed assertion. Each thread has
+ * its own list. A thread that the test starts frees its objects with free_owned_after. Include after riis.h and test_support.h;
+ * handles.h includes it. */
 #ifndef RIIS_TEST_OWNED_H
 #define RIIS_TEST_OWNED_H
 
@@ -36,7 +36,7 @@ static inline void free_owned_after(int n) {
   }
 }
 
-/* Takes an object off the list and returns it. Its `destroy` is NULL if the object was not on the list. */
+/* Takes an object off the list and returns the entry. The entry's `destroy` is NULL if the object was not on the list. */
 static inline owned_object disown(void *object) {
   int i = owned.n - 1;
   while (i >= 0 && owned.at[i].object != object) --i;
@@ -62,7 +62,7 @@ static inline int free_owned(void **state) {
   return 0;
 }
 
-/* Call this at the end of a group's setup. The objects made so far then last until free_owned_of_group, the group's teardown. */
+/* Call this at the end of a group's setup. All objects made before then last until the group's teardown, free_owned_of_group. */
 static inline void keep_owned_for_group(void) { owned.n_of_group = owned.n; }
 
 static inline int free_owned_of_group(void **state) {
@@ -100,7 +100,7 @@ DEFINE_OWN(keyframes)
 DEFINE_OWN(warp)
 #undef DEFINE_OWN
 
-/* A test may destroy an object that it owns. */
+/* A test may itself destroy an object that it owns. */
 #define riis_valve_destroy destroy_and_disown_valve
 #define riis_surface_destroy destroy_and_disown_surface
 #define riis_mesh_destroy destroy_and_disown_mesh
@@ -111,7 +111,7 @@ DEFINE_OWN(warp)
 #define riis_keyframes_destroy destroy_and_disown_keyframes
 #define riis_warp_destroy destroy_and_disown_warp
 
-/* Records its argument, a handle or memory from malloc, and returns it. */
+/* Records a handle or memory from malloc, and returns it. */
 #define own(object) \
   _Generic((object),                       \
       riis_valve *: own_valve,             \

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Computes the penetration depth and the common segment of two triangles, with 113 bits of precision. The depth is the
- * distance from the origin to the convex hull of the nine differences of corners. All planes through three of these
- * differences are tried. The segment ends at two points where an edge passes through the other triangle: the two
- * that are farthest apart. The library instead compares overlaps along normals, and clips. */
+ * Computes how deep two triangles penetrate, and their common segment, with 113 bits of precision. The depth is the distance from
+ * the origin to the convex hull of the nine differences of corners. The oracle tries all planes through three of these
+ * differences. The segment ends at points where an edge passes through the other triangle. The ends of the segment are the two
+ * such points that are farthest apart. The library instead compares overlaps along normals, and clips. */
 #ifndef RIIS_TEST_PENETRATION_ORACLE_H
 #define RIIS_TEST_PENETRATION_ORACLE_H
 
@@ -34,7 +34,7 @@ static inline quad quad_root(quad x) {
 }
 static inline quad quad_length(quad3 a) { return quad_root(quad_dot(a, a)); }
 
-/* Both triangles' corners, relative to the first corner of the first triangle. */
+/* The corners of both triangles, relative to the first corner of the first triangle. */
 typedef struct quad_pair {
   quad3 a[3], b[3];
   quad longest;
@@ -68,8 +68,8 @@ static inline int is_beside(const quad3 *points, const quad3 *triangle) {
   return n_above == 3 || n_below == 3;
 }
 
-/* If all points are on one side of the plane through three of them, lowers *depth to the plane's distance. *depth becomes 0 if
- * the origin is outside. */
+/* Takes the plane through three points. If all points are on one side, lowers *depth to the plane's distance. *depth becomes 0 if
+ * the origin is on the other side. */
 static inline void try_plane(const quad3 *p, int i, int j, int k, quad size, quad *depth) {
   const quad3 n = quad_cross(quad_difference(p[j], p[i]), quad_difference(p[k], p[i]));
   const quad of_n = quad_length(n), tiny = (quad)1e-24 * of_n * size;
@@ -118,7 +118,7 @@ static inline int add_piercing(quad3 p, quad3 q, const quad3 *t, quad3 *points, 
   return n + 1;
 }
 
-/* Returns the length of the common segment of two triangles whose depth is above 0, and gives its middle. */
+/* Returns the length of the common segment of two triangles, and gives its middle. The triangles' depth must be above 0. */
 static inline double oracle_segment(const double *a, const double *b, double *middle) {
   const quad_pair pair = quad_pair_of(a, b);
   quad3 points[6], first = {{0, 0, 0}}, last = first;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Stands for a solver's plug-in, a shared object that links riis. A program loads, calls and unloads it. */
+ * Stands for a solver's plug-in: a shared object that links riis. A program loads the plug-in, calls it and unloads it. */
 #include <riis/riis.h>
 
 #include <stddef.h>

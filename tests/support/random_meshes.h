@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Random meshes of several kinds. Include after searches.h. */
+ * Makes random meshes of several kinds. Include after searches.h. */
 #ifndef RIIS_TEST_RANDOM_MESHES_H
 #define RIIS_TEST_RANDOM_MESHES_H
 
@@ -54,8 +54,8 @@ static inline void shuffle(test_mesh *mesh) {
   mesh->xyz = xyz;
 }
 
-/* Joins each node to the k nearest nodes in its own and the adjacent grid cells. Neighbours in a Delaunay mesh are mostly such
- * nodes. */
+/* Joins each node to the k nearest nodes in its own grid cell and in the adjacent cells. Most neighbours in a Delaunay mesh are
+ * such nodes. */
 static inline void join_near_nodes(test_mesh *mesh, const double *lower, const double *upper, int k) {
   int64_t counts[3], n_cells = 1;
   double size = 1;
@@ -97,7 +97,7 @@ static inline void join_near_nodes(test_mesh *mesh, const double *lower, const d
   set_rows(mesh, n_pairs, pairs);
 }
 
-/* Cuts each cube into six tetrahedra and joins nodes along their edges, which the library finds. */
+/* Cuts each cube into six tetrahedra. The library joins nodes along the edges of the tetrahedra. */
 static inline void join_by_tetrahedra(test_mesh *mesh, const int64_t *counts) {
   static const int corners[6][4][3] = {
       {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {1, 1, 1}}, {{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {1, 1, 1}},

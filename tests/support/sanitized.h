@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Defines IS_SANITIZED if the address or the thread sanitizer replaces the allocator; gcc and clang report this differently. */
+ * Defines IS_SANITIZED if the address or the thread sanitizer replaces the allocator; gcc and clang report a sanitizer
+ * differently. */
 #ifndef RIIS_TEST_SANITIZED_H
 #define RIIS_TEST_SANITIZED_H
 
@@ -22,7 +23,8 @@ static inline int is_sanitized(void) {
 #endif
 }
 
-/* Returns whether tests shall be short: with a sanitizer, and with RIIS_TEST_SHORT=1, which an emulator's slow runs set. */
+/* Returns whether tests shall be short, which they are with a sanitizer or with RIIS_TEST_SHORT=1. An emulator is slow, so its
+ * runs set this variable. */
 static inline int is_short_test(void) {
   const char *given = getenv("RIIS_TEST_SHORT");
   return is_sanitized() || (given && strcmp(given, "1") == 0);

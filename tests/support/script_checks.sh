@@ -1,6 +1,6 @@
 # shellcheck shell=bash
 # SPDX-License-Identifier: Apache-2.0
-# Checks of shell scripts, for tests that source this file. `failed` is 1 after a problem.
+# Checks shell scripts, for tests that source this file. `failed` is 1 after a problem.
 failed=0
 
 problem() {
@@ -23,7 +23,7 @@ tree_of() {
   (cd "$1" && find . -type f -print0 | sort -z | xargs -0 -r sha256sum && find . -type l -printf '%p -> %l\n' | sort)
 }
 
-# keeps FOLDER COMMAND...: checks that the command, which must succeed, changes no file of the folder.
+# keeps FOLDER COMMAND...: checks that the command succeeds and changes no file of the folder.
 keeps() {
   local folder=$1 before after
   shift
@@ -33,7 +33,7 @@ keeps() {
   [[ $before == "$after" ]] || problem "$*: it changes files of $folder:"$'\n'"$(diff <(echo "$before") <(echo "$after"))"
 }
 
-# made_up ROOT PATH...: makes a tree of files. Each file has one line, its own path.
+# made_up ROOT PATH...: makes a tree of files. Each file has one line, which is its path.
 made_up() {
   local root=$1 path
   shift

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Makes meshes with an adjacency by hand, and compares search results bit by bit. Include after riis.h, test_support.h and
- * handles.h. */
+ * Makes meshes whose adjacency is written by hand, and compares the bits of search results. Include after riis.h, test_support.h
+ * and handles.h. */
 #ifndef RIIS_TEST_SEARCHES_H
 #define RIIS_TEST_SEARCHES_H
 
@@ -39,13 +39,13 @@ static inline int same_nodes(found_nodes a, found_nodes b) {
          memcmp(a.leaflet_id, b.leaflet_id, m * sizeof *a.leaflet_id) == 0;
 }
 
-/* Returns 1 if two results have the same nodes, marked and within the limit, with the same bits. It asserts nothing, so any
- * thread may call it. */
+/* Returns 1 if two results have the same bits in their lists of marked nodes and of nodes within the limit. The function asserts
+ * nothing, so any thread may call it. */
 static inline int same_results(const riis_marks *a, const riis_marks *b) {
   return same_nodes(marked_in(a), marked_in(b)) && same_nodes(within_in(a), within_in(b));
 }
 
-/* Nodes and their neighbours. The rows have n + 1 offsets and count from 0. The test owns the arrays. */
+/* Nodes and their neighbours. The rows have n + 1 offsets, and the first offset is 0. The test owns the arrays. */
 typedef struct test_mesh {
   int64_t n;
   double *xyz;
@@ -90,7 +90,7 @@ static inline test_mesh lattice(const int64_t *counts, const double *lower, cons
   return mesh;
 }
 
-/* Makes a lattice with about the given spacing, as wide as the surface with a margin around it. */
+/* Makes a lattice with about the given spacing, which covers the surface and a margin around it. */
 static inline test_mesh lattice_around(const riis_surface *surface, double spacing, double margin) {
   const riis_surface_info info = info_of(surface);
   double lower[3], upper[3];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Provides patches that tests can change before they make valves and surfaces from them. Include after handles.h. */
+ * Provides patches that a test can change before it makes a valve and a surface from them. Include after handles.h. */
 #ifndef RIIS_TEST_SHAPES_H
 #define RIIS_TEST_SHAPES_H
 
@@ -22,7 +22,7 @@ typedef struct {
   double control[max_curves][4][3];
 } shape;
 
-/* The arrays of a shape in the form that the library takes, without gaps between control points. */
+/* The arrays of a shape as the library takes them, without gaps between control points. */
 typedef struct {
   riis_patches patches;
   double control[max_curves * 4 * 3];

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Counts the pairs of triangles in which a skirt goes through something. Include after handles.h. */
+ * Counts the pairs of triangles in which a skirt passes through another part. Include after handles.h. */
 #ifndef RIIS_TEST_SKIRT_CHECKS_H
 #define RIIS_TEST_SKIRT_CHECKS_H
 
-/* The numbers of pairs of triangles that go through each other beyond rounding. */
+/* The numbers of pairs of triangles that penetrate by more than rounding errors. */
 typedef struct pair_counts {
   int64_t of_leaflets; /* without the skirt */
-  int64_t of_skirt;    /* pairs of the skirt and anything but the patch that it continues */
-  int64_t of_own;      /* pairs of the skirt and that patch */
+  int64_t of_skirt;    /* pairs of the skirt and another part, without the patch that the skirt continues */
+  int64_t of_own;      /* pairs of the skirt and the patch that the skirt continues */
 } pair_counts;
 
 static inline pair_counts crossings_of(const riis_surface *surface, riis_crossings *crossings) {

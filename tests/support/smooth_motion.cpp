@@ -13,7 +13,7 @@ using namespace riis;
 
 namespace {
 
-// A curve whose parameter is the fraction of its length. Five-point Gauss quadrature gives the length up to 64 points of each
+// A curve whose parameter is the fraction of its length. Five-point Gauss quadrature computes the length up to 64 points of each
 // span.
 class MeasuredCurve {
  public:

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Valves that patients have, healthy and sick: the kinds with cusps of any number and sector, and those with leaflets around a
- * saddle. Makes valves of given or random sizes through the public interface alone. Include after cusp_checks.h. */
+ * Makes valves like those of healthy and sick patients: kinds with any number and sectors of cusps, and kinds with leaflets
+ * around a saddle. The sizes are given or random. The code uses the public interface alone. Include after cusp_checks.h. */
 #ifndef RIIS_TEST_STUDIED_VALVES_H
 #define RIIS_TEST_STUDIED_VALVES_H
 
 enum { max_leaflets = 4 };
 
-/* The kinds, and how their leaflets share the circle. `settings` are those of valve_of. */
+/* The kinds of valves, and how their leaflets share the circle. valve_of reads `settings`. */
 typedef struct studied {
   const char *kind;
   int n_leaflets, has_cusps;
@@ -24,7 +24,7 @@ static const studied all_studied[] = {
 };
 enum { n_studied = sizeof all_studied / sizeof *all_studied };
 
-/* Sets the parameter whose name is `first`, a number and `last`. */
+/* Sets the parameter whose name consists of `first`, a number and `last`. */
 static inline void set_numbered(riis_valve *valve, const char *first, int number, const char *last, double value) {
   char name[64];
   snprintf(name, sizeof name, "%s%d%s", first, number, last);
@@ -59,10 +59,10 @@ static inline riis_surface *surface_at(riis_valve *valve, double opening, const 
   return new_surface(valve, options);
 }
 
-/* Changes every size by a random share of it, at most `spread`. The order is that of the list, so a size that follows another
- * one is changed about the value that follows. A leaflet's size that follows the valve's already changes with the valve's, so
- * its own share is smaller. A shift or a stretch that is 0 becomes a share itself. A size at the end of its range stays within
- * it. Returns the first status that is not RIIS_OK. */
+/* Changes every size by a random share of it, at most `spread`. The sizes are changed in the order of the list. If a size follows
+ * another size, the following value is the start of the change. A leaflet's size may follow the valve's size, which has already
+ * changed. The share of such a size is therefore smaller. A shift or a stretch that is 0 becomes a share itself. Every size stays
+ * within its range. Returns the first status that is not RIIS_OK. */
 static inline riis_status vary_sizes(random_source *random, riis_valve *valve, double spread) {
   int64_t n;
   CHECK_OK(riis_valve_get_n_parameters(valve, &n));
@@ -87,7 +87,7 @@ static inline void set_bump(riis_valve *valve, int bump, const char *name, doubl
   set_numbered(valve, "bump_", bump, last, value);
 }
 
-/* What is wrong with a valve. */
+/* The diseases that a valve can have. */
 typedef enum sickness { healthy, fused, with_bumps, n_sicknesses } sickness;
 static const char *const names_of_sicknesses[n_sicknesses] = {"healthy", "fused", "with bumps"};
 
@@ -97,7 +97,7 @@ static inline void fuse(random_source *random, riis_valve *valve, const studied 
     if (random_bits(random) % 2) set_numbered(valve, "commissure_", k, ".fusion", random_between(random, 0, 0.6));
 }
 
-/* Sets one to three bumps at random places. Each change of a bump is made or not, so that many valves have one disease only. */
+/* Sets one to three bumps at random places. Chance decides about each change of a bump, so many valves have only one disease. */
 static inline void add_bumps(random_source *random, riis_valve *valve, const studied *of) {
   for (int i = (int)(random_bits(random) % 3); i >= 0; --i) {
     const int at_commissure = random_bits(random) % 3 == 0;
@@ -111,7 +111,7 @@ static inline void add_bumps(random_source *random, riis_valve *valve, const stu
   }
 }
 
-/* Makes a valve of random sizes. Returns NULL if the library refuses them. */
+/* Makes a valve of random sizes. Returns NULL if the library refuses the sizes. */
 static inline riis_valve *random_valve(random_source *random, const studied *of, double spread, sickness has) {
   riis_valve *valve = valve_of(of->kind, of->settings);
   riis_surface *surface = NULL;
@@ -129,7 +129,7 @@ static inline riis_valve *random_valve(random_source *random, const studied *of,
   return NULL;
 }
 
-/* Prints the values that a valve was given. */
+/* Prints the values with which a valve was made. */
 static inline void print_values(const riis_valve *valve) {
   int64_t n;
   CHECK_OK(riis_valve_get_n_parameters(valve, &n));
@@ -143,7 +143,7 @@ static inline void print_values(const riis_valve *valve) {
   printf("\n");
 }
 
-/* Returns whether a point lies inside the attachment, seen along the axis. */
+/* Returns whether a point lies inside the line of attachment, seen along the axis. */
 static inline int is_inside(const riis_attachment *attachment, double x, double y) {
   int inside = 0;
   for (int64_t i = 0; i < attachment->n_edges; ++i) {

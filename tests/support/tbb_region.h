@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Wraps for C code that uses TBB as a caller of the library would. The assertions stay in C, because a failed assertion
- * leaves by longjmp, which must not cross TBB's stack frames. */
+ * Lets C tests run code that uses TBB as a caller of the library would. The assertions stay in C: a failed assertion leaves by
+ * longjmp, which must not cross TBB's stack frames. */
 #ifndef RIIS_TEST_TBB_REGION_H
 #define RIIS_TEST_TBB_REGION_H
 
@@ -8,8 +8,8 @@
 extern "C" {
 #endif
 
-/* The caller's parallel_for runs in its thread's own arena, in a task_arena(4), in a task_arena(1), or under a limit of 1
- * thread. The task_arena(4) has a limit of 4 threads, so that tasks run at the same time on any machine. */
+/* The caller's parallel_for runs in its thread's default arena, in a task_arena(4), in a task_arena(1), or under a limit of 1
+ * thread. The region of the task_arena(4) raises the limit to 4 threads, so tasks run at the same time on any machine. */
 enum tbb_region { TBB_OWN_ARENA, TBB_ARENA_OF_FOUR, TBB_ARENA_OF_ONE, TBB_LIMIT_OF_ONE };
 
 typedef struct tbb_seen {

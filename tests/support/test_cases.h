@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Defines the cases of a test, and runs them by CMocka. Includes CMocka's header after the headers that it needs. */
+ * Defines the cases of a test, and runs them by CMocka. This header first includes the headers that CMocka's header needs. */
 #ifndef RIIS_TEST_CASES_H
 #define RIIS_TEST_CASES_H
 
@@ -10,11 +10,11 @@
 
 #include <cmocka.h>
 
-/* TEST(name) {...} defines a case. The compiler registers each case, so none is forgotten, and the cases run in the order of
- * their lines. */
+/* TEST(name) {...} defines a case. The compiler registers each case, so none is forgotten. The cases run in the order of their
+ * lines. */
 #define TEST(name) TEST_WITH(name, NULL, NULL)
 
-/* Defines a case with its own setup and teardown. The case knows the setup's object as *fixture. */
+/* Defines a case with its own setup and teardown. In the case, *fixture is the object of the setup. */
 #define TEST_WITH(name, setup, teardown)                                              \
   static void name(void **fixture);                                                   \
   __attribute__((constructor)) static void add_##name(void) {                         \
@@ -24,8 +24,8 @@
 
 void add_test_case(struct CMUnitTest test, int line);
 
-/* Runs all cases, and returns how many failed. The setup runs before the first case, and the teardown after the last one. Both
- * may be NULL. */
+/* Runs all cases, and returns how many failed. The setup runs before the first case, and the teardown after the last case. Setup
+ * and teardown may be NULL. */
 int run_cases(CMFixtureFunction setup, CMFixtureFunction teardown);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Provides the common parts of all tests: the definition of cases, checks on doubles (CMocka 1.1.5 compares
- * floats), and random numbers with a printed seed. */
+ * Provides the common parts of all tests: the definition of cases, checks on doubles, and random numbers with a printed seed.
+ * CMocka 1.1.5 compares only floats. */
 #ifndef RIIS_TEST_SUPPORT_H
 #define RIIS_TEST_SUPPORT_H
 
@@ -43,7 +43,8 @@
     if (check_s != RIIS_OK) fail_msg("%s: %s: %s", #call, riis_status_name(check_s), riis_last_error()); \
   } while (0)
 
-/* Checks that the call is refused with this status and that its message contains every part (up to three, separated by '|'). */
+/* Checks that the call is refused with this status and message. The message must contain up to three parts, which '|'
+ * separates. */
 static inline void check_refused(riis_status expected, riis_status got, const char *parts, const char *call) {
   char copy[256];
   if (got != expected)
@@ -55,7 +56,7 @@ static inline void check_refused(riis_status expected, riis_status got, const ch
 #define CHECK_REFUSED(status, parts, call) check_refused(status, call, parts, #call)
 #endif
 
-/* Random numbers by splitmix64. The seed is the time, or RIIS_TEST_SEED if a run is to be repeated. */
+/* Random numbers by splitmix64. RIIS_TEST_SEED gives the seed, so that a run can be repeated. The default seed is the time. */
 typedef struct random_source {
   uint64_t state;
 } random_source;
@@ -76,19 +77,18 @@ static inline int is_long_test(void) {
   return given && strcmp(given, "1") == 0;
 }
 
-/* Returns how many random trials to make: n usually, n_long with RIIS_TEST_LONG=1, and a twentieth of n in a short test, at
- * least one. A sanitizer checks memory and undefined operations, an emulator checks another processor's instructions, and few
- * further trials take another path in either. */
+/* Returns how many random trials to make: usually n, and n_long with RIIS_TEST_LONG=1. A short test makes a twentieth of n, at
+ * least one. Few trials suffice for a sanitizer or an emulator, because further trials rarely run other code. */
 static inline int trials(int n, int n_long) { return is_long_test() ? n_long : is_short_test() ? (n + 19) / 20 : n; }
 
-/* Returns how many of n random trials to make: all with RIIS_TEST_LONG=1, usually a fifth. */
+/* Returns how many of n random trials to make: usually a fifth, and all with RIIS_TEST_LONG=1. */
 static inline int trials_of(int n) { return trials((n + 4) / 5, n); }
 
-/* Returns the step of a loop over combinations, such as kinds of valves with triangulations. In a short test, every eleventh
- * combination is tried. Few numbers of kinds are multiples of eleven, so the kinds take turns. */
+/* Returns the step of a loop over combinations, such as kinds of valves with triangulations. A short test tries every eleventh
+ * combination. Few numbers of kinds are multiples of eleven, so the tried combinations include each kind. */
 static inline int trial_step(void) { return is_short_test() ? 11 : 1; }
 
-/* Checks that random trials met what they were made for. In a short test they are too few to meet everything. */
+/* Checks that the random trials have covered a condition. A short test makes too few trials to cover every condition. */
 #define CHECK_MET(condition) assert_true(is_short_test() || (condition))
 
 static inline uint64_t random_bits(random_source *random) {

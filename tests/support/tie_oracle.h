@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Computes the surface's velocity near p independently of the library, by a loop over all triangles in extended precision,
- * leaflet by leaflet. Include after riis.h, test_support.h, handles.h and oracle.h. */
+ * Computes the surface's velocity near a point p independently of the library. A loop goes over all triangles in extended
+ * precision, leaflet by leaflet. Include after riis.h, test_support.h, handles.h and oracle.h. */
 #ifndef RIIS_TEST_TIE_ORACLE_H
 #define RIIS_TEST_TIE_ORACLE_H
 
@@ -51,16 +51,15 @@ static inline long double closest_weights(const double *p, const double *abc, lo
   return sqrtl(best);
 }
 
-/* Returns the largest component of the velocities of all vertices. If a part is at rest, its velocities are only rounding
- * errors. */
+/* Returns the largest component of the velocities of all vertices. The velocities of a part at rest are only rounding errors. */
 static inline double largest_velocity(const riis_triangles *s, const double *velocity) {
   double largest = 0;
   for (int64_t i = 0; i < 3 * s->n_vertices; ++i) largest = fmax(largest, fabs(velocity[i]));
   return largest;
 }
 
-/* Returns the rounding error of distances near p. If the distances of two points of one patch differ by less, rounding
- * decides which is nearer. */
+/* Returns the rounding error of distances near p. If the distances of two points differ by less, rounding decides which point is
+ * nearer. */
 static inline long double rounding_near(const double *p, double half_thickness) {
   return 1e-13L * (half_thickness + fabs(p[0]) + fabs(p[1]) + fabs(p[2]));
 }
@@ -105,7 +104,7 @@ static inline int places_near(const riis_triangles *s, const double *velocity, c
   return n;
 }
 
-/* Returns the velocity of the surface near p, which has the given distance. */
+/* Returns the velocity of the surface near p. The argument `distance` is the distance of p from the surface. */
 static inline tied_velocity tied_velocity_at(const riis_triangles *s, const double *velocity, const double *p,
                                              double distance, double half_thickness) {
   const long double rounding = rounding_near(p, half_thickness), of_leaflets = 1e-6L * half_thickness,

@@ -27,8 +27,8 @@ struct TwoStates {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Bounds of a quantity on a range of u. `size` bounds its length in both states. `change` bounds its change between the states
-// at the same u. The rule for products holds for products of numbers, dot products and cross products.
+// Bounds of a quantity on a range of u. `size` bounds the quantity's length in both states. `change` bounds how much the quantity
+// differs between the states at equal u. The rule for products also holds for dot products and cross products.
 struct Both {
   double size, change;
 };
@@ -41,17 +41,17 @@ constexpr int most_rounds = 12;
 constexpr std::size_t most_ranges = 1024;
 constexpr double narrow = 2e-5;
 
-// Bounds are tight if, on a range, the least length is at least this share of the largest length.
+// The bounds on a range are tight if the least length on the range is at least this share of the largest length.
 constexpr double tight_share = 0.9;
 
 // Bounds the inverse of a length that is at least `least`.
 Both inverse(double least, double change) { return {1 / least, change / (least * least)}; }
 
-// Returns NaN if a or b is NaN, for example from 0 times infinity. NaN means that no bound is known.
+// Returns NaN if a or b is NaN, for example from 0 times infinity. A bound of NaN means that no bound is known.
 double larger(double a, double b) { return a >= b || a != a ? a : b; }
 double larger_of(Vec3 a, Vec3 b) { return larger(length(a), length(b)); }
 
-// Returns the least distance of the segment between two points from the origin.
+// Returns the least distance from the origin to the segment between two points.
 double least_on_segment(Vec3 a, Vec3 b) {
   const Vec3 along = b - a;
   const double size_sq = dot(along, along);
@@ -59,23 +59,25 @@ double least_on_segment(Vec3 a, Vec3 b) {
   return length(mix(a, b, share));
 }
 
-// Bounds the distance of a function from the line between its ends, if its second derivative is at most `second`.
+// Bounds the distance of a function from the straight line between its ends. The function's second derivative is at most
+// `second`.
 double off_line(double width, double second) { return 0.125 * width * width * second; }
 
-// A range of u, and the largest first derivative of a function on it.
+// The width of a range of u, and the largest slope of a function on it.
 struct Slope {
   double width, most;
 };
 
-// Bounds the distance of a continuous function from the line between its ends, from bounds of its slope on successive ranges. At
-// x, a slope before x is weighted with the share of the whole width after x. A slope after x is weighted with the share before x.
-// If one slope holds everywhere, the bound is half the width times the slope. A steep slope on a narrow range adds little.
+// Bounds the distance of a continuous function from the straight line between its ends. Bounds of the function's slope on
+// successive ranges are given. At x, a slope before x is weighted with the share of the whole width that follows x. A slope after
+// x is weighted with the share that precedes x. If one slope holds everywhere, the bound is half the width times the slope. A
+// steep slope on a narrow range adds little.
 double off_line(const Vector<Slope> &slopes) {
   double width = 0, rise = 0;
   for (const Slope &on : slopes) width += on.width, rise += on.width * on.most;
   double largest = 0, start = 0, before = 0;
   for (const auto &[range, most] : slopes) {
-    // On a range, the bound is a concave parabola in x.
+    // Within a range, the bound is a concave parabola in x.
     const double top = (rise - 2 * before + most * (2 * start + width)) / (4 * most);
     const double x = top >= start ? std::min(top, start + range) : start, behind = before + most * (x - start);
     largest = larger(largest, (1 - x / width) * behind + x / width * (rise - behind));
@@ -85,15 +87,14 @@ double off_line(const Vector<Slope> &slopes) {
   return largest;
 }
 
-// A part of one Bézier span of a curve, on a range of u.
+// The part of a Bézier span that belongs to a range of u.
 struct CurvePart {
   const Bezier *span;
   double t[2];
   double length;  // the length of the whole curve
 };
 
-// Bounds for a curve on a range of u: its unit tangent with the first and second derivative by u, and the length of the whole
-// curve.
+// Bounds for a curve on a range of u: its length, its unit tangent, and the tangent's first and second derivative by u.
 struct AlongCurve {
   Both length, value, first, second;
   double size_now, size_before;  // bounds of the curve's second derivative by u in each of the states
@@ -101,7 +102,7 @@ struct AlongCurve {
   Both second_of_point() const { return length * first; }
 };
 
-// Bounds on the lengths of a curve's derivatives on a range of its parameter, in one state.
+// Bounds on the lengths of a curve's derivatives in one state, on a range of the curve's parameter.
 struct Derivatives {
   double first, least_first, second, third;
 };
@@ -122,7 +123,7 @@ Derivatives changes_on(const Bezier &now, const Bezier &before, double from, dou
           larger(distance(start[1], start_before[1]), distance(end[1], end_before[1])), third};
 }
 
-// Bounds a curve on a range. The bounds are infinite if the curve's tangent may vanish in one of the two states.
+// Bounds a curve on a range. The bounds are infinite if the tangent may vanish in one of the two states.
 AlongCurve along(const CurvePart &at_now, const CurvePart &at_before, double width) {
   const double from = std::min(at_now.t[0], at_before.t[0]), to = std::max(at_now.t[1], at_before.t[1]);
   const Derivatives now = sizes_on(*at_now.span, from, to), before = sizes_on(*at_before.span, from, to);
@@ -162,8 +163,8 @@ AlongCurve along(const CurvePart &at_now, const CurvePart &at_before, double wid
           least >= tight_share * first && by_itself <= 1 - tight_share};
 }
 
-// Returns bounds from each state by itself. They serve a range on which the states lie on different spans, so that they
-// cannot be compared.
+// Bounds both states separately, and combines the bounds. The result serves a range on which the states lie on different spans
+// and cannot be compared.
 AlongCurve either(const AlongCurve &now, const AlongCurve &before) {
   const auto of = [](Both a, Both b) { return Both{larger(a.size, b.size), a.size + b.size}; };
   return {of(now.length, before.length),
@@ -175,14 +176,14 @@ AlongCurve either(const AlongCurve &now, const AlongCurve &before) {
           now.is_tight && before.is_tight};
 }
 
-// Returns 1 if `curve` has one span more than `other`, and this span is at the start. The shorter of its two end spans
-// counts as the additional span.
+// Returns 1 if `curve` has one span more than `other`, and this span is at the start. Of the two end spans of `curve`, the
+// shorter span is the additional one.
 std::size_t more_at_start(const Curve &curve, const Curve &other) {
   const std::size_t n = curve.spans().size();
   return n == other.spans().size() + 1 && curve.length(0) < curve.length(n - 1) ? 1 : 0;
 }
 
-// A side of a patch in both states, at ascending shares. The shares include its joints.
+// A side of a patch in both states, at ascending shares of its length. The shares include the joints between spans.
 class SideInBoth {
  public:
   SideInBoth(const Curve &now, const Curve &before, const Vector<double> &shares)
@@ -203,12 +204,12 @@ class SideInBoth {
   double longer() const { return larger(now_.length(), before_.length()); }
   double width(std::size_t i) const { return shares_[i + 1] - shares_[i]; }
 
-  // Returns whether the states are compared on the range after share i. They are not compared if a joint has passed through the
-  // range, or if the range is narrow and the comparison gives no tight bounds. Such narrow ranges are on a short span at a
-  // curve's end, whose length changes many times over as a joint approaches the end.
+  // Returns whether the states are compared on the range after share i. There is no comparison if a joint has passed through the
+  // range, or if the range is narrow and has no tight bounds. Narrow ranges without tight bounds lie on a short span at a curve's
+  // end. When a joint approaches the end, the length of this span changes many times over.
   bool is_compared(std::size_t i) const { return are_on_one_span(i) && (width(i) > narrow || compared(i).is_tight); }
 
-  // Returns whether a span of one of the states begins at share i.
+  // Returns whether a span begins at share i in one of the states.
   bool is_joint(std::size_t i) const {
     return at_now_.span(i) != at_now_.span(i - 1) || at_before_.span(i) != at_before_.span(i - 1);
   }
@@ -227,14 +228,14 @@ class SideInBoth {
   }
 
  private:
-  // Returns whether both states lie on the same span on the range after share i.
+  // Returns whether both states lie on the same span in the range after share i.
   bool are_on_one_span(std::size_t i) const { return at_now_.span(i) + more_before_ == at_before_.span(i) + more_now_; }
 
   AlongCurve compared(std::size_t i) const {
     return along(part(at_now_, now_, i), part(at_before_, before_, i), width(i));
   }
 
-  // Returns the part of a Bézier span that is the range after share i.
+  // Returns the part of a Bézier span that belongs to the range after share i.
   CurvePart part(const CurvePoints &points, const Curve &curve, std::size_t i) const {
     const std::size_t span = points.span(i);
     return {&curve.spans()[span],
@@ -245,7 +246,8 @@ class SideInBoth {
   const Curve &now_, &before_;
   const Vector<double> &shares_;
   CurvePoints at_now_, at_before_;
-  // For each state, 1 if it has one span more at the start, because a joint passed that end of the curve. Otherwise 0.
+  // For each state, the number is 1 if the state has one span more at the start, because a joint passed that end of the curve.
+  // Otherwise it is 0.
   std::size_t more_now_, more_before_;
 };
 
@@ -253,7 +255,7 @@ void add_joints(const Curve &curve, Vector<double> &shares) {
   for (const double joint : curve.joints()) shares.push_back(joint);
 }
 
-// The lines of a grid and, between them, the joints of curves. Ranges that are too wide for tight bounds are halved.
+// The lines of a grid, and the joints of curves between the lines. A range is halved if it is too wide for tight bounds.
 class Shares {
  public:
   Shares(const Vector<double> &lines, std::initializer_list<const Curve *> curves) : lines_(lines), all_(lines) {
@@ -271,8 +273,8 @@ class Shares {
     return static_cast<std::size_t>(found - all_.begin());
   }
 
-  // Halves the ranges that are not narrow and for which is_tight(i) is false. Returns whether there were any. If there are
-  // already too many ranges, returns false. This happens for a curve whose bounds never become tight.
+  // Halves the ranges for which is_tight(i) is false. Narrow ranges stay. Returns whether a range was halved. Returns false if
+  // there are too many ranges, which happens for a curve whose bounds never become tight.
   template <class IsTight>
   bool halve(const IsTight &is_tight) {
     if (all_.size() > 2 * most_ranges) return false;
@@ -301,7 +303,7 @@ struct TwoCurves {
   Curve now, before;
 };
 
-// Returns the curves of a side in both states, in the direction of the side.
+// Returns the curves of a side in both states, in the side's direction.
 TwoCurves curves_of(const TwoStates &states, std::size_t patch, Side Patch::*side) {
   return {along(states.now, states.now.patches[patch].*side), along(states.before, states.before.patches[patch].*side)};
 }
@@ -316,7 +318,7 @@ double largest_curvature(const Curve &curve) {
 double size_of(double x) { return std::abs(x); }
 double size_of(Vec3 x) { return length(x); }
 
-// Bounds the sizes of a value and of its first two derivatives on [0, 1].
+// Bounds the absolute values of a function and of its first two derivatives on [0, 1].
 struct Sizes {
   double size = 0, slope = 0, bend = 0;
 };
@@ -325,8 +327,8 @@ struct Sizes {
 template <class T>
 Sizes sizes_of(const std::array<double, n_material> &nodes, std::array<T, n_material> factors) {
   constexpr std::size_t n = n_material - 1;
-  // The values are converted to Newton's form, to powers of x, and then to the control points of a Bézier curve, which bound the
-  // polynomial.
+  // The values are converted to Newton's form, then to powers of x, and then to the control points of a Bézier curve. The control
+  // points bound the polynomial.
   for (std::size_t order = 1; order <= n; ++order)
     for (std::size_t i = n; i >= order; --i)
       factors[i] = (1 / (nodes[i] - nodes[i - order])) * (factors[i] - factors[i - 1]);
@@ -364,7 +366,7 @@ Sizes sizes_of(const Rest &rest) {
   return sizes_of(nodes, values);
 }
 
-// Returns the sizes of a side's slide: the share before minus the share now.
+// Returns the sizes of a side's slide, which is the share in the earlier state minus the share now.
 Sizes sizes_of_slide(const SideMaterial &material) {
   const std::array<double, n_material> &nodes = material.nodes();
   const Vector<double> before = material.shares_before(Vector<double>(nodes.begin(), nodes.end()));
@@ -373,16 +375,16 @@ Sizes sizes_of_slide(const SideMaterial &material) {
   return sizes_of(nodes, slide);
 }
 
-// Bounds the distance of a function from a linear function on a range. The function's value and derivatives have bounds.
+// Bounds the distance of a function from a linear function on a range. `of` bounds the function and its derivatives.
 double off_line(double width, const Sizes &of) {
   return std::min({0.5 * width * of.slope, off_line(width, of.bend), 2 * of.size});
 }
 
-// The part that SideMaterial adds to the displacement between points at equal shares. It is C(u) - C(u + slide(u)) + rest(u). C
-// is the side's curve in the earlier state.
+// The displacement that SideMaterial adds between points at equal shares. This displacement is C(u) - C(u + slide(u)) + rest(u).
+// C is the side's curve in the earlier state.
 class AddedByMaterial {
  public:
-  // `third` bounds the third derivative of C by the share. It may be infinite.
+  // `third` bounds the third derivative of C by the share. `third` may be infinite.
   AddedByMaterial(const SideMaterial &material, const Curve &before, double third) {
     if (!material.is_warped()) return;
     const Sizes slide = sizes_of_slide(material);
@@ -392,12 +394,12 @@ class AddedByMaterial {
     bounds_ = {shift, turn + length * slide.slope,
                third * slide.size + second * slide.slope * (2 + slide.slope) + length * slide.bend};
     rest_ = sizes_of([&](double share) { return material.rest(share); });
-    // Between a joint and its place after the slide, the second derivatives are those of two spans.
+    // Between a joint and its place after the slide, the two second derivatives belong to different spans.
     of_joints_ = static_cast<double>(before.spans().size() - 1) * 0.25 * 2 * second * slide.size;
   }
 
   double slope() const { return bounds_.slope + rest_.slope; }
-  // Bounds the deviation from linear on a range.
+  // Bounds how far the displacement deviates from linear on a range.
   double off_linear(double width) const {
     const double smooth = larger(off_line(width, bounds_.bend) + width * of_joints_, 0);
     const double coarse = std::min(0.5 * width * bounds_.slope, 2 * bounds_.size);
@@ -409,8 +411,8 @@ class AddedByMaterial {
   double of_joints_ = 0;
 };
 
-// For every two neighbouring lines, bounds the deviation of a side's displacement from linear. The bound includes the
-// difference between a line's share on the side and the line's `middle`.
+// For every two neighbouring lines, bounds how far a side's displacement deviates from linear. The bound includes the difference
+// between a line's share on the side and the line's `middle`.
 Vector<double> off_linear(const TwoCurves &curves, const SideMaterial &material, const Vector<GridLine> &lines,
                           double GridLine::*t) {
   const Vector<double> at_lines = shares_of(lines, t);
@@ -442,7 +444,7 @@ Vector<double> off_linear(const TwoCurves &curves, const SideMaterial &material,
       largest = larger(largest, second);
     }
     error = std::min(error, off_line(width, largest));
-    // This bound always holds, because no point of a curve is farther from the chord than the length of the curve.
+    // This bound always holds, because a point of a curve is at most the curve's length away from the chord.
     if (!(error <= both_lengths * width)) error = both_lengths * width;
     error += added.off_linear(width);
     const double slope = both_lengths + added.slope();
@@ -452,7 +454,8 @@ Vector<double> off_linear(const TwoCurves &curves, const SideMaterial &material,
   return made;
 }
 
-// Bounds of O of a patch of arcs and of its derivatives by u, on a range. They do not contain the factor, the patch's bulge.
+// Bounds, on a range, of the offset O of a patch of arcs and of O's derivatives by u. The bounds do not contain the factor, which
+// is the patch's bulge.
 struct ArcRangeInBoth {
   Both first, second;
   double largest;  // bounds |O| in both states
@@ -476,12 +479,13 @@ ArcRangeInBoth offset_on(const SideInBoth &base, const SideInBoth &edge, std::si
   const double bend = off_line(width, w2.size);
   const Both w0{larger(larger_of(now[0], now[1]), larger_of(before[0], before[1])) + bend,
                 larger(distance(now[0], before[0]), distance(now[1], before[1])) + off_line(width, w2.change)};
-  // Also bounds |W| by the ends of the range, because no point moves along a curve by more than the curve's length.
+  // Also bounds |W| from the ends of the range, because no point moves along a curve by more than the curve's length.
   const double w_far =
       larger(larger_of(now[0], now[1]), larger_of(before[0], before[1])) + width * (edge.longer() + base.longer());
   const double w_largest = w0.size <= w_far ? w0.size : w_far;
   const double w_least = std::min(least_on_segment(now[0], now[1]), least_on_segment(before[0], before[1])) - bend;
-  // W' is its value at the start of the range plus its change along the range. At the start both states have a direction.
+  // W' is its value at the start of the range plus its change along the range. At the start of the range, both states have a
+  // direction.
   const Both w1{larger_of(slope(i, true), slope(i, false)) + width * w2.size,
                 distance(slope(i, true), slope(i, false)) + width * w2.change};
   const Both m1 = w1 * b.value + w0 * b.first, m2 = w2 * b.value + 2 * w1 * b.first + w0 * b.second;
@@ -500,7 +504,7 @@ ArcRangeInBoth offset_on(const SideInBoth &base, const SideInBoth &edge, std::si
     const Both unknown{infinity, infinity};
     return {unknown, unknown, w_largest, 0, false};
   }
-  // Computes |W| and its derivatives, then the unit vector of M and its derivatives.
+  // Computes |W| and its derivatives, then the unit vector along M and its derivatives.
   const Both to_w{1, w0.change / w_least}, across_w{1, to_w.change};
   const Both size0{w0.size, w0.change}, size1 = to_w * w1;
   const Both size2 = to_w * w2 + across_w * w1 * across_w * w1 * inverse(w_least, w0.change);
@@ -513,7 +517,7 @@ ArcRangeInBoth offset_on(const SideInBoth &base, const SideInBoth &edge, std::si
           b.is_tight && e.is_tight && w_least >= tight_share * w0.size && m_least >= tight_share * m_size};
 }
 
-// Bounds the change of O, without its factor, if the points of base and edge slide as SideMaterial says.
+// Bounds how much O changes, without its factor, if points of the base and the edge slide as SideMaterial says.
 class SlidOffset {
  public:
   SlidOffset(const SideMaterial &on_base, const SideMaterial &on_edge, const Curve &base, const Curve &edge) {
@@ -534,7 +538,7 @@ class SlidOffset {
   double width_ = 0, turn_ = 0;  // bound the changes of W and of T
 };
 
-// For every two neighbouring lines, bounds the deviation of O's displacement from linear.
+// For every two neighbouring lines, bounds how far O's displacement deviates from linear.
 Vector<double> offset_off_linear(const TwoStates &states, std::size_t patch, const TwoCurves &base,
                                  const TwoCurves &edge, const Vector<GridLine> &lines) {
   const MovedPatch moved{states.now, states.before, patch};
@@ -570,8 +574,8 @@ Vector<double> offset_off_linear(const TwoStates &states, std::size_t patch, con
       slopes.push_back(
           {on_base.width(i), is_compared ? (of_factor * on.first).change : 2 * of_factor.size * on.first.size});
     }
-    // O' jumps at a joint, so the bound for such a range uses the first derivative. Near a curve's end, the bounds on the short
-    // span beside a joint are far larger than the true derivatives.
+    // O' jumps at a joint, so the bound for a range with a joint uses the first derivative. Near a curve's end, the bounds on the
+    // short span beside a joint are far above the true derivatives.
     double error = is_smooth ? off_line(width, second) : off_line(slopes);
     const double at_most = 4 * of_factor.size * largest;  // bounds |O| and its linear interpolation, in both states
     if (!(error <= at_most)) error = at_most;
@@ -599,8 +603,9 @@ Vector<Vec3> offset_moves(const TwoStates &states, std::size_t patch, const TwoC
   return made;
 }
 
-// A map adds a part inside a warped Coons patch. Bounds this part's deviation from linear, on a range of u or of v. On [0, 1],
-// the sizes of its polynomials' second derivatives add up to at most 81, and the sizes of their values to at most 1.3.
+// A map adds a part to a warped Coons patch. Bounds how far this part deviates from linear, on a range of u or of v. On [0, 1],
+// the sizes of the part's polynomials' second derivatives add up to at most 81. The sizes of the polynomials' values add up to at
+// most 1.3.
 double off_linear(const RestInside &rest, double width) {
   double size = 0;
   for (const double u : {1. / 3, 2. / 3})
@@ -608,7 +613,7 @@ double off_linear(const RestInside &rest, double width) {
   return 0.125 * width * width * 106 * size;
 }
 
-// Bounds of the errors of a patch's displacements and points, at equal (u, v), before any image is placed.
+// Bounds of the errors of a patch's displacements and points, at equal (u, v) and before an image is placed.
 struct PatchErrors {
   double displacement = 0, point = 0;
 };
@@ -636,8 +641,8 @@ PatchErrors errors_of(const TwoStates &states, std::size_t patch, const Levelled
   for_each_quad(grid, [&](std::size_t i, std::size_t j) {
     const int level = *next_level++, n = 1 << level;
     const double row = grid.v[j + 1] - grid.v[j], width = grid.u[i + 1] - grid.u[i];
-    // The arcs add 2 v (1-v) times the offset. Between two vertices, this differs from linear by at most row^2 / 2 times the
-    // offset.
+    // The arcs add 2 v (1-v) times the offset. Between two vertices, this term deviates from linear by at most row^2 / 2 times
+    // the offset.
     double error = larger_mix(at_v0[i], at_v1[i], grid.v[j], grid.v[j + 1]) +
                    larger_mix(at_u0[j], at_u1[j], grid.u[i], grid.u[i + 1]) +
                    largest_arc_weight(grid.v[j], grid.v[j + 1]) * offset[i] + 0.5 * row * row * rows[i] +
@@ -648,7 +653,8 @@ PatchErrors errors_of(const TwoStates &states, std::size_t patch, const Levelled
       const auto at = [&](int du, int dv) { return motion.in_quad(i, j, level, column + du, at_row + dv); };
       twist = larger(twist, quad_flatness({at(0, 0), at(1, 0), at(1, 1), at(0, 1)}));
     }
-    // If a neighbour is subdivided less, vertices on the common side are interpolated linearly between the neighbour's vertices.
+    // If a neighbour has fewer subdivisions, the vertices on the common side are interpolated linearly between the neighbour's
+    // vertices.
     const auto is_less = [&](bool is_inside, std::size_t beside) {
       return is_inside && levelled.levels[beside] < level;
     };
@@ -661,7 +667,7 @@ PatchErrors errors_of(const TwoStates &states, std::size_t patch, const Levelled
   return made;
 }
 
-// Bounds the error of a velocity of an image, from the errors of its displacement and of its point.
+// Bounds the error of an image's velocity from the errors of the displacement and of the point.
 double velocity_error(const ImageVelocity &image, const TwoStates &states, const PatchErrors &errors) {
   const auto of_rest = [&](Vec3 p) { return image.velocity(p, {0, 0, 0}); };
   const Vec3 offset = of_rest({0, 0, 0});

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Bounds the difference between the velocities of a surface's triangles and those of the smooth valve
- * (docs/theory/velocity.md), at equal patch, u and v. */
+ * Bounds the difference between two velocities at equal patch, u and v: that of a surface's triangles, and that of the smooth
+ * valve (docs/theory/velocity.md). */
 #ifndef RIIS_TEST_VELOCITY_BOUND_H
 #define RIIS_TEST_VELOCITY_BOUND_H
 
@@ -10,7 +10,7 @@
 extern "C" {
 #endif
 
-/* Returns the bound. The arguments are those of the last riis_surface_update_moving of the surface. */
+/* Returns the bound. The arguments are those of the surface's last riis_surface_update_moving. */
 double velocity_error_bound(const riis_surface *surface, const riis_valve *valve, const riis_valve *before,
                             double seconds, const riis_surface_options *options_before);
 

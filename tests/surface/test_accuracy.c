@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests the points of known distance that ./run bench accuracy uses. The surfaces are a parabolic cylinder and two parallel
- * sheets, whose distances are known in closed form, and the benchmark's leaflets. */
+ * Tests the points of known distance that ./run bench accuracy uses. One surface is a parabolic cylinder, and one has two
+ * parallel sheets: their distances are known in closed form. The benchmark's leaflets are also tested. */
 #include "accuracy.h"
 #include "test_support.h"
 
 enum { n_points = 600 };
 static const double half = 0.1; /* half thickness */
 
-/* Returns n patches, each with its own four curves. The arrays are borrowed. */
+/* Returns n patches, each with four separate curves. The arrays are borrowed. */
 static riis_patches sheets(int64_t n, const int32_t *degree, const double *control, const int32_t *curve_id) {
   riis_patches patches;
   CHECK_OK(riis_patches_init(&patches, sizeof patches));
@@ -19,7 +19,7 @@ static riis_patches sheets(int64_t n, const int32_t *degree, const double *contr
   return patches;
 }
 
-/* The parabolic cylinder z = x^2 / (4 focal), |x| <= 2 focal, 0 <= y <= 1. Curves of degree 2 represent it exactly. */
+/* The parabolic cylinder z = x^2 / (4 focal), |x| <= 2 focal, 0 <= y <= 1. Curves of degree 2 represent this surface exactly. */
 static const double focal = 0.05;
 
 static riis_patches parabola(void) {
@@ -33,7 +33,7 @@ static riis_patches parabola(void) {
 }
 
 /* Returns the distance from (x, z) to the parabola. Newton's method starts from every local minimum among many points of the
- * parabola. Of these points, the nearest may be far from the true nearest point. */
+ * parabola. The nearest of many points alone does not suffice, because it may be far from the true nearest point. */
 static double distance_to_parabola(double x, double z) {
   enum { n = 2000 };
   double at[n + 1], best = INFINITY;
@@ -99,8 +99,8 @@ TEST(distances_to_a_parabola_are_true) {
   truth_free(&truth);
 }
 
-/* Two unit squares lie at z = 0 and z = 0.15. A point may lie one half thickness from one square, towards the other square. It is
- * then nearer to the other square. */
+/* Two unit squares lie at z = 0 and z = 0.15. A point may lie one half thickness from one square and be nearer to the other
+ * square. */
 TEST(points_nearer_to_another_sheet_are_left_out) {
   static const double gap = 0.15;
   int32_t degree[8], curve_id[8];
@@ -139,7 +139,7 @@ TEST(points_nearer_to_another_sheet_are_left_out) {
   truth_free(&truth);
 }
 
-/* The smooth leaflets agree with their triangles. Otherwise truth_of fails. */
+/* The smooth leaflets agree with their triangles: otherwise truth_of would fail. */
 TEST(leaflets_agree_with_their_triangles) {
   static const char *const kinds[2] = {"aortic", "mitral"};
   for (int i = 0; i < 2; ++i) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Places mitral valves at annuli that are not the valve's own curves: from an ellipse to a D, a saddle, with an indent. They have
- * 8 to 24 points with noise, and any of the other landmarks. The depth of the placed valve must be the depth of the annulus, or
- * the landmarks must be refused. Makes 20 annuli, and 200 with RIIS_TEST_LONG=1. */
+ * Places mitral valves at annuli that differ from the valve's curves: ellipses, D shapes, saddles and annuli with an indent. Each
+ * annulus has 8 to 24 points with noise, and any of the other landmarks. The placed valve must be as deep as the annulus, or the
+ * landmarks must be refused. Makes 20 annuli, and 200 with RIIS_TEST_LONG=1. */
 #include <riis/riis.h>
 
 #include <stdbool.h>
@@ -15,15 +15,15 @@ static double between(double low, double high) { return random_between(&rng, low
 static double radians(double degrees) { return degrees * acos(-1.0) / 180; }
 static double normal(void) { return sqrt(-2 * log(1 - between(0, 1))) * cos(radians(360 * between(0, 1))); }
 
-/* The sizes of an annulus, in millimetres. Its widest points are at y = 0. */
+/* The sizes of an annulus, in millimetres. The annulus is widest at y = 0. */
 typedef struct shape {
   double front, back, half_width;
-  double saddle, tilt; /* the horns are nearer to the atrium than the sides by saddle, +- tilt */
+  double saddle, tilt; /* by saddle +- tilt, the horns are nearer to the atrium than the sides */
   double indent;       /* of the front */
-  double power;        /* of the front: 2 for an ellipse; about 4 for a D */
+  double power;        /* the exponent of the front: 2 for an ellipse, about 4 for a D */
 } shape;
 
-/* The point at an angle in degrees, from the side at x > 0. The anterior horn is at 90. */
+/* The point at an angle in degrees, counted from the side at x > 0. The anterior horn is at 90 degrees. */
 static void point_at(const shape *s, double degrees, double p[3]) {
   const double x = cos(radians(degrees)), y = sin(radians(degrees)), power = y > 0 ? s->power : 2;
   const double sum = pow(fabs(x) / s->half_width, power) + pow(fabs(y) / (y > 0 ? s->front : s->back), power),
@@ -73,7 +73,7 @@ static void mark(marked *m, const shape *s, int32_t role, double degrees, double
   ++m->n;
 }
 
-/* Points of the annulus, unevenly and in either turn, and the anterior horn. */
+/* Makes unevenly spaced points of the annulus in either direction, and the anterior horn. */
 static marked marked_annulus(const shape *s, int n, double noise) {
   marked m = {0, {{0}}, {0}};
   const double phase = between(0, 1), unevenness = between(0, 0.4), turn = between(-1, 1) < 0 ? -360 : 360;
@@ -119,7 +119,7 @@ static int compare(const void *a, const void *b) {
 }
 
 TEST(annuli_are_fitted_or_refused) {
-  /* From one start, the fit of these annuli ends at a lean that is not the best one. */
+  /* For these annuli, a fit with a single start ends at a wrong inclination. */
   static const uint64_t with_two_minima[] = {8067555987785431393u, 5133953779223791632u, 940912489951417561u};
   enum { n_known = sizeof with_two_minima / sizeof *with_two_minima, most_trials = 200 + n_known };
   const int n = is_long_test() ? most_trials : 20 + n_known;
@@ -162,7 +162,7 @@ TEST(annuli_are_fitted_or_refused) {
       leans[n_accepted / 2], leans[9 * n_accepted / 10], leans[n_accepted - 1]);
 }
 
-/* Wide trigones of an ellipse lie behind the horn, and trigones beside an indent before it. */
+/* On an ellipse, wide trigones lie behind the horn. Beside an indent, trigones lie before the horn. */
 TEST(trigones_behind_the_horn_are_counted) {
   for (int is_indented = 0; is_indented < 2; ++is_indented) {
     const shape s = {14.5, 16.2, 19, 5.5, 1.2, is_indented ? 4 : 0, is_indented ? 3 : 2};
@@ -191,12 +191,13 @@ TEST(contradictions_are_refused) {
   } while (0)
   REFUSED("landmark 17 (posterior_horn) is |behind landmark 16 (anterior_horn)|must be on the posterior side",
           mark(&m, &s, RIIS_LANDMARK_POSTERIOR_HORN, 100, 0));
-  /* The anterior horn is at the posterior point. */
+  /* The anterior horn is given at the posterior point, which is wrong. */
   REFUSED("landmark 17 (trigone) is |must be on the anterior side|anterior horn is not at its place",
           (--m.n, mark(&m, &s, RIIS_LANDMARK_ANTERIOR_HORN, 270, 0), mark(&m, &s, RIIS_LANDMARK_TRIGONE, 50, 0)));
   REFUSED("AP_diameter of the fitted valve is |but the horns are |apart, seen along the annulus' normal|worst residual",
           (mark(&m, &s, RIIS_LANDMARK_POSTERIOR_HORN, 270, 0), m.xyz[17][1] += 9));
-  /* One horn is far above the annulus, or one above and the other below. The largest residual is then beside the horn. */
+  /* One horn is far above the annulus, or the horns lie far above and far below it. The largest residual is then beside the
+   * horn. */
   REFUSED(
       "the axis of the fitted valve is at |degrees to the annulus' normal; it must be at most 20; the horns' heights "
       "make the valve lean: landmark 16 (anterior_horn) is |above and landmark |the annulus' sides|look for a horn",
@@ -206,7 +207,7 @@ TEST(contradictions_are_refused) {
       "is "
       "|below",
       (m.xyz[16][2] += 18, mark(&m, &s, RIIS_LANDMARK_POSTERIOR_HORN, 270, 0), m.xyz[17][2] -= 18));
-  /* The points between the horns are far from the annulus. */
+  /* All points but the horns are far from the annulus. */
   REFUSED("must be at most |the worst residual is ", (m.xyz[1][2] += 20, m.xyz[2][2] += 20, m.xyz[3][2] += 20));
 #undef REFUSED
 }

@@ -69,7 +69,7 @@ static riis_valve *state_by_hand(const riis_valve *valve, double radius_ratio, d
   return open;
 }
 
-/* At any opening, the surface equals the surface of a valve that was given the same open state. */
+/* At any opening, the surface equals that of a valve whose open state was given with the same shape. */
 TEST(state_is_the_one_of_the_formulas) {
   random_source random = random_start("test_aortic_opening");
   for (int trial = 0; trial < trials_of(60); ++trial) {
@@ -96,7 +96,7 @@ TEST(state_is_the_one_of_the_formulas) {
   }
 }
 
-/* The free edge at opening 1 is a parabola in its cusp's frame. */
+/* At opening 1, the free edge is a parabola in the cusp's frame. */
 TEST(open_free_edges_are_parabolas) {
   static const double radius_out[3] = {1.365, 1.495, 1.38};
   const riis_triangles all = triangles_of(new_surface(valve_at("aortic", 1), NULL));
@@ -109,7 +109,7 @@ TEST(open_free_edges_are_parabolas) {
     const double x = p[0] * cos(a) + p[1] * sin(a), y = p[1] * cos(a) - p[0] * sin(a);
     const double end_x = 1.05 * radius_out[cusp] * cos(half_angle[cusp] * cusp_degree),
                  end_y = 1.05 * radius_out[cusp] * sin(half_angle[cusp] * cusp_degree);
-    /* Vertices may be off the curve, because those from split quads lie on the curve's chords. */
+    /* A vertex may be off the curve, because vertices of split quads lie on the curve's chords. */
     CHECK_NEAR(x, 0.75 * 1.29 + (end_x - 0.75 * 1.29) * (y / end_y) * (y / end_y), 0.005);
     CHECK_NEAR(p[2], 0.02, 1e-14);
     ++n;
@@ -117,7 +117,7 @@ TEST(open_free_edges_are_parabolas) {
   assert_true(n > 50);
 }
 
-/* Returns 1 if each surface's vertices lie on the other surface, to within the sum of their error bounds. The triangles may
+/* Returns 1 if the vertices of each surface lie on the other surface, to within the sum of the error bounds. The triangles may
  * differ, because some vertices depend on the motion to the open state. */
 static int have_same_shape(const riis_valve *a, const riis_valve *b) {
   riis_surface_options options = surface_options();
@@ -146,7 +146,7 @@ TEST(opening_0_is_the_papers_state) {
   assert_false(have_same_shape(valve, other));
 }
 
-/* The root radius and the heights act on both states. */
+/* The root radius and the heights affect both states. */
 TEST(parameters_change_both_states) {
   static const char *const names[3] = {"root_radius", "leaflet_height", "bending_height"};
   for (int i = 0; i < 3; ++i)
@@ -188,7 +188,7 @@ TEST(copies_and_moving_updates) {
   assert_true(n > 0);
 }
 
-/* With fixed triangles, a vertex's velocity is its displacement divided by the time. It differs slightly only on grid lines
+/* With fixed triangles, a vertex's velocity is its displacement divided by the time. A small difference occurs only on grid lines
  * that end between two vertices of a side, because such lines end on chords. */
 TEST(fixed_triangulations) {
   const riis_surface_options options = fixed_options();
@@ -208,7 +208,7 @@ TEST(fixed_triangulations) {
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "has an open state|fixed for none", riis_surface_update(surface, other, NULL));
 }
 
-/* Absurd values of the open state are refused, but still make a surface at opening 0. */
+/* Absurd values of the open state are refused. At opening 0 a valve with such values nevertheless has a surface. */
 TEST(absurd_open_states_are_refused) {
   riis_valve *valve = new_valve("aortic");
   riis_surface *surface = NULL;

@@ -5,7 +5,7 @@
 
 static const double degree_in_radians = 3.14159265358979323846 / 180;
 
-/* The indices of the curves of half a cusp, in the order in which the library makes them. */
+/* The positions of the curves of half a cusp, in the library's order. */
 enum { root, symmetry_below, symmetry_above, bending, leaflet, sinus_below, sinus_above, n_of_cusp };
 
 static patch_set set;
@@ -36,22 +36,22 @@ TEST(right_cusp_meets_the_table) {
   check_point(control(0, sinus_below), 1.29, 0, 0);
   check_point(last(0, sinus_below), B[0], B[1], B[2]);
   check_point(last(0, sinus_above), L[0], L[1], L[2]);
-  /* Tangents of the free edge: t0 (0, 1, 0), and t3 (p (L_x - r_li) / L_y, 1, 0). */
+  /* The tangents at the ends of the free edge: t0 (0, 1, 0), and t3 (p (L_x - r_li) / L_y, 1, 0). */
   const double *q = control(0, leaflet);
   check_point(q + 3, 0.24, 0.025, 1.02);
   check_point(q + 6, L[0] - 0.5 * 1.58 * (L[0] - 0.24) / L[1], L[1] - 0.5, 1.02);
 }
 
-/* The two pieces of the symmetry curve are one cubic, which passes through b at s. Its first inner control point is given by
- * xq and zq. */
+/* The two parts of the symmetry curve are one cubic, which passes through b at s. xq and zq give the cubic's first inner control
+ * point. */
 TEST(symmetry_curve_is_one_cubic) {
   const double s = 0.71 / 1.02;
   const double *below = control(0, symmetry_below), *above = control(0, symmetry_above);
-  /* After a split at s, (1-s) D0 + s D1 is the first part's second control point. */
+  /* After a split at s, the first part's second control point is (1-s) D0 + s D1. */
   double d1[3];
   for (int c = 0; c < 3; ++c) d1[c] = (below[3 + c] - (1 - s) * below[c]) / s;
   check_point(d1, (1.29 + 0.4) / 2 - 0.2 * (1.29 - 0.4), 0, 0.71 / 2 - 0.2 * 0.71);
-  /* The joint is smooth: the tangents are parallel, and the ratio of their lengths equals the ratio of the parameters. */
+  /* The joint is smooth. The tangents are parallel, and the ratio of their lengths is the ratio of the parameters. */
   for (int c = 0; c < 3; ++c) CHECK_NEAR((below[9 + c] - below[6 + c]) / s, (above[3 + c] - above[c]) / (1 - s), 1e-13);
   for (int i = 0; i < 4; ++i) assert_true(below[3 * i + 1] == 0 && above[3 * i + 1] == 0);
 }
@@ -62,7 +62,7 @@ TEST(cusps_are_mirror_images_and_turned) {
     const int cusp = set.leaflet_id[image];
     const double turn = angle[cusp] * degree_in_radians;
     double middle[3], end[3];
-    /* The middle of each free edge points along the cusp's rotation. Both halves of a cusp give this point the same bits. */
+    /* The middle of each free edge points along the cusp's rotation. The middle has the same bits in both halves of a cusp. */
     patch_image_place(&set, image, control(cusp, leaflet), middle);
     check_point(middle, radius[cusp] * cos(turn), radius[cusp] * sin(turn), 0.02);
     for (int64_t other = 0; other < image; ++other)
@@ -132,7 +132,7 @@ TEST(parameters_that_do_not_go_together_are_refused) {
   IS_REFUSED("right.leaflet_radius_out", 1e-9, "right.leaflet_radius_out is 1e-09|from 0.05");
   IS_REFUSED("leaflet_radius_in", 129, "right.leaflet_radius_in is 129");
   IS_REFUSED("root_radius", 200, "leaflet_height is 1.02|root_radius, which is 200");
-  /* Each of these values is valid alone, but the combination is absurd. The message names the curve, its extent and its
+  /* Each of these values is valid alone, but together they are absurd. The message names the curve, its extent and its
    * parameters. */
   IS_REFUSED("leaflet_radius_in", 10, "right cusp's leaflet curve reaches 10|leaflet_angle|leaflet_radius_");
   IS_REFUSED("bending_height", 0.06, "right cusp's symmetry curve reaches|bending_height, leaflet_height, xq, zq");

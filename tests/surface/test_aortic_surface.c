@@ -7,8 +7,8 @@
 #include "handles.h"
 
 TEST(numbers_of_the_model) {
-  /* The area and bounds that the model must have. Triangles lie on chords, so area and bounds approach these values from below
-   * as the tolerance falls. */
+  /* The area and bounds of the smooth model. Triangles lie on chords. As the tolerance falls, their area and bounds approach
+   * those of the smooth model from below. */
   const double tolerance[3] = {0.05, 0.005, 0.0005}, area_error[3] = {2e-2, 2e-3, 4e-4};
   double last_area = 0;
   for (int i = 0; i < 3; ++i) {
@@ -70,7 +70,7 @@ TEST(triangles_carry_patch_leaflet_u_and_v) {
       assert_true(id >= 0 && id < n_vertices);
       memcpy(p[k], xyz + 3 * id, sizeof p[k]);
       for (int c = 0; c < 2; ++c) assert_true(uv[2 * id + c] >= 0 && uv[2 * id + c] <= 1);
-      /* v = 1 of a top patch is the free edge. v = 0 of a bottom patch has the root point's height. */
+      /* The side v = 1 of a top patch is the free edge. The side v = 0 of a bottom patch has the root point's height. */
       if (patch_id[i] % 2 == 1 && uv[2 * id + 1] == 1) CHECK_NEAR(p[k][2], 0.02, 1e-12);
       if (patch_id[i] % 2 == 0 && uv[2 * id + 1] == 0) CHECK_NEAR(p[k][2], -1, 1e-12);
     }
@@ -92,8 +92,8 @@ TEST(triangles_carry_patch_leaflet_u_and_v) {
   }
 }
 
-/* Downstream is from the ventricle to the sinus. A point in each sinus, between cusp and wall, is on side +1. A point below the
- * closed middle is on side -1. Flipped normals swap the sides. */
+/* Downstream is from the ventricle to the sinus. A point in each sinus, between cusp and wall, has the side +1. A point below the
+ * closed middle has the side -1. Flipped normals exchange the sides. */
 TEST(normals_point_downstream) {
   const double angle[3] = {0, 119.5, -121.5};
   for (int flip = 0; flip < 2; ++flip) {
@@ -111,7 +111,7 @@ TEST(normals_point_downstream) {
       assert_int_equal(below.leaflet_id, cusp);
       assert_int_equal(below.side, -downstream);
     }
-    /* Whole cusps also face downstream: each cusp's area vector points outwards and upwards. */
+    /* A cusp as a whole faces downstream: its area vector points outwards and upwards. */
     double outwards[3] = {0, 0, 0}, upwards[3] = {0, 0, 0};
     const double *xyz = triangles_of(surface).xyz;
     const int64_t n = triangles_of(surface).n_triangles;
@@ -164,8 +164,8 @@ TEST(three_cusps_are_three_pieces) {
   const int64_t n = triangles_of(surface).n_triangles;
   const int64_t *id = triangles_of(surface).vertex_id;
   const int32_t *leaflet_id = triangles_of(surface).leaflet_id;
-  /* No vertex of one cusp touches another cusp, because the radii differ at the commissures. Measures the smallest gap at each
-   * commissure. */
+  /* A vertex of one cusp never touches another cusp, because the cusps have different radii at a commissure. Measures the
+   * smallest gap at each commissure. */
   double gap = INFINITY;
   int32_t *of_vertex = own(malloc((size_t)n_vertices * sizeof *of_vertex));
   for (int64_t i = 0; i < n_vertices; ++i) of_vertex[i] = -1; /* -1 stays at vertices without a triangle */
@@ -182,9 +182,8 @@ TEST(three_cusps_are_three_pieces) {
 
 static int compare_edges(const void *a, const void *b) { return memcmp(a, b, 6 * sizeof(double)); }
 
-/* The two halves of each cusp meet in its symmetry plane to the last bit, however the cusp is turned and moved. Every edge in
- * that plane (u = 0 at both ends) belongs to exactly two triangles. The sides of points at a folded cusp depend on this
- * property. */
+/* To the last bit, the two halves of a cusp meet in its symmetry plane, in any placement of the cusp. Every edge in this plane (u
+ * = 0 at both ends) belongs to exactly two triangles. Without such edges, the sides of points at a folded cusp would be wrong. */
 TEST(halves_meet_to_the_last_bit) {
   const double turned[3] = {10, -20, 77}, moved[3] = {0.3, 0.2, -0.1};
   riis_valve *valve = new_valve("aortic");
@@ -262,7 +261,8 @@ TEST(parameters_change_the_surface_and_update_keeps_the_handle) {
   assert_null(valve);
 }
 
-/* Every parameter but root_height changes the triangles. All parameters of the paper's table exist, with their defaults. */
+/* Every parameter except root_height changes the triangles. All parameters of the paper's table exist and have the paper's
+ * defaults. */
 TEST(every_parameter_by_name) {
   static const struct {
     const char *name;
@@ -320,7 +320,7 @@ TEST(every_parameter_by_name) {
     double values[3];
     CHECK_OK(riis_valve_get(valve, name, n_values, values));
     for (int k = 0; k < n_values; ++k) CHECK_SAME(values[k], expected[k]);
-    /* If a parameter changes a little, the surface changes. If the old value is restored, the surface is the same again. */
+    /* A small change of a parameter changes the surface. The old value restores the old surface. */
     const int owned_before = n_owned();
     riis_surface *before = new_surface(valve, NULL);
     for (int k = 0; k < n_values; ++k) values[k] += 0.01;
@@ -330,7 +330,7 @@ TEST(every_parameter_by_name) {
                         info_of(before).upper[2] != info_of(after).upper[2] ||
                         info_of(before).upper[0] != info_of(after).upper[0];
     free_owned_after(owned_before);
-    /* At opening 0 the parameters of the open state do not matter. */
+    /* At opening 0 the parameters of the open state have no effect. */
     const int matters =
         strcmp(name, "root_height") && strcmp(name, "open_radius_ratio") && strcmp(name, "commissure_expansion");
     if (changed != matters) fail_msg("%s: the surface %s", name, changed ? "changed" : "did not change");

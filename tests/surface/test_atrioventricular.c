@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The atrioventricular valves: exact properties of docs/theory/atrioventricular.md, and their measures beside the literature.
- * Lengths and angles are taken from triangles, without the library's curves. */
+ * Tests the atrioventricular valves: exact properties of docs/theory/atrioventricular.md, and measures that are compared with the
+ * literature. Lengths and angles come from triangles, without the library's curves. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -14,7 +14,7 @@ static const char *const kinds[2] = {"mitral_coapting", "tricuspid"};
 static const int n_leaflets[2] = {2, 3};
 static const double openings[5] = {0, 0.25, 0.5, 0.75, 1};
 
-/* In a short test, only the ends of the opening are tried. */
+/* A short test tries only the ends of the opening's range. */
 static int opening_step(void) { return is_short_test() ? 4 : 1; }
 
 static riis_surface *surface_at(riis_valve *valve, double opening, double tolerance) {
@@ -40,7 +40,7 @@ static int by_place(const void *a, const void *b) {
   return before < 0 ? -1 : before > 0;
 }
 
-/* The vertices of a patch on one side, in the order along the side: u or v is 0 or 1. */
+/* The vertices on one side of a patch, where u or v is 0 or 1, in the order along the side. */
 typedef struct side {
   int64_t n;
   place *places;
@@ -68,7 +68,7 @@ static double length_of(side of) {
   return length;
 }
 
-/* The length of the meridian at the end of a cell, counter-clockwise, down to the free edge. In the patches u runs clockwise. */
+/* The length of the meridian down to the free edge, at the counter-clockwise end of a cell. In the patches u runs clockwise. */
 static double meridian_length(const riis_surface *surface, int leaflet, int cell) {
   const int patch = n_patches * leaflet + 2 * cell;
   return length_of(side_of(surface, patch, 0, 0)) + length_of(side_of(surface, patch + 1, 0, 0));
@@ -77,7 +77,8 @@ static double middle_length(const riis_surface *surface, int leaflet) {
   return meridian_length(surface, leaflet, n_cells / 2 - 1);
 }
 
-/* Neighbours end in the same points at a commissure, and so do a leaflet's cells where they meet, to the last bit. */
+/* To the last bit, neighbouring leaflets end in the same points at a commissure. The cells of a leaflet also end in the same
+ * points where they meet. */
 TEST(neighbours_share_their_points) {
   for (int kind = 0; kind < 2; ++kind)
     for (int o = 0; o < 5; o += opening_step()) {
@@ -97,7 +98,7 @@ TEST(neighbours_share_their_points) {
     }
 }
 
-/* The annulus stays where it is, to the last bit, and the leaflets share it as their ratios say. */
+/* The annulus stays at its place, to the last bit. The leaflets share the annulus in their given ratios. */
 TEST(annulus_stays) {
   static const double shares[2][3] = {{0.41, 0.59, 0}, {0.36, 0.34, 0.3}}, width[2] = {3.6, 3.8}, depth[2] = {2.7, 3.1},
                       saddle[2] = {0.6, 0.4};
@@ -132,7 +133,7 @@ TEST(annulus_stays) {
   }
 }
 
-/* Checks that both surfaces lie on one smooth valve. Their triangles may differ. */
+/* Checks that both surfaces lie on one smooth valve, although their triangles may differ. */
 static void check_same_shape(const riis_surface *a, const riis_surface *b) {
   const riis_triangles all = triangles_of(a);
   const double bound = info_of(a).error_bound + info_of(b).error_bound;
@@ -154,7 +155,7 @@ static void set_random_sizes(random_source *random, riis_valve *valve) {
   }
 }
 
-/* The middle of each leaflet keeps its length while the valve opens: the length that was set. */
+/* The length of each leaflet's middle is the length that was set, at every opening. */
 TEST(middle_keeps_its_length) {
   random_source random = random_start("test_atrioventricular");
   static const char *const names[2][3] = {{"anterior_length", "posterior_length"},
@@ -177,7 +178,7 @@ TEST(middle_keeps_its_length) {
   }
 }
 
-/* An open leaflet has the closed lengths at all places, also beside the middle. */
+/* An open leaflet is as long as the closed leaflet at each place, also beside its middle. */
 TEST(open_leaflets_have_the_closed_lengths) {
   for (int kind = 0; kind < 2; kind += trial_step()) {
     riis_surface *closed = surface_at(new_valve(kinds[kind]), 0, 0.002),
@@ -190,7 +191,7 @@ TEST(open_leaflets_have_the_closed_lengths) {
   }
 }
 
-/* The mitral valve is its own mirror image. Place (u, v) of a cell is place (1 - u, v) of the cell on the other side. */
+/* The mitral valve equals its mirror image: place (u, v) of a cell mirrors place (1 - u, v) of the cell on the other side. */
 TEST(mitral_valve_is_symmetric) {
   riis_valve *valve = new_valve("mitral_coapting");
   for (int o = 0; o < 5; o += opening_step()) {
@@ -219,7 +220,7 @@ static int lies_on(const riis_triangles *all, int64_t triangle, double v) {
   return n >= 2;
 }
 
-/* The largest angle between the triangles above and below the coaptation lines, in degrees. */
+/* The largest angle, in degrees, between the triangles above and below the coaptation lines. */
 static double line_crease(const riis_surface *surface) {
   const riis_triangles all = triangles_of(surface);
   double largest = 0;
@@ -250,7 +251,7 @@ static double line_crease(const riis_surface *surface) {
   return largest;
 }
 
-/* The measures that follow from the default sizes, beside the literature (docs/theory/atrioventricular.md, "Measures"). */
+/* Compares measures of valves with default sizes with the literature (docs/theory/atrioventricular.md, "Measures"). */
 TEST(measures_are_those_of_the_literature) {
   static const double orifice_least[2] = {4, 4}, orifice_most[2] = {6, 6};
   for (int kind = 0; kind < 2; kind += trial_step()) {
@@ -276,7 +277,7 @@ TEST(measures_are_those_of_the_literature) {
       if (o == 0) CHECK_AT_MOST(orifice.area, 0.07);
     }
     assert_true(last_area >= orifice_least[kind] && last_area <= orifice_most[kind]);
-    /* The tissue: lengths along the meridians times the part of the annulus from which it hangs. */
+    /* The area of the tissue: lengths along the meridians times the part of the annulus from which the tissue hangs. */
     riis_surface *closed = surface_at(valve, 0, 0.01);
     double tissue = 0;
     for (int patch = 0; patch < n_patches * n_leaflets[kind]; patch += 2)
@@ -291,7 +292,7 @@ TEST(measures_are_those_of_the_literature) {
   }
 }
 
-/* The lowest and the highest point of the closed leaflets' edges, and the gap, are the sizes that were set. */
+/* The lowest and the highest point of the closed leaflets' edges, and the gap, have the sizes that were set. */
 TEST(sizes_are_where_they_should_be) {
   static const struct {
     const char *name;
@@ -311,7 +312,7 @@ TEST(sizes_are_where_they_should_be) {
     }
 }
 
-/* A leaflet that is too short for a dilated annulus stays back, so that a gap opens. */
+/* If the annulus dilates, a leaflet becomes too short and stays back, so a gap opens. */
 TEST(dilated_annulus_leaks) {
   for (int kind = 0; kind < 2; ++kind) {
     riis_valve *valve = new_valve(kinds[kind]);
@@ -335,7 +336,7 @@ static double orifice_of(riis_valve *valve, double opening) {
   return orifice.area;
 }
 
-/* A clip holds both leaflets together at one place. The open valve then has one orifice on either side. */
+/* A clip joins both leaflets at one place. The open valve then has one orifice on each side of the clip. */
 TEST(clip_makes_two_orifices) {
   riis_valve *valve = new_valve("mitral_coapting");
   const double healthy = orifice_of(valve, 1), closed = orifice_of(valve, 0);
@@ -356,7 +357,7 @@ TEST(clip_makes_two_orifices) {
   }
 }
 
-/* Fused commissures stay closed, and the orifice becomes a slit in the middle. A restricted leaflet opens less. */
+/* Fused commissures stay closed, so the orifice becomes a slit in the middle. A restricted leaflet opens less. */
 TEST(bumps_of_commissures_and_leaflets) {
   riis_valve *valve = new_valve("mitral_coapting"), *restricted = new_valve("tricuspid");
   const double healthy = orifice_of(valve, 1), healthy_tricuspid = orifice_of(restricted, 1);
@@ -374,7 +375,7 @@ TEST(bumps_of_commissures_and_leaflets) {
   assert_true(fused < 0.8 * healthy && less < 0.9 * healthy_tricuspid);
 }
 
-/* The gap of leaflets that do not close grows with `closed`, nearly in proportion. */
+/* If leaflets do not close, their gap grows nearly in proportion to `closed`. */
 TEST(closed_makes_a_gap) {
   double last = 0;
   for (int i = 0; i <= 5; ++i) {
@@ -390,7 +391,7 @@ TEST(closed_makes_a_gap) {
   }
 }
 
-/* A lifted middle lies higher by the lift when the valve is closed. The open valve stays the same. */
+/* In the closed valve, a lifted middle lies higher by the lift. The open valve does not change. */
 TEST(lift_raises_the_closed_place) {
   riis_valve *valve = new_valve("mitral_coapting");
   riis_surface *healthy = surface_at(valve, 0, 0.02), *healthy_open = surface_at(valve, 1, 0.02);
@@ -405,7 +406,8 @@ TEST(lift_raises_the_closed_place) {
   check_same_shape(surface_at(valve, 1, 0.02), healthy_open);
 }
 
-/* A valve with an open state is the first valve when closed and the second one when open. The annulus moves between. */
+/* A valve with an open state equals the first valve when closed and the second valve when open. The annulus moves from the first
+ * valve's place to the second valve's. */
 TEST(opens_to_another_valves_open_state) {
   riis_valve *valve = new_valve("tricuspid"), *plain = new_valve("tricuspid"), *other = new_valve("tricuspid");
   CHECK_OK(riis_valve_set_scalar(other, "AP_diameter", 4));
@@ -418,7 +420,7 @@ TEST(opens_to_another_valves_open_state) {
   CHECK_NEAR(info.upper[0] - info.lower[0], 3.9, 1e-3);
 }
 
-/* A velocity is the difference of two states on the same triangles, and the fixed triangulation follows the valve. */
+/* A velocity is the difference of two states on equal triangles. The fixed triangulation follows the valve. */
 TEST(velocities_are_differences) {
   for (int kind = 0; kind < 2; ++kind)
     for (int fixed = 0; fixed < 2; ++fixed) {

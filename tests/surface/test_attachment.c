@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests the attachment of valves. Its edges must be the edges of triangles along held sides, and each must belong to only one
- * triangle. They must form lines from root to commissure, or a line round the annulus. Mirrored halves must be equally
- * long, and a parabola must have its known length. */
+ * Tests the attachment of valves. Attached edges must be the edges of triangles along attached sides, and each edge must belong
+ * to only one triangle. The edges must form lines from root to commissure, or one line round the annulus. Mirrored halves must be
+ * equally long, and a parabola must have its known length. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -41,7 +41,7 @@ static double edge_length(const double *edge) {
 
 /* --- Against a count of edges ---------------------------------------------------------------------------------------- */
 
-/* An edge: its two end points in a fixed order, its leaflet and its patch. */
+/* An edge has two end points in a fixed order, a leaflet and a patch. */
 typedef struct {
   double ends[2][3];
   int32_t leaflet_id, patch_id;
@@ -60,8 +60,8 @@ static int by_place(const void *a, const void *b) {
   return memcmp(((const placed_edge *)a)->ends, ((const placed_edge *)b)->ends, sizeof((const placed_edge *)a)->ends);
 }
 
-/* Tells whether a vertex lies on the attached side of its patch. The root of a cusp is a special case, because the whole side
- * v = 0 of a lower patch is this point. */
+/* Tells whether a vertex lies on the attached side of its patch. A cusp's root is a special case, because the whole side v = 0 of
+ * a lower patch is this point. */
 static int is_held(const char *kind, int32_t patch_id, const double *uv) {
   return strcmp(kind, "mitral") == 0 ? uv[1] == 0 : uv[0] == 1 || (patch_id % 2 == 0 && uv[1] == 0);
 }
@@ -99,7 +99,7 @@ TEST(edges_are_those_of_one_triangle_on_the_side) {
       assert_true(same->leaflet_id == here.leaflet_id && same->patch_id == here.patch_id);
       for (int end = 0; end < 2; ++end)
         assert_memory_equal(ends + 3 * end, all.xyz + 3 * got.vertex_id[2 * i + end], 3 * sizeof *ends);
-      /* Each edge of a patch begins at the end of the previous edge. */
+      /* In each patch, an edge begins at the end of the edge before. */
       if (i == 0) continue;
       assert_true(got.patch_id[i] >= got.patch_id[i - 1]);
       if (got.patch_id[i] == got.patch_id[i - 1]) assert_memory_equal(ends, ends - 3, 3 * sizeof *ends);
@@ -110,8 +110,8 @@ TEST(edges_are_those_of_one_triangle_on_the_side) {
 
 /* --- Against the tables ---------------------------------------------------------------------------------------------- */
 
-/* Each of three equal cusps has two mirrored halves. Their lines go from a root to a commissure, where the next cusp begins. The
- * mitral annulus is one loop of both leaflets. In each case every end of an edge is also an end of another edge. */
+/* Each of three equal cusps has two mirrored halves. Each half has a line from the root to a commissure, where the next cusp
+ * begins. The mitral annulus is one loop along both leaflets. Every end of an edge is also the end of another edge. */
 TEST(attachments_are_closed_lines) {
   for (int trial = 0; trial < trials_of(36); ++trial) {
     const int owned_before = n_owned();
@@ -146,8 +146,8 @@ TEST(attachments_are_closed_lines) {
   }
 }
 
-/* The attachment of a square patch is its side v = 0. A bent side has several edges. A side that two patches share does not
- * belong to the attachment. A bileaflet valve has no attachment. */
+/* The attachment of a square patch is its side v = 0. A bent side has several edges. A side that two patches share is not
+ * attached. A bileaflet valve has no attachment. */
 TEST(patches_are_held_at_v_0) {
   for (int trial = 0; trial < trials_of(24); ++trial) {
     const riis_surface_options options = placed(trial % 2, 2);
@@ -168,7 +168,8 @@ TEST(patches_are_held_at_v_0) {
       assert_true(got.leaflet_id[i] == 3 && got.patch_id[i] == 0);
       length += edge_length(got.edges + 6 * i);
     }
-    /* The parabola has the width 1, the height 1/4 and the slope 1 at its end. Its length is (sqrt(2) + asinh(1)) / 2. */
+    /* The parabola has the width 1, the height 1/4 and the slope 1 at its end. The parabola's length is (sqrt(2) + asinh(1)) /
+     * 2. */
     if (trial < 4)
       CHECK_NEAR(length, 2, 1e-12);
     else
@@ -214,8 +215,8 @@ TEST(refusals_name_the_argument) {
   assert_int_equal(info_of(from_arrays).largest_leaflet_id, 0);
 }
 
-/* A surface names its skirt and its housing. A skirt has the id behind the leaflets', at least 3. Depths of contacts are those
- * of docs/theory/crossings.md. */
+/* A surface reports the ids of its skirt and its housing. The id of a skirt follows those of the leaflets, and is at least 3.
+ * Contacts have the depths of docs/theory/crossings.md. */
 TEST(info_names_skirt_and_housing) {
   static const struct {
     const char *kind;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The shape of the bileaflet valve is compared with its closed form: distances, areas, rims, images and the ring. Wrong
- * parameters are refused. */
+ * Compares the shape of the bileaflet valve with its closed form: distances, areas, rims, images and the ring. Wrong parameters
+ * are refused. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -34,7 +34,7 @@ TEST(defaults_are_as_documented) {
   }
 }
 
-/* If the closed angle and the gap are 0, the leaflets are the halves of a disc, and the closed valve is that disc. */
+/* With a closed angle and a gap of 0, the leaflets are the halves of a disc, and the closed valve is this disc. */
 TEST(half_discs_have_their_distances) {
   const double tolerance[3] = {0.05, 1e-3, 1e-5};
   double largest[3] = {0, 0, 0};
@@ -65,7 +65,7 @@ TEST(half_discs_have_their_distances) {
   for (int t = 0; t < 3; ++t) CHECK_MET(largest[t] > 0.1); /* the bound must not be far too large */
 }
 
-/* Leaflets that are half ellipses, with slits between them, at any opening. */
+/* The leaflets are half ellipses with slits between them, at any opening. */
 TEST(leaflets_have_their_distances) {
   for (int trial = 0; trial < trials_of(90); ++trial) {
     const int owned_before = n_owned();
@@ -115,8 +115,8 @@ TEST(areas_are_those_of_ellipses) {
   }
 }
 
-/* The rim of closed leaflets lies on the housing. Their middle edges are straight, at half a gap from the plane x = 0.
- * In a closed valve x was not rotated, so it is exactly 0 without a gap. */
+/* The rim of closed leaflets lies on the housing. The middle edges are straight and half a gap away from the plane x = 0. A
+ * closed valve without a gap was not rotated, so x is exactly 0 on its middle edges. */
 TEST(closed_leaflets_fill_the_housing) {
   for (int trial = 0; trial < trials_of(120); ++trial) {
     const int owned_before = n_owned();
@@ -135,7 +135,7 @@ TEST(closed_leaflets_fill_the_housing) {
   }
 }
 
-/* As the leaflets open, the corners of their middle edges leave the housing: docs/theory/bileaflet.md. */
+/* While the leaflets open, the corners of their middle edges leave the housing (docs/theory/bileaflet.md). */
 TEST(open_leaflets_reach_beyond_the_housing) {
   for (int trial = 0; trial < trials_of(60); ++trial) {
     const int owned_before = n_owned();
@@ -149,7 +149,7 @@ TEST(open_leaflets_reach_beyond_the_housing) {
     const double expected = sqrt(of.radius * of.radius + h * h * (1 - q) / (1 + q));
     double farthest = 0;
     for (int64_t i = 0; i < c.n_vertices; ++i) farthest = fmax(farthest, hypot(c.xyz[3 * i], c.xyz[3 * i + 1]));
-    /* Vertices are within the error bound of the outline, and the farthest point of the outline may be between two vertices. */
+    /* Vertices lie on the outline up to the error bound. The farthest point of the outline may lie between two vertices. */
     CHECK_AT_MOST(farthest, expected + 1e-8 * of.radius);
     CHECK_NEAR(farthest, expected, 20 * info_of(surface).error_bound);
     if (!trial) CHECK_NEAR(farthest / of.radius, 1.016, 5e-4);
@@ -157,7 +157,7 @@ TEST(open_leaflets_reach_beyond_the_housing) {
   }
 }
 
-/* The patches are four images of one half leaflet. Closed leaflets without a gap have the same bits where they meet. */
+/* The patches are four images of one half leaflet. Without a gap, closed leaflets have the same bits where they meet. */
 TEST(images_are_images) {
   static const double sign[4][2] = {{1, 1}, {1, -1}, {-1, -1}, {-1, 1}};
   for (int trial = 0; trial < trials_of(60); ++trial) {
@@ -180,7 +180,7 @@ TEST(images_are_images) {
   }
 }
 
-/* Twice the area vector of a triangle. */
+/* Returns twice the area vector of a triangle. */
 static void area_vector(const riis_triangles *c, int64_t triangle, double *normal) {
   const int64_t *id = c->vertex_id + 3 * triangle;
   double a[3], b[3];
@@ -189,8 +189,8 @@ static void area_vector(const riis_triangles *c, int64_t triangle, double *norma
   for (int k = 0; k < 3; ++k) normal[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
 }
 
-/* Every triangle's normal is its plane's normal. It points downstream in the closed valve, and towards the axis in the open
- * valve. */
+/* Every triangle's normal is its plane's normal. The normal points downstream in the closed valve, and towards the axis in the
+ * open valve. */
 TEST(normals_point_downstream) {
   for (int trial = 0; trial < trials_of(60); ++trial) {
     const int owned_before = n_owned();
@@ -207,7 +207,7 @@ TEST(normals_point_downstream) {
       CHECK_NEAR(n[1] / size, 0, 1e-6);
       CHECK_NEAR(n[2] / size, cos(angle), 1e-6);
     }
-    assert_int_equal(info_of(surface).n_zero_area, 4); /* one flat triangle at each half leaflet's corner */
+    assert_int_equal(info_of(surface).n_zero_area, 4); /* one triangle without area at each half leaflet's corner */
     free_owned_after(owned_before);
   }
   riis_surface *closed = surface_of_kind("bileaflet", NULL);
@@ -217,7 +217,7 @@ TEST(normals_point_downstream) {
   assert_int_equal(closest_to(closed, -0.5, 0.3, -0.5).leaflet_id, RIIS_LEAFLET_NEGATIVE);
 }
 
-/* The ring is a closed cylinder that does not move, half of it on each side of the orifice plane. */
+/* The ring is a closed cylinder at rest. One half of the ring lies on each side of the orifice plane. */
 TEST(a_ring_is_the_housing) {
   for (int trial = 0; trial < trials_of(30); ++trial) {
     const int owned_before = n_owned();
@@ -248,7 +248,7 @@ TEST(a_ring_is_the_housing) {
     assert_int_equal(n_of_ring, c.n_triangles - d.n_triangles);
     const double whole = 2 * 3.14159265358979323846 * of.radius * of.ring_height;
     CHECK_NEAR(area, whole, 7 * bound * of.ring_height);
-    /* With and without the ring, the leaflets are the same to the last bit. */
+    /* The ring does not change the leaflets, to the last bit. */
     assert_memory_equal(c.xyz, d.xyz, (size_t)d.n_vertices * 24);
     for (int i = 0; i < 200; ++i) {
       double p[3];
@@ -260,8 +260,8 @@ TEST(a_ring_is_the_housing) {
   }
 }
 
-/* Arcs are approximated by cubic curves and deviate from circles. The error bound includes this deviation. A tolerance as
- * small as the deviation is refused. */
+/* Cubic curves approximate the arcs, so they deviate from circles. The error bound includes this deviation. A tolerance that is
+ * not larger than the deviation is refused. */
 TEST(the_bound_counts_that_arcs_are_cubics) {
   riis_valve *valve = new_valve("bileaflet");
   riis_surface *surface = NULL;
@@ -285,7 +285,7 @@ TEST(the_bound_counts_that_arcs_are_cubics) {
   CHECK_AT_MOST(bound, 4e-9);
 }
 
-/* Expects that one value is refused because it does not fit the defaults of the other parameters. */
+/* Checks that a value is refused if it is invalid together with the defaults of the other parameters. */
 static void expect_refused(const char *name, double value, const char *parts) {
   riis_valve *valve = new_valve("bileaflet");
   riis_surface *surface = NULL;

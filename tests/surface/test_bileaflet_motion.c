@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests the bileaflet valve as it opens. Velocities are compared with rotations in closed form. Further tests in this file
- * cover sealing, fixed triangles, second states and copies. */
+ * Tests the bileaflet valve as it opens. Velocities are compared with rotations in closed form. Further cases test sealing, fixed
+ * triangles, second states and copies. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -31,7 +31,7 @@ static void moving_update(riis_surface *surface, riis_valve *valve, double now, 
   free_one_owned(earlier);
 }
 
-/* Gives the mean velocity, over the step, of the leaflet's point that is at p now. */
+/* The leaflet's point that is now at p has moved over the step. Gives the mean velocity of this point. */
 static void chord_velocity(const bileaflet *of, int32_t leaflet_id, const double *p, double now, double before,
                            double seconds, double *velocity) {
   double q[3];
@@ -39,7 +39,8 @@ static void chord_velocity(const bileaflet *of, int32_t leaflet_id, const double
   for (int c = 0; c < 3; ++c) velocity[c] = (p[c] - q[c]) / seconds;
 }
 
-/* Gives omega x r at p. For the leaflet at x > 0, omega is along -y: its rim goes downstream as the valve opens. */
+/* Gives omega x r at p. The axis omega of the leaflet at x > 0 points along -y: the leaflet's rim goes downstream as the valve
+ * opens. */
 static void spin_velocity(const bileaflet *of, int32_t leaflet_id, const double *p, double angular_speed,
                           double *velocity) {
   double r[3] = {p[0], p[1], p[2]};
@@ -90,12 +91,13 @@ TEST(vertices_and_closest_points_turn_exactly) {
     assert_int_equal(found.n, n_points);
     for (int64_t i = 0; i < n_points; ++i) {
       if (found.leaflet_id[i] == RIIS_LEAFLET_HOUSING) continue;
-      /* If leaflets are equally near, the velocity is their mean (test_ties). Ties that rounding decides are skipped. */
+      /* If leaflets are equally near, the velocity is the mean of the leaflets' velocities (test_ties). Ties that rounding
+       * decides are skipped. */
       const tied_velocity tied = tied_velocity_at(&c, velocity, xyz + 3 * i, found.distance[i], half_thickness);
       if (tied.n_leaflets > 1 || !tied.is_clear) continue;
       chord_velocity(&of, found.leaflet_id[i], fields.point + 3 * i, now, before, seconds, expected);
-      /* If patches of one leaflet are equally near, the velocity is also a mean. Next to a seam, their closest points may lie
-       * apart. */
+      /* If patches of one leaflet are equally near, the velocity is also a mean. The patches' closest points may lie apart next
+       * to a seam. */
       CHECK_AT_MOST(distance(tied.n_places > 1 ? tied.mean : expected, fields.velocity + 3 * i), 10 * rounding);
     }
     free_owned_after(owned_before);
@@ -118,7 +120,7 @@ static double from_spin(const bileaflet *of, riis_valve *valve, riis_surface *su
   return largest;
 }
 
-/* The velocity is a backward difference, which is of first order. Its error is half the step times the acceleration, omega^2
+/* The velocity is a backward difference, which is of first order. The error is half the step times the acceleration, omega^2
  * |r|. */
 TEST(velocities_tend_to_omega_cross_r) {
   const bileaflet of = bileaflet_defaults();
@@ -130,13 +132,14 @@ TEST(velocities_tend_to_omega_cross_r) {
     const double opening = 0.25 * i;
     for (double step = 0.1; step > 1e-4; step /= 10) {
       const double error = from_spin(&of, valve, surface, opening, step);
-      /* A chord of the angle a = omega step, divided by the step, is off by omega a / 2 per unit of radius, to second order. */
+      /* For the angle a = omega step, the chord divided by the step differs from the velocity by omega a / 2 per unit of radius,
+       * to second order. */
       CHECK_NEAR(error / (0.5 * omega * omega * farthest * step), 1, 0.01 * step + 1e-6);
     }
   }
 }
 
-/* Fills from the lowest layer of grid nodes inside the housing, over unmarked nodes. Returns 1 if the fill reaches the top. */
+/* Fills the unmarked nodes of a grid inside the housing, from the lowest layer. Returns 1 if the fill reaches the top. */
 static int leaks(const bileaflet *of, double spacing, double half_thickness) {
   const int owned_before = n_owned();
   const double height = of->radius * (1.2 + tan(degree * of->closed_angle)) + fabs(of->hinge_height);
@@ -171,8 +174,8 @@ static int leaks(const bileaflet *of, double spacing, double half_thickness) {
   return has_leaked;
 }
 
-/* If an edge of the grid crosses a leaflet, one of its ends is within half the edge's length of the leaflet. A half
- * thickness of 0.55 spacings therefore seals: half a spacing plus the tolerance. */
+/* If an edge of the grid crosses a leaflet, one of its ends is within half the edge's length of the leaflet. A half thickness of
+ * 0.55 spacings therefore seals. This half thickness is half a spacing plus the tolerance. */
 TEST(a_closed_valve_seals_its_housing) {
   static const double angle[4] = {0, 25, 30, 45};
   for (int trial = 0; trial < trials_of(24); ++trial) {
@@ -203,7 +206,7 @@ static int rim_at(const riis_surface *surface, const double *p) {
   return fields.rim[0];
 }
 
-/* Where closed leaflets meet, their edge is not a rim, so a band that is cut at rims has no slit there. */
+/* Closed leaflets meet in an edge that is not a rim. A band that is cut at rims therefore has no slit at this edge. */
 TEST(leaflets_that_meet_have_no_rim_there) {
   bileaflet of = bileaflet_defaults();
   of.ring_height = 0.4;
@@ -216,7 +219,7 @@ TEST(leaflets_that_meet_have_no_rim_there) {
     assert_int_equal(rim_at(closed, (double[3]){0, y, z}), 0);
     assert_int_equal(closest_to(closed, 0, y, z).side, -1);
     assert_int_equal(rim_at(closed, (double[3]){random_between(&rng, 0.3, 0.8), 0, 0.3}), 0);
-    /* The ring's quarters meet without a rim. Only its upper and lower edges are rims. */
+    /* The quarters of the ring meet without a rim. The ring's only rims are its upper and lower edges. */
     assert_int_equal(rim_at(closed, (double[3]){1.3 * cos(around), 1.3 * sin(around), 0.1}), 0);
     assert_int_equal(rim_at(closed, (double[3]){1.3 * cos(around), 1.3 * sin(around), i % 2 ? -0.3 : 0.3}), 1);
     of.gap = 0.01;
@@ -259,8 +262,8 @@ TEST(fixed_triangles_stay) {
   }
 }
 
-/* A second state changes all numbers. The angle then goes from the first state's closed angle to the second state's open
- * angle. */
+/* A second state changes all numbers. While the valve opens, the angle goes from the first state's closed angle to the second
+ * state's open angle. */
 TEST(numbers_blend_to_a_second_state) {
   for (int trial = 0; trial < trials_of(30); ++trial) {
     const int owned_before = n_owned();
@@ -280,7 +283,7 @@ TEST(numbers_blend_to_a_second_state) {
     for (int i = 0; i < n_bileaflet_fields; ++i)
       memcpy((char *)&between + bileaflet_fields[i].at,
              &(double){(1 - s) * *bileaflet_field(&from, i) + s * *bileaflet_field(&to, i)}, sizeof(double));
-    /* The oracle's angle goes from its closed to its open angle, and its outline depends on the closed angle. */
+    /* The oracle needs the closed and the open angle, and its outline depends on the closed angle. */
     const double angle = (1 - s) * from.closed_angle + s * to.open_angle;
     between.open_angle = 90;
     between.opening = (angle - between.closed_angle) / (90 - between.closed_angle);
@@ -309,7 +312,7 @@ TEST(second_states_are_refused) {
                 riis_valve_set_open_state(valve, open));
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "ring_height is 0 in the valve and 0.5 in valve_before",
                 riis_surface_update_moving(surface, valve, open, 1, NULL, NULL));
-  /* The open state's ring may be removed after the second state was set. */
+  /* The ring of the open state may be removed after the second state was set. */
   CHECK_OK(riis_valve_set_scalar(open, "ring_height", 0));
   CHECK_OK(riis_valve_set_open_state(valve, open));
   CHECK_OK(riis_valve_set_scalar(valve, "ring_height", 0.5));

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests riis_find_by_area. The areas at the openings and sizes that it finds are those of surfaces made here, and those of a
- * raster. Scales have a closed form. An opening in time is recovered from its areas. */
+ * Tests riis_find_by_area. The areas at the found openings and sizes are compared with the areas of new surfaces and with a
+ * raster. Scales have a closed form. An opening over time is recovered from its areas. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -15,7 +15,7 @@ static double between(double low, double high) { return random_between(&rng, low
 enum { n_kinds = 5 };
 static const char *const kinds[n_kinds] = {"aortic", "mitral", "trileaflet", "bileaflet", "coapting"};
 
-/* Searches with coarse triangles, which have all that a search needs and make it several times as fast. */
+/* Searches with coarse triangles, which suffice for a search and make it several times as fast. */
 static riis_area_search area_search(void) {
   static riis_surface_options coarse;
   riis_area_search search;
@@ -26,7 +26,7 @@ static riis_area_search area_search(void) {
   return search;
 }
 
-/* Returns the area of a new surface, not of one that was updated. */
+/* Returns the area of a new surface. No update is involved. */
 static double area_of(const riis_valve *valve, const riis_area_search *search) {
   riis_surface *surface = new_surface(valve, search->surface);
   riis_orifice orifice;
@@ -73,7 +73,7 @@ static riis_resistance resistance(double half_thickness, int32_t rim) {
   return made;
 }
 
-/* An area at a random opening leads to an opening with that area, which is no larger. */
+/* The search for the area of a random opening finds an opening with this area. The found opening is not larger. */
 TEST(openings_have_their_areas) {
   const int n_trials = is_long_test() ? 8 * 4 * n_kinds : n_kinds;
   double worst[2] = {0, 0};
@@ -96,7 +96,7 @@ TEST(openings_have_their_areas) {
     double untouched = 1;
     CHECK_OK(riis_valve_get(valve, "opening", 1, &untouched));
     assert_true(untouched == 0);
-    /* The area is that of a new surface, to the last bit. */
+    /* The area equals that of a new surface, to the last bit. */
     const double again = area_at(valve, found.value, &search), error = fabs(again / area - 1);
     assert_true(again == found.reached);
     CHECK_AT_MOST(error, is_fixed ? 1e-6 : 1e-4);
@@ -167,7 +167,7 @@ TEST(openings_have_the_areas_of_a_raster) {
   }
 }
 
-/* Areas grow with the square of the scale. So do effective areas, if the half thickness grows with the scale. */
+/* Areas grow with the square of the scale. Effective areas also grow so, if the half thickness grows with the scale. */
 TEST(scales_are_roots_of_areas) {
   for (int trial = 0; trial < (is_long_test() ? 4 : 1) * n_kinds; trial += trial_step()) {
     const double scale = between(0.5, 2), factor = between(0.2, 5);
@@ -183,7 +183,7 @@ TEST(scales_are_roots_of_areas) {
     assert_int_equal(found.range.n_turns, 0);
     CHECK_NEAR(found.range.most, 1e4 * found.range.least, 1e-6 * found.range.most);
   }
-  /* A half thickness of its own narrows a small valve more than a large one. */
+  /* A fixed half thickness narrows a small valve more than a large valve. */
   riis_surface_options options = surface_options();
   options.half_thickness = 0.1;
   riis_area_search search = area_search();
@@ -198,7 +198,7 @@ TEST(scales_are_roots_of_areas) {
   CHECK_NEAR(area_of(valve, &search), 2 * area, 2e-4 * area);
 }
 
-/* A parameter is found under both of its names. Other parameters stay, except parameters that follow from it. */
+/* A parameter is found by each of its two names. All other parameters stay, except parameters that follow from it. */
 TEST(sizes_have_their_areas) {
   static const struct {
     const char *kind, *name;
@@ -227,8 +227,8 @@ TEST(sizes_have_their_areas) {
   }
 }
 
-/* The area of an opening in time is measured at some times. The table that follows from these areas has the openings and, between
- * its keys, the rates. */
+/* The area of an opening over time is measured at some times. The table from these areas has the openings, and the rates between
+ * its keys. */
 TEST(a_cycle_is_recovered) {
   enum { most = 33 };
   const int n = is_short_test() ? 5 : most;
@@ -267,8 +267,8 @@ TEST(a_cycle_is_recovered) {
   }
 }
 
-/* A valve from flat patches whose area grows and then falls: a frame with a square hole, a blade that widens to the right, and a
- * blade that withdraws under the frame. */
+/* A valve from flat patches whose area grows and then falls. A frame has a square hole, one blade widens to the right, and
+ * another blade withdraws under the frame. */
 enum { n_quads = 6 };
 static const double half_hole = 0.9, half_frame = 2;
 static double area_of_blades(double opening) {
@@ -277,7 +277,7 @@ static double area_of_blades(double opening) {
 
 static riis_valve *blades_at(double opening) {
   const double h = half_hole, f = half_frame, wide = 0.2 + 0.6 * opening, back = 0.5 - 1.1 * opening;
-  /* The corners at (u, v) = (0, 0), (1, 0), (0, 1) and (1, 1). */
+  /* Makes a patch from its corners at (u, v) = (0, 0), (1, 0), (0, 1) and (1, 1). */
   const double quad[n_quads][4][2] = {{{-f, -f}, {f, -f}, {-h, -h}, {h, -h}},
                                       {{f, -f}, {f, f}, {h, -h}, {h, h}},
                                       {{f, f}, {-f, f}, {h, h}, {-h, h}},
@@ -292,7 +292,7 @@ static riis_valve *blades_at(double opening) {
       degree[4 * q + side] = 1, curve_id[4 * q + side] = 4 * q + side;
       for (int end = 0; end < 2; ++end) {
         const double *corner = quad[q][ends[side][end]];
-        /* The blades lie above the frame, so that they do not touch it. */
+        /* The blades lie above the frame, without touching it. */
         memcpy(control[q][side][end], (double[3]){corner[0], corner[1], q < 4 ? 0 : 0.1 * (q - 3)}, 3 * sizeof(double));
       }
     }
@@ -305,7 +305,8 @@ static riis_valve *blades_at(double opening) {
   return own(valve);
 }
 
-/* Of several openings the least is taken. from and to lead to the others. */
+/* If several openings have the area, the call takes the least. The range `from` and `to` of the call leads to the other
+ * openings. */
 TEST(turns_are_told) {
   riis_valve *valve = blades_at(0);
   CHECK_OK(riis_valve_set_open_state(valve, blades_at(1)));
@@ -322,14 +323,14 @@ TEST(turns_are_told) {
   CHECK_NEAR(least.range.most, area_of_blades(turn), 5e-3);
   CHECK_NEAR(least.range.least, area_of_blades(1), 5e-3);
   assert_true(least.range.least_at == 1);
-  /* The largest area is reached, although no sample has it. */
+  /* The search reaches the largest area, although no sample has this area. */
   const solution largest = solve(valve, "opening", least.range.most, &search);
   CHECK_NEAR(largest.value, turn, 1e-3);
   search.from = 0.5;
   const solution other = solve(valve, "opening", area, &search);
   CHECK_NEAR(other.value, (1.6 - area / 1.8) / 0.6, 5e-3);
   assert_int_equal(other.range.n_turns, 0);
-  /* Of several sizes, the one nearest to the present size is taken. */
+  /* If several sizes have the area, the call takes the size nearest to the present one. */
   riis_valve *mitral = new_valve("mitral");
   search = area_search();
   search.from = 120, search.to = 176, search.n_samples = 9;
@@ -430,7 +431,7 @@ TEST(searches_are_refused) {
           &search);
   search.from = -1, search.to = 1;
   REFUSED(RIIS_INVALID_ARGUMENT, "search.from is -1; it must be from 0 to", valve, "skirt_length", 1, &search);
-  /* Without an open state, without an orifice, and with values that do not fit together. */
+  /* The refused valves lack an open state, lack an orifice, or have values that are invalid together. */
   search = area_search();
   search.n_samples = 3;
   REFUSED(RIIS_INVALID_PARAMETER, "valve has only one state: set its open state with riis_valve_set_open_state",
@@ -438,7 +439,7 @@ TEST(searches_are_refused) {
   CHECK_OK(riis_valve_set_scalar(valve, "leaflet_height", 20));
   REFUSED(RIIS_INVALID_PARAMETER, "at opening 0: leaflet_height is 20", valve, "opening", 1, &search);
   CHECK_OK(riis_valve_unset(valve, "leaflet_height"));
-  /* The surface and the resistance are refused as elsewhere. */
+  /* Options of the surface and of the resistance are refused as by other calls. */
   riis_surface_options options = surface_options();
   options.scale = 0;
   search.surface = &options;
@@ -451,7 +452,7 @@ TEST(searches_are_refused) {
 #undef REFUSED
 }
 
-/* Values that make no valve are left out, and the others are searched. */
+/* The search skips values that make no valve. */
 TEST(impossible_sizes_are_left_out) {
   riis_valve *valve = new_valve("trileaflet");
   const riis_area_search usual = area_search();
@@ -465,7 +466,7 @@ TEST(impossible_sizes_are_left_out) {
   CHECK_NEAR(area_of(valve, &usual), area, 1e-4 * area);
 }
 
-/* Without areas, the call gives the range. The caller need not want any result. */
+/* Without areas, the call gives the range of areas. Every result is optional. */
 TEST(ranges_need_no_areas) {
   riis_valve *valve = new_valve("bileaflet");
   riis_area_search search = area_search();

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Compares closest points from the Embree scene with the independent oracle and with plain loops, for every triangle,
- * placement and limit. */
+ * Compares closest points from the Embree scene with the independent oracle and with plain loops. The triangles, placements and
+ * limits vary. */
 #include <riis/riis.h>
 
 #include <stdbool.h>
@@ -78,8 +78,8 @@ TEST(far_points_equal_the_oracle) {
   }
 }
 
-/* A grid of coplanar, repeated and mirrored triangles gives equal distances everywhere. The lowest id must win in any
- * order. */
+/* A grid of coplanar, repeated and mirrored triangles gives equal distances everywhere. The lowest id must win in any order of
+ * triangles. */
 TEST(ties_go_to_the_lowest_id) {
   enum { copies = 50 };
   double xyz[9 * copies];
@@ -99,7 +99,7 @@ TEST(ties_go_to_the_lowest_id) {
   assert_int_equal(closest_to(surface, -5, -5, 0).triangle_id, 0);
 }
 
-/* Every output of a batch equals the single query's bit by bit, for any number of threads, layout and choice of arrays. */
+/* Every output of a batch has the bits of the single query, for any number of threads, layout and choice of arrays. */
 TEST(batches_equal_single_queries) {
   enum { n = 3000 };
   static double xyz[3 * n], x[n], y[n], z[n], distance[n], point[3 * n], barycentric[3 * n], normal[3 * n],
@@ -133,7 +133,7 @@ TEST(batches_equal_single_queries) {
       assert_int_equal(side[i], one.side);
     }
   }
-  /* With a limit, results of near points are unchanged, and far points are marked as far. */
+  /* With a limit, the results of near points stay unchanged, and far points are reported as far. */
   options.distance_limit = 0.3;
   options.far_distance = -5;
   static double limited[n];
@@ -183,8 +183,8 @@ static void check_equal(const results *a, int64_t i, const riis_closest *one) {
   assert_int_equal(a->side[i], one->side);
 }
 
-/* Masks, lists, limits and single precision give the results of single queries. No other entry is written. In order, the points
- * advance along x, as in many meshes. */
+/* Masks, lists, limits and single precision give the results of single queries, and write no other entry. Points in order advance
+ * along x, as in many meshes. */
 static void check_many_points(int64_t n, bool are_in_order) {
   const int64_t stride = is_long_test() ? 1 : 5;
   riis_surface_options options = surface_options();
@@ -196,17 +196,17 @@ static void check_many_points(int64_t n, bool are_in_order) {
   float *xyz = own(malloc((size_t)n * 3 * sizeof *xyz));
   riis_closest *one = own(malloc((size_t)n * sizeof *one));
   for (int64_t i = 0; i < n; ++i) {
-    /* Some points are far away, and others are so far that single precision does not separate triangles. */
+    /* Some points are far away. Some points are so far away that single precision does not separate triangles. */
     const double wide = i % 25 ? 0.5 : i % 1000 ? 100 : random_power_of_ten(&rng, 2, 20);
     for (int c = 0; c < 3; ++c) {
       const double extent = info.upper[c] - info.lower[c];
       xyz[3 * i + c] = (float)random_between(&rng, info.lower[c] - wide * extent, info.upper[c] + wide * extent);
       if (are_in_order && c == 0) xyz[3 * i] = (float)(info.lower[0] + extent * (double)i / (double)n);
-      /* Without an order, any 1000 consecutive points extend as far as all points. */
+      /* Points without an order are mixed: any 1000 consecutive points extend as far as all points. */
       if (!are_in_order && i % 500 == 1) xyz[3 * i + c] = i % 1000 == 1 ? 1e22F : -1e22F;
     }
   }
-  /* If the rounding were in the same loop, GCC 12 would pass the coordinates before they were rounded. */
+  /* The rounding has a separate loop. In a common loop, GCC 12 would pass coordinates that are not yet rounded. */
   for (int64_t i = 0; i < n; ++i)
     if (i % stride == 0)
       one[i] = closest_to(surface, (double)xyz[3 * i], (double)xyz[3 * i + 1], (double)xyz[3 * i + 2]);
@@ -265,13 +265,13 @@ static void check_many_points(int64_t n, bool are_in_order) {
 /* The points fill several batches, which all threads share. */
 TEST(many_points_equal_single_queries) { check_many_points(is_long_test() ? 3000000 : trials_of(140000), false); }
 
-/* Near points follow each other, so each thread takes batches of its own. */
+/* Near points follow each other in the list, so each thread takes separate batches. */
 TEST(many_points_in_order_equal_single_queries) {
   check_many_points(is_long_test() ? 3000000 : trials_of(140000), true);
 }
 
-/* Points in a plane, on a line, in one place, mostly in a small part of their box, or all but one near the valve. They are
- * sorted into leaves without gaps and give the results of single queries. */
+/* The points lie in a plane, on a line, in one place, mostly in a small part of their box, or all but one near the valve. The
+ * points are sorted into leaves without gaps, and get the results of single queries. */
 TEST(crowded_points_equal_single_queries) {
   enum { n = 3000 };
   static double xyz[3 * n];
@@ -300,8 +300,8 @@ TEST(crowded_points_equal_single_queries) {
   }
 }
 
-/* The results of a single query are consistent. The point is on the triangle at the distance, the normal is the triangle's
- * normal, and the side is the sign of the height. */
+/* The results of a single query are consistent. The point lies on the triangle at the reported distance. The normal is the
+ * triangle's normal, and the side is the sign of the height. */
 TEST(closest_is_consistent) {
   riis_surface *surface = aortic_surface(NULL);
   const double *xyz = triangles_of(surface).xyz;
@@ -325,7 +325,7 @@ TEST(closest_is_consistent) {
     }
     CHECK_NEAR(c.distance, sqrt(distance_sq), 1e-15);
     CHECK_NEAR(unit, 1, 1e-14);
-    /* If the closest point is inside a triangle, the line from the query point to the closest point runs along the normal. */
+    /* If the closest point is inside a triangle, the line to it from the query point runs along the normal. */
     if (c.barycentric[0] > 1e-6 && c.barycentric[1] > 1e-6 && c.barycentric[2] > 1e-6 && c.distance > 1e-6) {
       CHECK_NEAR(fabs(height), c.distance, 1e-9);
       assert_int_equal(c.side, height > 0 ? 1 : -1);

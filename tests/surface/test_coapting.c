@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The coapting valve: its coaptation zone, the computed path of its opening, and its sizes (docs/theory/coapting.md).
- * An oracle makes the curves from the document's formulas, with bisection and chords instead of the library's numerics. */
+ * Tests the coapting valve: its coaptation zone, the computed path of its opening, and its sizes (docs/theory/coapting.md). An
+ * oracle makes the curves from the document's formulas. The oracle uses bisection and chords instead of the library's numerical
+ * methods. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -31,7 +32,7 @@ static sizes sizes_of(const riis_valve *valve) {
   return made;
 }
 
-/* Sets random sizes. Proportions are as in patients, and more extreme. */
+/* Sets random sizes. Some proportions are those of patients, and some are more extreme. */
 static void set_random_sizes(random_source *random, riis_valve *valve) {
   const double r = random_between(random, 0.9, 1.5), rc = r * random_between(random, 0.8, 1.2);
   const double h = rc * random_between(random, 1.1, 1.7);
@@ -147,14 +148,15 @@ static point cross_of(point p, point q) {
 }
 static double dot_of(point p, point q) { return p.x[0] * q.x[0] + p.x[1] * q.x[1] + p.x[2] * q.x[2]; }
 
-/* The crease at t of the coaptation line depends on the chord's point, the free edge's point, and the end tangents. */
+/* The crease at t of the coaptation line. The crease depends on the chord's point, the free edge's point, and the end
+ * tangents. */
 typedef struct crease_at {
   double t;
   point chord, edge, tangents;
 } crease_at;
 
-/* Returns the determinant of three vectors: the line's tangent, and both patches' derivatives across the line. Also returns the
- * divisor that makes it the sine of the angle between the patches. */
+/* Returns the determinant of three vectors: the line's tangent, and the derivatives of both patches across the line. Also returns
+ * a divisor that turns the determinant into the sine of the angle between the patches. */
 static double determinant(const point *q, const crease_at *at, double *divisor) {
   const double t = at->t, s = 1 - t;
   const point on = on_cubic(q, t);
@@ -166,7 +168,7 @@ static double determinant(const point *q, const crease_at *at, double *divisor) 
   return dot_of(first, above);
 }
 
-/* Moves the inner control points of the coaptation line as the document says, with derivatives by differences. */
+/* Moves the inner control points of the coaptation line as the document says. The derivatives are differences. */
 static void smooth_line(half *of, point of_symmetry, point of_attachment) {
   const double chord = length_of(sum(1, of->line.q[3], -1, of->line.q[0])), h = 1e-4 * chord;
   for (int step = 0; step < 2; ++step) {
@@ -290,9 +292,9 @@ static point on_patch(const half *of, int patch, double u, double v) {
   return sum(1, made, -1, sum((1 - u) * v, p01, u * v, C));
 }
 
-/* The angle between the tangent planes of both patches along the coaptation line, in degrees. Differences are of second order.
- * Where the zone begins just above the root, the leaflet turns upwards within some micrometres (bend_radius). The step stays far
- * below this radius. Rounding then causes at most 1e-4 degrees. */
+/* The angle between the tangent planes of both patches along the coaptation line, in degrees. Differences are of second order. If
+ * the zone begins just above the root, the leaflet turns upwards within some micrometres (bend_radius). The step stays far below
+ * this radius. Rounding then causes at most 1e-4 degrees. */
 static double crease(const half *of, double u) {
   const double step = 1e-6;
   const point along = sum(1, on_patch(of, 0, u + step, 1), -1, on_patch(of, 0, u - step, 1));
@@ -313,7 +315,7 @@ static double crease(const half *of, double u) {
   return acos(fmax(-1, fmin(1, both / length_of(across[0]) / length_of(across[1])))) / cusp_degree;
 }
 
-/* The radius with which the closed symmetry curve turns upwards at its end. */
+/* The radius of the upward turn at the end of the closed symmetry curve. */
 static double bend_radius(const half *of) {
   const point *q = of->below.q, end = sum(1, q[3], -1, q[2]), bend = sum(1, sum(1, q[3], -2, q[2]), 1, q[1]);
   return 1.5 * pow(length_of(end), 3) / length_of(cross_of(end, bend));
@@ -327,7 +329,7 @@ static double largest_crease(const half *of) {
 
 /* --- The shape --------------------------------------------------------------------------------------------------------- */
 
-/* Every vertex is at the oracle's place for its label, within the bound of the surface's error. */
+/* Every vertex is at the oracle's place for its label, within the error bound of the surface. */
 TEST(vertices_are_where_the_formulas_say) {
   random_source random = random_start("test_coapting");
   for (int trial = 0; trial < trials_of(36); ++trial) {
@@ -363,7 +365,7 @@ TEST(vertices_are_where_the_formulas_say) {
   }
 }
 
-/* The sizes that the parameters promise, and the coaptation zone beside the planes between the cusps. */
+/* Checks the sizes that the parameters promise, and the coaptation zone beside the planes between the cusps. */
 TEST(closed_cusps_coapt) {
   random_source random = random_start("test_coapting");
   for (int trial = 0; trial < trials_of(30); ++trial) {
@@ -408,7 +410,7 @@ static int64_t wrong_sides(const riis_surface *surface, const sizes *v, random_s
   for (int i = 0; i < n; ++i) {
     const point p = on_patch(&closed, 1, random_between(random, 0, 0.9), random_between(random, 0.05, 0.9));
     const double normal[2] = {sqrt(3) / 2, -0.5};
-    /* Points in the gap lie on the ventricle's side, and points behind the zone on the aorta's side. */
+    /* Points in the gap lie on the ventricle's side. Points behind the zone lie on the aorta's side. */
     const double away = p.x[0] * normal[0] + p.x[1] * normal[1];
     for (int k = 0; k < 2; ++k) {
       const double off = k ? random_between(random, 0.05, 0.5) * 0.1 : -random_between(random, 0.1, 0.9) * away;
@@ -419,9 +421,9 @@ static int64_t wrong_sides(const riis_surface *surface, const sizes *v, random_s
   return wrong;
 }
 
-/* Returns the number of pairs of triangles that cross where the smooth valve does. A leaflet may be nearly tangent to itself
- * beside the root, about 1 micrometre apart. Its triangles may then cross by at most twice the bound of their error, but
- * finer triangles do not cross. Such crossings are counted by `n_shallow`. */
+/* Returns the number of pairs of triangles that cross because the smooth valve crosses. A leaflet may be nearly tangent to itself
+ * beside the root, at a distance of about 1 micrometre. The leaflet's triangles may then cross by at most twice their error
+ * bound, but finer triangles do not cross. `n_shallow` counts such crossings. */
 static int64_t true_crossings(const riis_surface *surface, const riis_valve *valve, riis_crossings *crossings,
                               int64_t *n_shallow) {
   const int64_t found = n_pairs_of(surface, crossings);
@@ -437,7 +439,7 @@ static int64_t true_crossings(const riis_surface *surface, const riis_valve *val
   return remain;
 }
 
-/* Returns the distance of the control points of a patch's side from a cubic's control points. */
+/* Returns how far the control points of a patch's side are from those of a cubic. */
 static double off_side(const riis_valve_patches *patches, int32_t patch_id, int side, const cubic *expected) {
   int64_t patch = 0;
   while (patches->patch_id[patch] != patch_id) assert_true(++patch < patches->n_patches);
@@ -456,8 +458,8 @@ static double off_side(const riis_valve_patches *patches, int32_t patch_id, int 
   return farthest;
 }
 
-/* A zone that begins just above the root has no crease either. The leaflet turns upwards there with a radius of 4 micrometres, as
- * docs/theory/coapting.md says. With differences coarser than this radius, an earlier version took the turn for a crease. */
+/* A zone that begins just above the root also has no crease. Beside the root, the leaflet turns upwards with a radius of 4
+ * micrometres, as docs/theory/coapting.md says. Differences coarser than this radius would report the turn as a crease. */
 TEST(a_low_zone_turns_sharply_without_a_crease) {
   static const double low[n_sizes] = {1.3233848, 1.0696550, 1.2100624, 0.3307880, 0.2947382, 0.00658190, 39.099050,
                                       0.5418369, 0.4873270, 0.5369197, 0.4438359, 0.8011948, 0.0445718};
@@ -483,7 +485,7 @@ TEST(a_low_zone_turns_sharply_without_a_crease) {
   }
 }
 
-/* At full opening, the leaflet of these sizes is nearly tangent to itself beside the root. The triangles of the default tolerance
+/* With these sizes, the fully open leaflet is nearly tangent to itself beside the root. The triangles of the default tolerance
  * cross by a fraction of a micrometre, but the valve does not. */
 TEST(a_nearly_tangent_leaflet_does_not_cross) {
   static const double near[n_sizes] = {0.98866634, 0.92969360, 1.24758771, 0.44617366, 0.39553918,
@@ -502,8 +504,8 @@ TEST(a_nearly_tangent_leaflet_does_not_cross) {
   printf("a nearly tangent leaflet: at %lld of 11 openings only triangles cross\n", (long long)n_shallow);
 }
 
-/* Each cusp is its own mirror image, and a turn by 120 degrees maps the valve to itself. Both hold in either triangulation, even
- * for random sizes. Cusps meet in the commissures in the same bits. */
+/* Each cusp equals its mirror image, and a turn by 120 degrees maps the valve to itself. Both symmetries hold with either
+ * triangulation, even for random sizes. Cusps have the same bits at the commissures. */
 TEST(cusps_are_equal) {
   random_source random = random_start("test_coapting");
   for (int trial = 0; trial < trials_of(18); ++trial) {
@@ -537,7 +539,7 @@ TEST(cusps_are_equal) {
   }
 }
 
-/* A placed valve is the same valve in another place: points at equal places have equal distances. */
+/* A placed valve differs only by its place: points at corresponding places have equal distances. */
 TEST(placements_move_the_valve) {
   random_source random = random_start("test_coapting");
   for (int trial = 0; trial < 4; ++trial) {
@@ -563,8 +565,8 @@ TEST(placements_move_the_valve) {
   }
 }
 
-/* Random valves do not cross at 11 openings, their free edges keep their length, and the coaptation line is no crease. Cusps
- * stay in their sectors, which is a proof that two cusps do not cross. RIIS_TEST_LONG=1 takes 300 valves. */
+/* At 11 openings, random valves do not cross, their free edges keep their length, and the coaptation line is no crease. Cusps
+ * stay in their sectors, so two cusps cannot cross. RIIS_TEST_LONG=1 takes 300 valves. */
 TEST(random_valves_open_well) {
   random_source random = random_start("test_coapting");
   riis_crossings *crossings = NULL;
@@ -623,7 +625,8 @@ TEST(random_valves_open_well) {
 
 /* --- Sealing and opening ----------------------------------------------------------------------------------------------- */
 
-/* A flood fill over a grid finds no way through closed valves with a cylindrical root, and a way through open ones. */
+/* A flood fill over a grid finds no way through closed valves with a cylindrical root. The fill finds a way through open
+ * valves. */
 TEST(closes_cylinders) {
   random_source random = random_start("test_coapting");
   const int n = trials(2, 20);
@@ -657,7 +660,8 @@ TEST(opens_by_itself) {
   CHECK_AT_MOST(orifice_area(new_surface(new_valve("coapting"), NULL), 1.25, 600), 0.07);
 }
 
-/* A smooth path has no kinks, so the second difference over a small step on fixed triangles is the same for half the step. */
+/* A smooth path has no kinks. The second difference over a small step on fixed triangles therefore stays the same for half the
+ * step. */
 TEST(path_is_smooth) {
   random_source random = random_start("test_coapting");
   riis_surface_options options = surface_options();
@@ -684,14 +688,14 @@ TEST(path_is_smooth) {
       }
     }
     printf("the acceleration is at most %.2f, and differs by %.4f between steps\n", largest, worst);
-    /* The third derivative alone causes some difference. A kink of the velocity would double the second difference of the smaller
+    /* The third derivative causes some difference. A kink of the velocity would instead double the second difference for half the
      * step. */
     assert_true(worst < 0.4 * largest);
     free_owned_after(owned_before);
   }
 }
 
-/* The same state has the same bits, regardless of earlier calls and of the number of threads. */
+/* A state has the same bits after any earlier calls and with any number of threads. */
 TEST(results_repeat) {
   random_source random = random_start("test_coapting");
   for (int trial = 0; trial < 4; ++trial) {
@@ -711,7 +715,7 @@ TEST(results_repeat) {
   }
 }
 
-/* With a second valve, the closed shape comes from the first valve, and the open shape from the second. */
+/* If there is a second valve, the closed shape comes from the first valve, and the open shape from the second. */
 TEST(opens_to_another_valves_open_state) {
   riis_valve *valve = new_valve("coapting"), *other = new_valve("coapting"), *plain = new_valve("coapting");
   CHECK_OK(riis_valve_set_scalar(other, "open_radius_ratio", 0.7));
@@ -732,7 +736,7 @@ TEST(opens_to_another_valves_open_state) {
   assert_true(fabs(from[0] - to[0]) > 0.03);
 }
 
-/* The largest angle at which the two halves of a leaflet meet in the symmetry plane, below the coaptation line, in degrees. */
+/* The largest angle, in degrees, at which the two halves of a leaflet meet in the symmetry plane below the coaptation line. */
 static double middle_crease(const half *of) {
   double largest = 0;
   for (int i = 5; i < 50; ++i) {
@@ -746,7 +750,7 @@ static double middle_crease(const half *of) {
   return largest;
 }
 
-/* The measures that follow from the default sizes agree with the literature. The table is printed for docs/theory/coapting.md. */
+/* Measures of valves with default sizes agree with the literature. The test prints the table for docs/theory/coapting.md. */
 TEST(measures_are_those_of_the_literature) {
   riis_valve *valve = new_valve("coapting");
   const sizes v = sizes_of(valve);
@@ -771,7 +775,7 @@ TEST(measures_are_those_of_the_literature) {
       "  open: symmetry curve %.2f cm, middle of the free edge at the height %.2f cm\n",
       height, v.of[HE], edges[0], edges[0] / v.of[RC], area, zone,
       open.below.behind[n_chords] + open.above.behind[n_chords], open.edge.q[0].x[2]);
-  /* For comparison: a blend of the free edge's control points. */
+  /* For comparison, the function blends the free edge's control points. */
   double least = 1, most = 1;
   for (int i = 0; i <= 100; ++i) {
     cubic blended;
@@ -799,7 +803,8 @@ TEST(every_parameter_by_name) {
   riis_valve *valve = new_valve("coapting");
   int64_t n;
   CHECK_OK(riis_valve_get_n_parameters(valve, &n));
-  /* The translation, the opening, the length of a skirt and the edge's stretch, then those of commissures, cusps and bumps. */
+  /* These parameters are the translation, the opening, the length of a skirt and the edge's stretch. The parameters of
+   * commissures, cusps and bumps follow. */
   assert_int_equal(n, n_sizes + 4 + 3 * 2 + 3 * 4 + 6 * 6);
   riis_surface *half_open = new_surface(valve_at("coapting", 0.5), NULL);
   for (int i = 0; i < n_sizes; ++i) {
@@ -814,7 +819,7 @@ TEST(every_parameter_by_name) {
     CHECK_OK(riis_valve_set_scalar(changed, names[i], value + (i == GAP ? 0.001 : 0.01)));
     assert_false(is_same_content(new_surface(changed, NULL), half_open));
   }
-  /* A shift moves every vertex by itself. */
+  /* A shift moves every vertex by the shift itself. */
   const double shift[3] = {0.1, -0.2, 0.3};
   riis_valve *moved = valve_at("coapting", 0.5);
   CHECK_OK(riis_valve_set(moved, "translation", 3, shift));
@@ -823,7 +828,7 @@ TEST(every_parameter_by_name) {
   for (int64_t i = 0; i < 3 * a.n_vertices; ++i) CHECK_NEAR(b.xyz[i], a.xyz[i] + shift[i % 3], 1e-15);
 }
 
-/* Sizes that are not set follow from others, in any order of settings, and the shape scales with them. */
+/* Sizes that are not set follow from others, in whatever order sizes are set. The shape scales with the sizes. */
 TEST(sizes_follow) {
   random_source random = random_start("test_coapting");
   for (int trial = 0; trial < trials_of(30); ++trial) {

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The log warns of leaflets that go through each other, once for each shape that the user chose. The test compares the
- * warnings with the pairs of riis_find_crossings. Without a log function, the library does not search, which the number
- * of allocations shows. */
+ * The log warns of leaflets that go through each other, once for each shape that the user chose. The test compares the warnings
+ * with the pairs of riis_find_crossings. Without a log function, the library does not search, which the number of allocations
+ * shows. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -10,8 +10,8 @@
 #include "handles.h"
 #include "sanitized.h"
 
-/* These functions replace operator new for the process, because an executable's symbols take precedence over those of
- * libraries. Sanitizers are left out, because their allocator must be the only allocator. */
+/* These functions replace operator new for the process, because symbols of an executable come before those of libraries. With a
+ * sanitizer the functions are not replaced, because the sanitizer's allocator must be the only one. */
 static int64_t n_allocations;
 #ifndef IS_SANITIZED
 void *new_one(size_t size) __asm__("_Znwm");
@@ -56,7 +56,7 @@ static void update(riis_surface *surface, const riis_valve *valve) {
   CHECK_OK(riis_surface_update(surface, valve, NULL));
 }
 
-/* Checks that the last warning has the numbers of a search by riis_find_crossings. */
+/* Checks that the numbers of the last warning are those of riis_find_crossings. */
 static void expect_pairs_of(riis_surface *surface) {
   riis_crossing_list found;
   char part[64];
@@ -101,7 +101,7 @@ TEST_WITH(a_shape_is_named_once, start_listening, stop_listening) {
   assert_int_equal(warnings.n, 3);
 }
 
-/* A valve is open at first and closes later. The search runs in each new range of the opening until it finds a crossing. */
+/* The valve is open at first and closes later. The library searches each new range of the opening until it finds a crossing. */
 TEST_WITH(a_valve_that_begins_open_is_named, start_listening, stop_listening) {
   riis_valve *valve = new_valve("trileaflet");
   set(valve, "bending_height", 0.55);
@@ -117,8 +117,8 @@ TEST_WITH(a_valve_that_begins_open_is_named, start_listening, stop_listening) {
 
 static const char *const kinds[] = {"aortic", "trileaflet", "mitral", "bileaflet", "coapting"};
 
-/* Default shapes do not cross at any opening. Other sound shapes do not cross either. Closed mitral leaflets touch. Their fixed
- * triangles cross by less than the depth that counts as a crossing. */
+/* Leaflets of default shapes and of other healthy shapes do not cross at any opening. Closed mitral leaflets touch. The fixed
+ * triangles of such leaflets cross by less than the depth that counts as a crossing. */
 TEST_WITH(sound_shapes_are_not_named, start_listening, stop_listening) {
   for (int kind = 0; kind < 5; ++kind)
     for (int32_t triangulation = 0; triangulation < 2; ++triangulation) {
@@ -148,8 +148,8 @@ TEST_WITH(sound_shapes_are_not_named, start_listening, stop_listening) {
   assert_int_equal(warnings.n, 0);
 }
 
-/* One unit square lies at z = 0. An upright square at y = 0.5 cuts through it. Both squares belong to one leaflet, or
- * each is a separate leaflet. */
+/* One unit square lies at z = 0. An upright square at y = 0.5 cuts through the first square. The squares are one leaflet or two
+ * leaflets. */
 TEST_WITH(patches_are_a_shape_of_the_user, start_listening, stop_listening) {
   for (int32_t second = 0; second < 2; ++second) {
     const double control[] = {0,  0,  0, 1,  0,  0, 0,   1,  0,  1,  1,   0,  0,   0,   0,  0,
@@ -175,7 +175,7 @@ TEST_WITH(patches_are_a_shape_of_the_user, start_listening, stop_listening) {
   }
 }
 
-/* The open state is a part of the shape. */
+/* The open state belongs to the shape. */
 TEST_WITH(an_open_state_makes_another_shape, start_listening, stop_listening) {
   riis_valve *valve = new_valve("trileaflet"), *open = new_valve("trileaflet");
   set(valve, "bending_height", 0.55);
@@ -187,7 +187,7 @@ TEST_WITH(an_open_state_makes_another_shape, start_listening, stop_listening) {
   assert_int_equal(warnings.n, 2);
 }
 
-/* Counts the allocations of ten updates to different shapes, in a surface that has already allocated its memory. */
+/* Counts the allocations of ten updates to different shapes. The surface has allocated all its memory before. */
 static int64_t allocations_of_updates(double height) {
   riis_valve *valve = new_valve("trileaflet");
   riis_surface *surface = new_surface(valve, NULL);

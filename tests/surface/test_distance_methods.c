@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Compares distances by sampling and by minimisation with known distances of flat and cylindrical patches, with triangles
- * fifty times as fine, and with each other. */
+ * Tests distances by sampling and by minimisation. The results are compared with known distances of flat and cylindrical patches,
+ * with triangles fifty times as fine, and with each other. */
 #include "internals.h"
 #include "test_support.h"
 
@@ -14,8 +14,8 @@ static double distance_between(const double *p, const double *q) {
   return hypot(hypot(p[0] - q[0], p[1] - q[1]), p[2] - q[2]);
 }
 
-/* Makes patches from the control points of their curves v = 0 and v = 1, one patch after the other. The curves u = 0 and u = 1
- * are straight. */
+/* Makes patches one after the other, from the control points of their curves v = 0 and v = 1. The curves u = 0 and u = 1 are
+ * straight. */
 static riis_valve *patches_between(int32_t n_patches, int32_t degree, const double *v0_and_v1) {
   enum { most = 2 };
   int32_t degrees[4 * most], sides[4 * most], leaflet_ids[most];
@@ -73,8 +73,8 @@ static double distance_to_profile(const double *p, double t) {
   return hypot(x, z);
 }
 
-/* Follows every local minimum of a fine net of samples. Near the middle between two minima, the net's least sample may lead to
- * the wrong minimum. */
+/* Follows every local minimum of a fine net of samples. Half way between two minima, the least sample of the net may lead to the
+ * wrong minimum. */
 static double distance_to_cylinder(const double *p) {
   enum { n = 400 };
   double at[n + 1], nearest = INFINITY;
@@ -103,8 +103,8 @@ static riis_surface *measured(const riis_valve *valve, int32_t distance, double 
   return new_surface(valve, &options);
 }
 
-/* A hairpin that leans as v grows. At the middle of v, its arm at x = 1 is nearest to the point. At v = 1 the other arm
- * is nearest. */
+/* A hairpin that leans more as v grows. At the middle of v, the hairpin's arm at x = 1 is nearest to the point. At v = 1, the
+ * other arm is nearest. */
 static const double between_arms[3] = {0.2, 1, 1};
 static riis_valve *hairpin(void) {
   const double sides[24] = {-1.95, 0, 1, -1.95, 0, -2, 1, 0, -2, 1, 0, 1, -0.05, 1, 1, -0.05, 1, -2, 1, 1, -2, 1, 1, 1};
@@ -116,7 +116,7 @@ static void random_point(random_source *rng, const riis_surface *surface, double
   for (int c = 0; c < 3; ++c) p[c] = random_between(rng, info.lower[c] - margin, info.upper[c] + margin);
 }
 
-/* Gives a random point of the surface's triangles. */
+/* Returns a random point of the surface's triangles. */
 static void random_point_on(random_source *rng, const riis_surface *surface, double *p) {
   const riis_triangles all = triangles_of(surface);
   const int64_t *id = all.vertex_id + 3 * (random_bits(rng) % (uint64_t)all.n_triangles);
@@ -126,7 +126,7 @@ static void random_point_on(random_source *rng, const riis_surface *surface, dou
     p[c] = (1 - a - b) * all.xyz[3 * id[0] + c] + a * all.xyz[3 * id[1] + c] + b * all.xyz[3 * id[2] + c];
 }
 
-/* Checks properties of an answer that hold for both methods and for any surface. */
+/* Checks properties of an answer that both methods share on any surface. */
 static void check_answer(const riis_closest *answer, const double *p) {
   CHECK_NEAR(answer->distance, distance_between(p, answer->point), 1e-14 * (1 + answer->distance));
   assert_int_equal(answer->triangle_id, -1);
@@ -136,8 +136,8 @@ static void check_answer(const riis_closest *answer, const double *p) {
   if (size != 0) CHECK_NEAR(size, 1, 1e-14);
 }
 
-/* A surface whose distances are known up to an error of `known_to`. Query points are in a box, or near the surface, where the
- * error of samples is largest. */
+/* A surface whose distances are known up to an error of `known_to`. Query points lie in a box, or near the surface, where samples
+ * have their largest error. */
 typedef struct reference {
   const char *name;
   riis_valve *valve;
@@ -197,8 +197,8 @@ TEST(sampling_is_within_its_bound) {
     }
 }
 
-/* The rule gives the number of samples. On a rectangle, samples form squares whose half diagonal equals the bound, so
- * points between them reach the bound. */
+/* The rule gives the number of samples. On a rectangle, samples form squares whose half diagonal equals the bound. A point in the
+ * middle of a square therefore reaches the bound. */
 static char last_message[512];
 static void keep_message(void *user_data, int32_t level, const char *message) {
   (void)user_data, (void)level;
@@ -208,7 +208,7 @@ static void keep_message(void *user_data, int32_t level, const char *message) {
 TEST(samples_are_as_many_as_the_rule_says) {
   riis_valve *valve = rectangle();
   riis_set_log(keep_message, NULL);
-  /* The tolerance is 0.05, so the steps are sqrt(2) times 0.05. */
+  /* The tolerance is 0.05, so the steps of the samples are sqrt(2) times 0.05. */
   riis_surface *surface = measured(valve, RIIS_MEASURE_SAMPLING, 0.5);
   riis_set_log(NULL, NULL);
   assert_string_equal(last_message, "distances by sampling: 480 samples of 1 patches"); /* (29 + 1) (15 + 1) */
@@ -222,7 +222,7 @@ TEST(samples_are_as_many_as_the_rule_says) {
   assert_int_equal(answer.leaflet_id, 7);
 }
 
-/* The tree of boxes misses no sample: it finds the nearest sample, and the first of several equally near samples. */
+/* The tree of boxes loses no sample: it finds the nearest sample, and the first of several equally near samples. */
 TEST(nearest_samples_are_found) {
   random_source rng = random_start("nearest_samples_are_found");
   for (int of = 0; of < n_references; ++of) {
@@ -261,7 +261,7 @@ static double outside(double u, double v) { return (u + 1) * (u + 1) + (v - 2) *
 static double on_a_side(double u, double v) { return 1 + (u - 2) * (u - 2) + 3 * (v - u / 4) * (v - u / 4); }
 static double flat(double u, double v) { return u * 0 + v * 0 + 2; }
 
-/* Powell's method finds minima exactly in three cases: inside the square, where its directions must turn, at a corner, and on a
+/* Powell's method finds three kinds of minima exactly: inside the square, where its directions must turn, at a corner, and on a
  * side. */
 TEST(powell_finds_minima) {
   const struct {
@@ -282,7 +282,8 @@ TEST(powell_finds_minima) {
   }
 }
 
-/* The distances of two points differ by at most the distance between the points. The neighbour search's proof relies on this. */
+/* The distances of two points from the surface differ by at most the distance between the points. The proof of the neighbour
+ * search relies on this bound. */
 TEST(sampling_is_lipschitz) {
   random_source rng = random_start("sampling_is_lipschitz");
   riis_surface *surface = measured(references[3].valve, RIIS_MEASURE_SAMPLING, 0.2);
@@ -296,8 +297,9 @@ TEST(sampling_is_lipschitz) {
   }
 }
 
-/* Minimisation never gives a distance that is too small. It is exact on a rectangle, where the squared distance has one
- * minimum. Elsewhere it may end in a local minimum. Most answers are right, and the test prints the number of wrong ones. */
+/* Minimisation never gives a distance that is too small. On a rectangle, minimisation is exact, because the squared distance has
+ * one minimum. On other surfaces, minimisation may end in a wrong local minimum. Most answers are right, and the test prints the
+ * number of wrong answers. */
 TEST(minimisation_is_never_below) {
   random_source rng = random_start("minimisation_is_never_below");
   const double tolerances[] = {0.01, 0.001}; /* the tolerances of the paper */
@@ -331,8 +333,8 @@ TEST(minimisation_is_never_below) {
     }
 }
 
-/* A known failure: from the middle the search goes to the wrong arm of the hairpin and stays there. The distance and the mark
- * are wrong. */
+/* A known failure: the search starts in the middle, goes to the wrong arm of the hairpin and stays there. The distance and the
+ * mark are then wrong. */
 TEST(minimisation_ends_in_local_minima) {
   riis_valve *valve = hairpin();
   riis_surface_options options = surface_options();
@@ -359,7 +361,8 @@ TEST(minimisation_ends_in_local_minima) {
   assert_int_equal(n_marked[RIIS_MEASURE_MINIMIZATION], 0);
 }
 
-/* The patch with the nearest box may not contain the nearest point. In this case that box contains the query's point. */
+/* The patch with the nearest box may not contain the nearest point. In this test the nearest box even contains the query's
+ * point. */
 TEST(all_near_patches_are_asked) {
   /* A slope through [0,1]^3, and a floor below the slope. */
   const double sides[24] = {0, 0, 0, 1, 0, 1, 0, 1, 0, 1, 1, 1, 0, 0, -0.3, 1, 0, -0.3, 0, 1, -0.3, 1, 1, -0.3};
@@ -372,7 +375,7 @@ TEST(all_near_patches_are_asked) {
   assert_int_equal(above.leaflet_id, 7);
 }
 
-/* Surfaces are placed, flipped or mirrored. The normals are those of the triangles, and distances are proportional to the
+/* Surfaces are placed, flipped or mirrored. The normals are those of the triangles, and the distances are proportional to the
  * scale. */
 TEST(placement_and_normals) {
   random_source rng = random_start("placement_and_normals");
@@ -414,8 +417,8 @@ static void mark(const riis_surface *surface, const riis_mesh *mesh, int32_t sea
   CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
 }
 
-/* All complete searches find the same nodes as a query of every node, for any number of threads. The paper's search finds a part
- * of them. */
+/* All complete searches find the nodes that a query of every node finds, for any number of threads. The paper's search finds a
+ * part of these nodes. */
 TEST(searches_agree) {
   random_source rng = random_start("searches_agree");
   riis_valve *hairpin_valve = hairpin();
@@ -454,8 +457,8 @@ TEST(searches_agree) {
         assert_int_equal(n, within.n);
         assert_true(marked_in(expected).n > 50 && marked_in(expected).n < nodes.n / 2);
         for (int32_t n_threads = 1; n_threads <= 3; ++n_threads) {
-          /* The first marking starts without marks, and the second starts from the last marked nodes. In the third, the
-           * library chooses the search. */
+          /* The first marking starts without marks. The second marking starts from the nodes that the first one marked. In the
+           * third marking, the library chooses the search. */
           for (int repeat = 0; repeat < 2; ++repeat) {
             mark(surface, mesh, RIIS_SEARCH_NEIGHBOR, n_threads, limit, which, result);
             assert_true(same_results(expected, result));
@@ -482,8 +485,8 @@ TEST(searches_agree) {
     }
 }
 
-/* Two nodes near the hairpin form a ball. From the ball's middle, minimisation goes to the farther arm, at a distance of twice
- * the ball's radius. The search must not dismiss the node, because minimisation finds that the node itself is near. */
+/* Two nodes near the hairpin form a ball. From the ball's middle, minimisation goes to the farther arm, which is twice the ball's
+ * radius away. The search must keep the node, because minimisation from the node finds that it is near. */
 TEST(local_minima_dismiss_no_group) {
   const double xyz[6] = {-0.1, 1, 0.9, 0.6, 1, 0.9};
   const int32_t offsets[3] = {0, 0, 0};
@@ -502,7 +505,7 @@ TEST(local_minima_dismiss_no_group) {
   assert_true(marked.n == 1 && marked.node_id[0] == 0);
 }
 
-/* Batches give the results of single points, for any number of threads, and report far points as far. */
+/* Batches give the results of single points for any number of threads. Far points are reported as far. */
 TEST(batches_agree) {
   random_source rng = random_start("batches_agree");
   enum { n_points = 1500 };
@@ -557,7 +560,7 @@ TEST(what_has_no_meaning_is_refused) {
 
   riis_valve *valve = rectangle();
   surface = measured(valve, RIIS_MEASURE_SAMPLING, 0.1);
-  /* Options that only a valve's surface uses are refused for arrays, and a refusal does not change the surface. */
+  /* Options that only the surface of a valve uses are refused for arrays. A refusal does not change the surface. */
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "options.measure is 1",
                 riis_surface_update_from_arrays(surface, &triangle, NULL));
   options = surface_options();

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests triangulations that stay the same while a valve opens. Ids, neighbours and positions on the patches stay the same,
- * the bound holds at every opening, and a refusal does not change the surface. test_tolerance compares these triangulations
- * with the smooth mitral valve. */
+ * Tests triangulations that stay fixed while a valve opens. Ids, neighbours and positions on the patches stay the same, and the
+ * bound holds at every opening. A refusal does not change the surface. test_tolerance compares these triangulations with the
+ * smooth mitral valve. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -33,7 +33,7 @@ static riis_valve *opening_aortic(void) {
   return valve;
 }
 
-/* A patch whose side at u = 1 grows from a point to a curve. */
+/* A patch whose side u = 1 grows from a point to a curve. */
 static riis_valve *fan(void) {
   shape made[2] = {{0}, {0}};
   for (int k = 0; k < 2; ++k) {
@@ -50,7 +50,7 @@ static riis_valve *fan(void) {
   return valve;
 }
 
-/* A copy of the arrays that must stay the same, for a comparison after the next update. */
+/* A copy of the arrays that must stay constant, for a comparison after the next update. */
 typedef struct topology {
   int64_t n_vertices, n_triangles;
   int64_t vertex_id[3 * 20000], triangle_id[20000];
@@ -83,8 +83,8 @@ static void check_same_topology(const topology *a, const topology *b) {
   assert_memory_equal(a->patch_id, b->patch_id, n * sizeof *a->patch_id);
 }
 
-/* Checks 101 openings, including openings at which the grid lines were not chosen. The triangles stay the same and within the
- * bound. Their number is at most 1.5 times the largest number of adapted triangles. */
+/* Checks 101 openings. The choice of the grid lines used only some of these openings. The triangles stay the same and keep the
+ * bound. The number of triangles is at most 1.5 times the largest number of adapted triangles. */
 static void check_triangles_stay(riis_valve *valve, const char *name) {
   const riis_surface_options options = fixed_options();
   set_opening(valve, 0.5);
@@ -115,7 +115,7 @@ TEST(triangles_stay_at_every_opening) {
   check_triangles_stay(new_valve("coapting"), "coapting");
 }
 
-/* Distances to both triangulations differ by at most the sum of their bounds. */
+/* The distances to both triangulations differ by at most the sum of the two bounds. */
 static void check_distances(riis_valve *valve) {
   riis_surface_options options = fixed_options();
   riis_surface *fixed = new_surface(valve, &options);
@@ -141,8 +141,8 @@ TEST(distances_are_within_the_bound) {
   check_distances(fan());
 }
 
-/* The triangles depend on the valve and on its present opening, not on the opening at which the surface was made. So a restart
- * gives the same bits. */
+/* The triangles depend on the valve and on its present opening. The opening at which the surface was made has no effect, so a
+ * restart gives the same bits. */
 TEST(a_restart_has_the_same_bits) {
   riis_valve *valves[3] = {new_valve("mitral"), opening_aortic(), fan()};
   const riis_surface_options options = fixed_options();
@@ -155,8 +155,8 @@ TEST(a_restart_has_the_same_bits) {
   }
 }
 
-/* If the curves have no joints, the grid lines stay, and a vertex's velocity is its displacement divided by the time. It
- * differs slightly only on grid lines that end between two vertices of a side, because such lines end on chords. */
+/* If the curves have no joints, the grid lines stay. A vertex's velocity is then its displacement divided by the time. A small
+ * difference occurs only on grid lines that end between two vertices of a side, because such lines end on chords. */
 TEST(velocity_is_that_of_the_vertices) {
   rng = random_start("test_fixed_triangulation");
   riis_valve *valves[2] = {opening_aortic(), fan()};
@@ -215,7 +215,7 @@ TEST(a_triangle_without_area_keeps_its_id) {
   check_same_topology(&first, &now);
 }
 
-/* If the surface angle is 0, the leaflets are Coons patches, which share their edges only at opening 0. */
+/* If the surface angle is 0, the leaflets are Coons patches. These patches share their edges only at opening 0. */
 TEST(flat_mitral_leaflets_stay_within_the_bound) {
   rng = random_start("test_fixed_triangulation");
   riis_valve *valve = new_valve("mitral");
@@ -224,7 +224,7 @@ TEST(flat_mitral_leaflets_stay_within_the_bound) {
   check_distances(valve);
 }
 
-/* The patches have rough sides that differ between the two states. The openings at which the grid lines were chosen are never
+/* The patches have rough sides that differ between the two states. An opening at which the grid lines were chosen is never
  * refused. */
 TEST(openings_of_the_choice_are_never_refused) {
   rng = random_start("test_fixed_triangulation");
@@ -270,7 +270,7 @@ TEST(openings_of_the_choice_are_never_refused) {
   }
 }
 
-/* Coordinates so large that rounding matters are refused, as they are without a fixed triangulation. */
+/* Coordinates so large that rounding errors matter are refused, with and without a fixed triangulation. */
 TEST(coordinates_too_large_are_refused) {
   shape square = unit_square();
   for (int64_t i = 0; i < square.n_curves; ++i)
@@ -294,7 +294,7 @@ TEST(a_surface_of_arrays_forgets_the_choice) {
   CHECK_OK(riis_surface_update(surface, opening_aortic(), &fixed));
 }
 
-/* On one side of the patch, the curve's speed nearly falls to zero. The whole patch moves by 1e-6 in 1e-6 seconds. */
+/* On one side of the patch, the curve's speed nearly vanishes. The whole patch moves by 1e-6 in 1e-6 seconds. */
 TEST(near_cusps_move_with_their_valve) {
   shape made[2] = {{0}, {0}};
   for (int k = 0; k < 2; ++k) {
@@ -357,7 +357,7 @@ TEST(other_changes_are_refused) {
   CHECK_OK(riis_surface_update(surface, valve, &options));
   options.tolerance = 0.01;
   CHECK_REFUSED(RIIS_LIMIT_EXCEEDED, "fixed triangulation", riis_surface_update(surface, valve, &options));
-  /* Without the option the surface drops its fixed triangulation, and may get a new one later. */
+  /* An update without the option drops the fixed triangulation. A later update may make a new fixed triangulation. */
   options.triangulation = RIIS_TRIANGULATION_ADAPTED;
   CHECK_OK(riis_surface_update(surface, valve, &options));
   options.triangulation = RIIS_TRIANGULATION_FIXED;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests surfaces from frames in time. Positions and velocities are compared with closed forms. Further tests in
- * this file cover periods and refusals. */
+ * Tests surfaces from keyframes. Positions and velocities are compared with closed forms. Further cases test periods and
+ * refusals. */
 #include <riis/riis.h>
 
 #include <math.h>
@@ -25,7 +25,7 @@ static riis_surface_arrays square(void) {
   return faces;
 }
 
-/* A square that moves up and down: at key k its height is height[k]. */
+/* A square that moves up and down. At key k its height is height[k]. */
 typedef struct swing {
   double time[most_keys], xyz[3 * n_vertices * most_keys];
   riis_keyframe_arrays frames;
@@ -93,8 +93,8 @@ TEST(linear_frames_have_right_hand_and_mean_velocities) {
   assert_null(keyframes);
 }
 
-/* At a key the velocity belongs to the interval after the key, in every period. The sum of the key's time and the periods is
- * rounded. */
+/* At a key, the velocity is that of the interval after the key, in every period. The key's time plus the periods is a rounded
+ * sum. */
 TEST(frames_have_the_velocity_after_them_in_every_period) {
   const double time[] = {-0.08, 0.15, 0.24, 0.42, 0.65}, height[] = {0, 2, 1, 3, 0.5};
   swing s;
@@ -139,7 +139,7 @@ TEST(frames_repeat_and_are_placed) {
         CHECK_NEAR(xyz[2], t < 0.25 ? 0.4 * t : t < 0.5 ? 0.1 + 0.8 * (t - 0.25) : 0.6 * (1 - t), 1e-14);
         continue;
       }
-      /* With cubic interpolation, the rate is the cubic's derivative. */
+      /* With cubic interpolation, the velocity is the derivative of the cubic. */
       const double h = 1e-6, rate = velocity[2];
       CHECK_OK(riis_surface_update_from_keyframes(a, keyframes, t + h, t + h - (t - h), NULL));
       velocity = triangles_of(a).velocity;

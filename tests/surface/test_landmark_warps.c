@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests how warped valves meet landmarks, and that a warp keeps the directions that belong to the valve. A warped curve must pass
- * through the mapped landmarks on it at every opening. An identity must leave skirts where they are. A rigid warp must turn the
+ * Tests how warped valves meet landmarks, and that a warp keeps the directions of the valve. At every opening, a warped curve
+ * must pass through the mapped landmarks on it. The identity must leave skirts at their places. A rigid warp must turn the
  * orifice and the skirt as a placement does. */
 #include <riis/riis.h>
 
@@ -19,14 +19,14 @@ static double between(double low, double high) { return random_between(&rng, low
 enum { aortic, trileaflet, coapting, mitral, of_patches, n_kinds, most_landmarks = 120 };
 static const char *const kinds[n_kinds] = {"aortic", "trileaflet", "coapting", "mitral", "patches"};
 
-/* Ten trials have each kind with both triangulations. */
+/* In ten trials, each kind occurs with both triangulations. */
 static int n_trials(void) { return is_long_test() ? 60 : 10; }
 
 static double distance(const double *p, const double *q) {
   return sqrt(pow(p[0] - q[0], 2) + pow(p[1] - q[1], 2) + pow(p[2] - q[2], 2));
 }
 
-/* Three leaflets whose sides u do not meet, with an attachment that rises between its ends. */
+/* Three leaflets whose sides u do not meet. The leaflets' attachment rises between its ends. */
 static riis_valve *valve_of_patches(void) {
   shape states[2] = {{0}, {0}};
   for (int state = 0; state < 2; ++state) {
@@ -56,7 +56,7 @@ static riis_valve *valve_of_patches(void) {
   return valve;
 }
 
-/* Changes all sizes of a valve at random, until they fit together at five openings. */
+/* Changes all sizes of a valve at random, until the sizes are valid together at five openings. */
 static riis_valve *random_valve(int kind) {
   riis_valve *valve = kind == of_patches ? valve_of_patches() : new_valve(kinds[kind]);
   riis_surface_options coarse = surface_options();
@@ -100,7 +100,7 @@ static riis_surface_options random_placement(int32_t triangulation) {
   return options;
 }
 
-/* Places a point as riis_surface_options says, by Rodrigues' formula. `is_vector`: without the translation. */
+/* Places a point as riis_surface_options says, by Rodrigues' formula. For a vector, `is_vector` leaves out the translation. */
 static void place(const riis_surface_options *by, int is_vector, const double *p, double *placed) {
   const double *a = by->rotation_axis, size = sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
   const double angle = by->rotation_angle * acos(-1) / 180, c = cos(angle), s = sin(angle);
@@ -131,14 +131,14 @@ static double distance_to(const riis_surface *surface, const double *p) {
 
 /* --- Landmarks on curves ---------------------------------------------------------------------------------------------- */
 
-/* A point on a side of a patch: its piece, and the parameter there. */
+/* A point on a side of a patch, with its span and the parameter on this span. */
 typedef struct on_side {
   int64_t patch;
   int side, piece;
   double t;
 } on_side;
 
-/* Returns the point at an opening, before a warp. */
+/* Returns the point's place at an opening, before a warp. */
 static void point_on(riis_valve *valve, const on_side *at, double *point) {
   riis_valve_patches patches;
   CHECK_OK(riis_valve_get_patches(valve, &patches, sizeof patches));
@@ -148,8 +148,8 @@ static void point_on(riis_valve *valve, const on_side *at, double *point) {
   evaluate(control, patches.degree[piece], at->t, point);
 }
 
-/* Landmarks lie at random on curves of the closed valve, and move at random. The warped valve must pass through them, and at each
- * opening through the mapped points of the curves. Arcs of mitral leaflets are left out, because they are bent anew. */
+/* Landmarks lie at random on curves of the closed valve, and move at random. At each opening, the warped valve must pass through
+ * the mapped points of the curves. The arcs of mitral leaflets are left out, because a warped valve makes new arcs. */
 TEST(warped_curves_pass_through_mapped_landmarks) {
   double worst = 0;
   int n_warps = 0;
@@ -242,8 +242,8 @@ static patient random_annulus(int n, double noise) {
   return made;
 }
 
-/* Three cusps that differ, with their nadirs, their commissures and m further points of each attachment. A smooth map keeps a
- * bend and makes none. So attachments bend at the nadirs as those of the kind do: not at all, or like a V. */
+/* Three unequal cusps, with their nadirs, their commissures and m further points on each attachment. A smooth map neither makes
+ * nor removes a bend. Warped attachments therefore bend at the nadirs like those of their kind: not at all, or like a V. */
 static patient random_root(int kind, int m, double noise) {
   patient made = {0};
   double end[4], rise[4], radius[3], low[3];
@@ -272,7 +272,7 @@ static patient random_root(int kind, int m, double noise) {
   return made;
 }
 
-/* Sizes and places a valve, and warps it to all landmarks exactly. Returns NULL if the warp folds. */
+/* Fits the sizes and the placement of a valve, and warps it to all landmarks exactly. Returns NULL if the warp folds. */
 static riis_valve *warped_to(const patient *at, int kind, riis_surface_options *options) {
   riis_landmarks landmarks;
   riis_placement_arrays arrays;
@@ -316,7 +316,7 @@ TEST(valves_meet_the_landmarks_of_patients) {
         if (valve && riis_surface_create(valve, &fine, &surface) == RIIS_OK) {
           own(surface);
           ++n_warped;
-          /* The commissures of an aortic valve are between the ends of its cusps. */
+          /* The commissures of an aortic valve lie between the ends of neighbouring cusps. */
           for (int i = 0; i < at.n; ++i)
             if (kind != aortic || at.role[i] != RIIS_LANDMARK_COMMISSURE)
               worst = fmax(worst, distance_to(surface, at.xyz + 3 * i));
@@ -332,7 +332,7 @@ TEST(valves_meet_the_landmarks_of_patients) {
 
 /* --- Directions of the valve ------------------------------------------------------------------------------------------ */
 
-/* Landmarks round the valve, on none of its curves. */
+/* The landmarks lie around the valve, and not on its curves. */
 static int64_t landmarks_around(double *xyz) {
   enum { n = 14 };
   for (int i = 0; i < n; ++i) {
@@ -367,7 +367,7 @@ TEST(an_identity_moves_no_skirt) {
     assert_int_equal(a.n_vertices, b.n_vertices);
     for (int64_t i = 0; i < a.n_vertices; ++i)
       worst = fmax(worst, distance(a.xyz + 3 * i, b.xyz + 3 * i) / options.scale);
-    /* A skirt moves little in a warp that is nearly the identity. */
+    /* A warp that is nearly the identity moves a skirt only little. */
     for (int64_t i = 0; i < 3 * n; ++i) near[i] = from[i] + between(-1e-5, 1e-5);
     CHECK_OK(riis_valve_set_warp(warped, warp_of(n, from, near, NULL), NULL));
     const riis_triangles c = triangles_of(new_surface(warped, &options));
@@ -381,7 +381,7 @@ TEST(an_identity_moves_no_skirt) {
   CHECK_AT_MOST(worst_near, 2e-3);
 }
 
-/* A rigid warp, or one that also scales, does the same as a placement. Landmarks lie on the attachment in every other trial. */
+/* A warp that turns, shifts and scales does what a placement does. In every other trial the landmarks lie on the attachment. */
 TEST(a_rigid_warp_turns_orifice_and_skirt) {
   double worst_area = 0, worst_axis = 0;
   for (int trial = 0; trial < n_trials(); trial += trial_step()) {

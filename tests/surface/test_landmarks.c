@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests riis_place. Landmarks are made from known sizes by closed forms, or by the oracle of the mitral valve, then placed and
- * disturbed at random. The fit must give these sizes back, and the noise must explain the errors. The same landmarks lie on the
- * surface of the placed valve. Prints the table that docs/theory/landmarks.md sums up. */
+ * Tests riis_place. Landmarks are made from known sizes by closed forms or by the oracle of the mitral valve. The landmarks are
+ * then placed and disturbed at random. The fit must recover these sizes, and the noise must explain the errors. Exact landmarks
+ * lie on the surface of the placed valve. Prints the table that docs/theory/landmarks.md summarises. */
 #include <riis/riis.h>
 
 #include <stdbool.h>
@@ -22,7 +22,7 @@ static double normal(void) { return sqrt(-2 * log(1 - between(0, 1))) * cosine(3
 
 enum { most = 64, most_parameters = 128 };
 
-/* Landmarks, first in the valve's frame in centimetres, then as riis_place takes them. */
+/* Landmarks in the valve's frame in centimetres, and later in the form that riis_place takes. */
 typedef struct patient {
   int n;
   double xyz[most][3];
@@ -198,7 +198,7 @@ TEST(test_exact_trileaflet) {
     CHECK_NEAR(value(valve, "leaflet_height"), h, 1e-9);
     CHECK_AT_MOST(found.placement.worst, 1e-9 * p.scale);
     assert_int_equal(found.placement.n_undetermined, 0);
-    /* The tied sizes keep the proportions of the default valve, whose cusps do not cross. */
+    /* Sizes that follow others keep the proportions of the default valve, whose cusps do not cross. */
     CHECK_NEAR(value(valve, "bending_height"), 0.5 * h, 1e-9);
     CHECK_NEAR(value(valve, "bending_radius_in"), 0.32 * R, 1e-9);
     CHECK_NEAR(value(valve, "bending_radius_out"), 1.02 * (R + Rc) / 2, 1e-9);
@@ -216,7 +216,7 @@ TEST(test_exact_trileaflet) {
     CHECK_NEAR(found.standard_error[position(valve, "root_radius")], noise / sqrt(3), 1e-6);
     CHECK_NEAR(found.standard_error[position(valve, "leaflet_height")], noise * sqrt(2.0 / 3), 1e-6);
     if (trial % 3 != 0) check_on_surface(valve, &p, &found, 0.01);
-    /* The cusp of the first nadir, or of the name "right", is leaflet 0. */
+    /* Leaflet 0 is the cusp of the first nadir, or of the nadir with the name "right". */
     int first = 0;
     while (p.role[first] != RIIS_LANDMARK_NADIR || (has_names && p.leaflet_id[first][0] != 0)) ++first;
     riis_closest closest;
@@ -228,7 +228,7 @@ TEST(test_exact_trileaflet) {
   }
 }
 
-/* A coapting valve has the same landmarks. The sizes that follow from these stay tied to them. */
+/* A coapting valve has the same landmarks. The valve's further sizes still follow from the fitted sizes. */
 TEST(test_exact_coapting) {
   for (int trial = 0; trial < trials_of(60); ++trial) {
     const double R = between(1, 1.4), Rc = R * between(0.95, 1.05), h = 1.4 * Rc * between(0.97, 1.05);
@@ -252,7 +252,7 @@ TEST(test_exact_coapting) {
   }
 }
 
-/* The accuracy for a population of patients. Errors are in millimetres. */
+/* Measures the accuracy for a population of patients. Errors are in millimetres. */
 typedef struct accuracy {
   double size[3], rms, worst, axis, covered;
 } accuracy;
@@ -265,7 +265,7 @@ static accuracy accuracy_of(double noise, bool is_asymmetric, int n) {
     const double truth[3] = {between(0.9, 1.5), between(0.8, 1.4), between(1.0, 2.2)};
     patient p = trileaflet(truth[0], truth[1], truth[2]);
     if (is_asymmetric) {
-      /* The commissures are 100, 130 and 130 degrees apart, the nadirs between them, and heights differ by 1.5 mm. */
+      /* The commissures are 100, 130 and 130 degrees apart, and the nadirs lie between them. Heights differ by 1.5 mm. */
       const double *at = angles[trial % 3];
       p.n = 0;
       for (int i = 0; i < 3; ++i) {
@@ -300,7 +300,7 @@ static accuracy accuracy_of(double noise, bool is_asymmetric, int n) {
   return sum;
 }
 
-/* The measured table of accuracies. Each entry must be reproduced within 20 %. */
+/* The table of measured accuracies. Each entry must be reproduced within 20 %. */
 TEST(test_noisy_trileaflet) {
   const struct {
     double noise;
@@ -317,7 +317,7 @@ TEST(test_noisy_trileaflet) {
     print_message("noise %.1f%s: %.2f %.2f %.2f; %.2f %.2f; %.2f; %.3f\n", rows[row].noise,
                   rows[row].is_asymmetric ? ", asymmetric" : "", found.size[0], found.size[1], found.size[2], found.rms,
                   found.worst, found.axis, found.covered);
-    /* 20 %, and three times the scatter of a root mean square of n errors. */
+    /* The tolerance is 20 %, plus three times the scatter of a root mean square of n errors. */
     const double share = 0.2 + 3 / sqrt(2.0 * n);
     for (int k = 0; k < 3; ++k) CHECK_NEAR(found.size[k], rows[row].size[k], share * rows[row].size[k]);
     CHECK_NEAR(found.rms, rows[row].rms, share * rows[row].rms);
@@ -326,7 +326,7 @@ TEST(test_noisy_trileaflet) {
   }
 }
 
-/* ---- Cusps with sectors of their own, and commissures with heights ---- */
+/* ---- Cusps with separate sectors, and commissures with heights ---- */
 
 enum { most_cusps = 4 };
 static const char *const kinds_of[most_cusps + 1] = {NULL, NULL, "bicuspid", "coapting", "quadricuspid"};
@@ -352,7 +352,7 @@ static void set_cusps(riis_valve *valve, const cusp_sizes *c) {
   }
 }
 
-/* Random cusps that the kind accepts, with a commissure_height that is the mean of the heights. */
+/* Makes random cusps that the kind accepts. The commissure_height is the mean of the heights. */
 static cusp_sizes random_cusps(int n) {
   for (;;) {
     cusp_sizes c = {n, between(1, 1.4), 0, {0}, {0}};
@@ -379,7 +379,7 @@ static cusp_sizes equal_cusps(int n, double R, double Rc, double h) {
   return c;
 }
 
-/* Cusp 0 is about the x axis. With names, the landmarks say which cusp is which. */
+/* Cusp 0 is about the x axis. With names, each landmark says which cusp it belongs to. */
 static patient patient_of(const cusp_sizes *c, bool has_names) {
   patient p = empty_patient();
   double end = -0.5 * c->sector[0];
@@ -428,7 +428,7 @@ TEST(test_exact_sectors) {
   }
 }
 
-/* Landmarks of equal cusps give the valve with equal cusps: nothing is set for a cusp or for a commissure. */
+/* Landmarks of equal cusps give a valve with equal cusps: no size of a cusp or a commissure is set. */
 TEST(test_equal_cusps_stay_equal) {
   int n_unequal = 0;
   const int n = trials_of(300);
@@ -458,7 +458,7 @@ TEST(test_equal_cusps_stay_equal) {
   CHECK_AT_MOST(n_unequal, 0.06 * n + 3);
 }
 
-/* The standard errors explain the scatter of a valve whose cusps differ by much more than the noise. */
+/* The cusps differ by much more than the noise. The standard errors explain the scatter of the fitted sizes. */
 TEST(test_noisy_sectors) {
   static const cusp_sizes truth[3] = {{2, 1.35, 1.35, {150, 210}, {1.9, 1.9}},
                                       {3, 1.25, 1.3, {130, 100, 130}, {1.9, 1.6, 1.75}},
@@ -496,12 +496,12 @@ TEST(test_noisy_sectors) {
         (double)n_covered / n_values);
     if (is_short_test()) continue; /* these are too few patients for statistics */
     CHECK_AT_MOST(0.97 * n_values, n_covered);
-    /* The standard errors come from the stated noise or from larger residuals, so they are rather too large. */
+    /* The standard errors use the larger of the stated noise and the residuals, so they tend to be too large. */
     CHECK_NEAR(sqrt(sectors / expected), 0.9, 0.25);
   }
 }
 
-/* Held sectors and heights stay, and the others take what is left. */
+/* Held sectors and heights stay, and the other cusps share the rest. */
 TEST(test_held_sectors) {
   const cusp_sizes c = {3, 1.25, 1.3, {130, 100, 130}, {1.9, 1.6, 1.75}};
   patient p = patient_of(&c, true);
@@ -529,7 +529,7 @@ TEST(test_held_sectors) {
   CHECK_OK(try_to_place(valve, &p, "commissure_1.height", &found));
   CHECK_NEAR(value(valve, "commissure_0.height"), 1.9, 1e-8);
   CHECK_NEAR(value(valve, "commissure_height"), 1.75, 1e-8);
-  /* A template whose cusps differ keeps them if the landmarks agree. */
+  /* If the cusps of a template differ, the fit keeps them when the landmarks agree. */
   valve = new_valve("coapting");
   set_cusps(valve, &c);
   for (int k = 0; k < 3; ++k) CHECK_OK(riis_valve_set_scalar(valve, of("commissure", k, "height"), 2 * c.height[k]));
@@ -561,7 +561,7 @@ TEST(test_exact_aortic) {
     double angle[3] = {between(54, 66), between(54, 66), 0};
     angle[2] = 180 - angle[0] - angle[1];
     patient p = aortic(R, Rc, h, angle);
-    /* The names of two nadirs, or of one commissure, suffice. */
+    /* The names of two nadirs suffice, and the name of one commissure suffices. */
     if (trial % 4 == 1) p.leaflet_id[2][0] = -1;
     if (trial % 4 == 2) {
       for (int i = 0; i < p.n; ++i) p.leaflet_id[i][0] = -1;
@@ -581,11 +581,11 @@ TEST(test_exact_aortic) {
       CHECK_NEAR(value(valve, name), angle[cusp], 1e-7);
       snprintf(name, sizeof name, "%s.leaflet_radius_out", cusps[cusp]);
       CHECK_NEAR(value(valve, name), end, 1e-9);
-      /* If cusps end at one radius and their angles meet, they close at the commissures. */
+      /* Cusps close at the commissures if radii and angles meet there. */
       snprintf(name, sizeof name, "%s.rotation", cusps[cusp]);
       CHECK_OK(riis_valve_get(valve, name, 3, turn));
       CHECK_NEAR(turn[2], cusp == 0 ? 0 : cusp == 1 ? angle[0] + angle[1] : -angle[0] - angle[2], 1e-7);
-      /* No free edge bulges beyond the plane of its commissure. */
+      /* A free edge does not bulge beyond the plane of its commissure. */
       snprintf(name, sizeof name, "%s.leaflet_radius_in", cusps[cusp]);
       const double x = end * cosine(angle[cusp]), in = value(valve, name);
       snprintf(name, sizeof name, "%s.leaflet_power", cusps[cusp]);
@@ -602,7 +602,7 @@ static const char *const mitral_names[n_sizes] = {"AP_diameter",          "ALPM_
                                                   "IT_distance",          "indent_depth",  "anterior_horn_height",
                                                   "posterior_horn_height"};
 
-/* Makes landmarks of a random mitral valve. sizes gets the true values in centimetres. */
+/* Makes landmarks of a random mitral valve. `sizes` gets the true values in centimetres. */
 static patient mitral(int n, bool is_reversed, double *sizes, double *anterior_ratio) {
   mitral_parameters m = mitral_defaults();
   double *const to[n_sizes] = {&m.AP_diameter,  &m.ALPM_diameter,        &m.ALPM_position_ratio,  &m.IT_distance,
@@ -654,7 +654,8 @@ TEST(test_exact_mitral) {
     if (has_more) add_commissures(&p, ratio, sizes);
     if (trial % 3 == 1) memset(p.flow, 0, sizeof p.flow); /* the commissures show the atrium's side */
     place_patient(&p, scales[trial % 3]);
-    /* With the default noise, a size of some valves counts as undetermined, but exact landmarks still give its exact value. */
+    /* With the default noise, some valves have a size that counts as undetermined. Exact landmarks still give the exact value of
+     * such a size. */
     if (trial % 2 == 0) p.noise = 0.01 * p.scale;
     riis_valve *valve = new_valve("mitral");
     const answer found = place(valve, &p);
@@ -670,7 +671,7 @@ TEST(test_exact_mitral) {
   }
 }
 
-/* An annulus point may be equal to its neighbour or to the horn. Both landmarks then have one place: the horn has its own. */
+/* An annulus point may coincide with its neighbour or with the horn. In both cases two landmarks have one place. */
 TEST(test_repeated_points_of_annuli) {
   enum { n = 16, horn = n };
   for (int trial = 0; trial < trials_of(12); ++trial) {
@@ -699,7 +700,7 @@ TEST(test_repeated_points_of_annuli) {
   }
 }
 
-/* Without flow and commissures, the horns show the atrium's side if the annulus is a saddle. */
+/* If neither flow nor commissures are given, the horns of a saddle-shaped annulus show the atrium's side. */
 TEST(test_saddle) {
   double sizes[n_sizes], ratio;
   patient p = mitral(16, true, sizes, &ratio);
@@ -744,7 +745,7 @@ TEST(test_noisy_mitral) {
     if (is_short_test()) continue; /* these are too few patients for statistics */
     CHECK_AT_MOST(0.95 * n_sizes * n, n_covered);
     if (points == 16) {
-      const double most_times = 1.2 + 3 / sqrt(2.0 * n); /* the measured errors, 20 %, and three times their scatter */
+      const double most_times = 1.2 + 3 / sqrt(2.0 * n); /* the errors, 20 %, and three times their scatter */
       CHECK_AT_MOST(sqrt(squares[0]), most_times * 0.4);
       CHECK_AT_MOST(sqrt(squares[1]), most_times * 0.5);
       CHECK_AT_MOST(sqrt(squares[5]), most_times * 0.7);
@@ -759,8 +760,8 @@ TEST(test_noisy_mitral) {
 
 /* ---- Saddles: tricuspid, mitral_coapting ---- */
 
-/* An annulus of four cubics, and the places of the commissures on it. The flat side is at -y for a tricuspid valve, and at +y for
- * a mitral_coapting valve. */
+/* An annulus of four cubics, and the places of the commissures on it. The flat side is at -y for a tricuspid valve. For a
+ * mitral_coapting valve the flat side is at +y. */
 typedef struct saddle {
   bool is_mitral;
   double width, depth, flatness, height, flat_ratio, anterior_ratio;
@@ -768,7 +769,8 @@ typedef struct saddle {
 
 static const char *kind_of(const saddle *s) { return s->is_mitral ? "mitral_coapting" : "tricuspid"; }
 
-/* Writes the control points counter-clockwise seen from +z, from the middle of the flat side. */
+/* Writes the control points, starting from the middle of the flat side. Seen from +z, the control points run
+ * counter-clockwise. */
 static void cubics(const saddle *s, double q[4][4][3]) {
   const double sign = s->is_mitral ? 1 : -1, a = s->width / 2, circle = 0.5523, h = s->height / 2;
   const double near = (0.5 - 0.12 * s->flatness) * s->depth, far = s->depth - near;
@@ -800,7 +802,7 @@ static double speed(double q[4][3], double t) {
   }
   return sqrt(sum);
 }
-/* The length from 0 to t, by Gauss and Legendre with two points in each of 200 parts. */
+/* The length from 0 to t, by Gauss-Legendre quadrature with two points in each of 200 parts. */
 static double length_to(double q[4][3], double t) {
   const double off = 0.5 / sqrt(3);
   double sum = 0;
@@ -809,7 +811,7 @@ static double length_to(double q[4][3], double t) {
   return sum;
 }
 
-/* The point at a share of the whole length. */
+/* The point at a fraction of the whole length. */
 static void at_lap(const saddle *s, double lap, double *at) {
   double q[4][4][3], whole = 0;
   cubics(s, q);
@@ -867,7 +869,8 @@ static patient patient_with(const saddle *s, int n_points, bool has_horns, bool 
   return p;
 }
 
-/* Compares the sizes of a placed valve. Returns their number, and writes the errors in standard errors. */
+/* Compares the sizes of a placed valve with the true sizes. Returns the number of sizes, and writes the errors in units of the
+ * standard errors. */
 static int saddle_errors(const riis_valve *valve, const saddle *s, const answer *found, double *error,
                          double *in_errors) {
   const char *names[6] = {s->is_mitral ? "ALPM_diameter" : "AP_diameter",
@@ -911,7 +914,7 @@ TEST(test_exact_saddles) {
   }
 }
 
-/* A length that was measured stays, and the leaflets of two commissures suffice. */
+/* A measured length stays. The leaflets of two commissures suffice. */
 TEST(test_saddle_with_lengths) {
   saddle s = random_saddle(false);
   patient p = patient_with(&s, 12, false, false);
@@ -1001,7 +1004,7 @@ TEST(test_held_sizes) {
   CHECK_NEAR(value(valve, "root_radius"), 1.2, 1e-9);
   assert_int_equal(found.state[position(valve, "leaflet_height")], RIIS_SIZE_KEPT);
   assert_int_equal(found.state[position(valve, "bending_height")], RIIS_SIZE_KEPT);
-  /* The missing millimetre is shared by both ends. */
+  /* Both ends share the missing millimetre. */
   CHECK_NEAR(found.placement.rms, 0.5, 1e-6);
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'leaflet_hight'|did you mean 'leaflet_height'",
                 try_to_place(valve, &p, "leaflet_hight", &found));
@@ -1030,7 +1033,7 @@ TEST(test_forms_of_input) {
   CHECK_OK(riis_place(other, &single, "", NULL, &placement, sizeof placement));
   CHECK_NEAR(value(other, "root_radius"), value(one, "root_radius"), 1e-5);
   CHECK_NEAR(placement.rotation_angle, found.placement.rotation_angle, 1e-3);
-  /* The test runs once more from the result: the valve's values are the template, and the same sizes must result. */
+  /* The test starts again from its result: with the valve's values as the template, the fit must give these sizes again. */
   const answer again = place(one, &p);
   CHECK_NEAR(value(one, "leaflet_height"), 1.5, 1e-9);
   for (int k = 0; k < 3; ++k) CHECK_NEAR(again.placement.translation[k], found.placement.translation[k], 1e-7);
@@ -1093,7 +1096,7 @@ TEST(test_refused_cusps) {
           for (int i = 0; i < 6; i += 2) p.leaflet_id[i][0] = (6 - i) / 2 % 3);
   REFUSED("aortic", "does not say which nadir", p.noise = 0);
   REFUSED("aortic", "mirrored", for (int i = 0; i < 6; i += 2) p.leaflet_id[i][0] = (6 - i) / 2 % 3);
-  /* A mirror image of a named patient. */
+  /* The landmarks are the mirror image of a patient with names. */
   REFUSED("aortic", "mirrored", for (int i = 0; i < 6; ++i) p.xyz[i][1] *= -1,
           p.leaflet_id[i][0] = i % 2 == 0 ? i / 2 : -1);
   REFUSED("aortic", "landmark 2 (nadir) says right|left cusp",
@@ -1180,7 +1183,7 @@ TEST(test_refused_sectors_and_saddles) {
   REFUSED("mitral_coapting", left, "flow points to the atrium", p.flow[2] = 1);
   REFUSED("mitral_coapting", left, "landmark 0 (trigone) has a role", p.role[0] = RIIS_LANDMARK_TRIGONE);
 #undef REFUSED
-  /* Commissures that leave less than 50 degrees to a cusp. */
+  /* These commissures leave less than 50 degrees to a cusp. */
   patient narrow = pair;
   for (int i = 1; i < 4; i += 2) narrow.xyz[i][0] = 1.19, narrow.xyz[i][1] *= 0.13;
   answer found;

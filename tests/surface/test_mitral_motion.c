@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The velocity of the mitral valve's surface is compared with the oracle in extended precision: with the displacement of the
- * point with the same patch, u and v, and with the derivative in time. */
+ * Compares the velocity of the mitral valve's surface with the oracle in extended precision. The velocity is compared with the
+ * displacement of the point with equal patch, u and v, and with the derivative in time. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -65,7 +65,7 @@ static riis_valve *valve_of(const states *s) {
   return valve;
 }
 
-/* The smooth valve, and the positions on its annulus where each patch begins and ends. */
+/* The smooth valve, and the positions on its annulus at which the patches begin and end. */
 typedef struct smooth {
   mitral_oracle *oracle;
   double from[10], to[10];
@@ -94,7 +94,7 @@ static void smooth_point(const smooth *s, int patch, double u, double v, double 
   mitral_oracle_point(s->oracle, s->from[patch] + u * (s->to[patch] - s->from[patch]), v, p);
 }
 
-/* Gives the mean velocity between two states of the point with a given patch, u and v. */
+/* Gives the mean velocity, between two states, of the point with a given patch, u and v. */
 static void mean_velocity(const smooth *now, const smooth *before, double seconds, int patch, const double *uv,
                           double *velocity) {
   double p[3], q[3];
@@ -117,12 +117,11 @@ static double largest_speed(const riis_surface *surface) {
   return largest;
 }
 
-/* The results of comparing one surface between two states, at its vertices and at random closest points. */
+/* the largest difference from the mean velocity of the oracle */
 typedef struct compared {
   double vertices, points; /* the largest difference from the mean velocity of the oracle */
-  double sides;            /* the largest difference at vertices with v = 0 or 1, on the annulus and on the free
-                              edges */
-  /* The share of vertices that differ only by rounding: all except some on sides of split quads. */
+  double sides;            /* the largest difference at vertices on the annulus and on the free edges */
+  /* The share of vertices that differ only by rounding. Only some vertices on sides of split quads differ by more. */
   double exact;
   /* The largest difference from the derivative at the present time, at vertices; -1: not compared. */
   double from_derivative;
@@ -195,7 +194,7 @@ static compared compare(const states *now, const states *before, double seconds,
     assert_int_equal(fields.n_nodes, n_points);
     const double *at_vertices = velocity_of(surface), half_thickness = info_of(surface).half_thickness;
     for (int64_t i = 0; i < n_points; ++i) {
-      /* If leaflets are equally near, the velocity is their mean (test_ties). */
+      /* If leaflets are equally near, the velocity is the mean of the leaflets' velocities (test_ties). */
       if (tied_velocity_at(&c, at_vertices, xyz + 3 * i, within_in(result).distance[i], half_thickness).n_leaflets > 1)
         continue;
       mean_velocity(&s, &t, seconds, fields.patch_id[i], fields.uv + 2 * i, expected);
@@ -209,7 +208,7 @@ static compared compare(const states *now, const states *before, double seconds,
   return made;
 }
 
-/* Some quads of the mitral valve are split. A vertex that comes from a split has a velocity between those of the quad's
+/* Some quads of the mitral valve are split. The velocity of a vertex from a split lies between the velocities of the quad's
  * corners. */
 TEST(vertices_move_as_the_oracles) {
   double share = 0;
@@ -228,8 +227,8 @@ TEST(vertices_move_as_the_oracles) {
   printf("at random points the velocity is off by %.3f of tolerance, per unit of opening, at most\n", share);
 }
 
-/* The mean velocity over a step is the velocity at the step's middle. Its error at the step's end is therefore proportional
- * to the time between the two. */
+/* The mean velocity over a step is the velocity at the step's middle. At the step's end, the error of this velocity is therefore
+ * proportional to the length of the step. */
 TEST(the_error_falls_with_the_time_between) {
   double last = 0;
   for (int i = 1; i <= 3; ++i) {
@@ -264,7 +263,7 @@ TEST(the_error_at_any_point_falls_with_the_tolerance) {
   }
 }
 
-/* At opening 0 the leaflets share their edge as one curve. At any other opening each leaflet has its own. */
+/* At opening 0 the free edge is one curve of both leaflets. At any other opening each leaflet has a separate free edge. */
 TEST(steps_into_and_out_of_the_closed_state) {
   static const double other[] = {1, 0.5, 0.1, 0.01, 0.001};
   for (int i = 0; i < 5; i += is_short_test() ? 4 : 1)
@@ -281,7 +280,7 @@ TEST(steps_into_and_out_of_the_closed_state) {
     }
 }
 
-/* If a vertex's position on its patch jumped between steps, its speed would be the jump divided by the time between. */
+/* If a vertex jumped on its patch between steps, its speed would be the jump divided by the length of the step. */
 TEST(no_vertex_is_an_outlier) {
   const states at = paper_at(0);
   riis_valve *valve = valve_of(&at), *before = valve_of(&at);
@@ -300,8 +299,8 @@ TEST(no_vertex_is_an_outlier) {
   CHECK_AT_MOST(0.98 * 2.581, largest);
 }
 
-/* A patch without a bulge is a Coons patch with the same labels. Arcs that are nearly straight have few triangles, and between
- * vertices the velocity is linear. So a change of the bulge is visible only where the arcs are bent. */
+/* A patch without a bulge is a Coons patch with the same labels. Arcs that are nearly straight have few triangles, and the
+ * velocity is linear between vertices. A change of the bulge is therefore visible only on bent arcs. */
 TEST(a_bulge_goes_through_zero) {
   static const struct {
     double now, before;
@@ -344,7 +343,7 @@ TEST(any_parameter_moves) {
     states now = paper_at(random_between(&rng, 0.05, 0.95)), before;
     before = now;
     if (i == n_scalars) before.closed.translation[random_bits(&rng) % 3] += 0.1;
-    for (int k = 0; k < n_scalars; ++k) { /* changes one parameter, or all in the last round */
+    for (int k = 0; k < n_scalars; ++k) { /* changes one parameter, or all parameters in the last round */
       if (i != k && i != n_scalars + 1) continue;
       *scalar_of(&before.closed, k) *= random_between(&rng, 0.95, 0.99);
       *scalar_of(&before.open, k) *= random_between(&rng, 0.95, 0.99);

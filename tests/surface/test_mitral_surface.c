@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests the mitral valve through the public interface: the numbers of docs/theory/mitral.md, and properties that hold
- * at any opening. */
+ * Tests the mitral valve through the public interface. The tests cover the numbers of docs/theory/mitral.md, and properties that
+ * hold at any opening. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -31,7 +31,7 @@ static const struct {
              {"opening", 1}};
 enum { n_scalars = sizeof table / sizeof *table };
 
-/* Returns the valve without its translation, because the expected numbers are given without it. */
+/* Returns the valve without a translation, because the expected numbers exclude it. */
 static riis_valve *mitral_valve(double opening) {
   const double no_shift[3] = {0, 0, 0};
   riis_valve *valve = new_valve("mitral");
@@ -56,7 +56,8 @@ TEST(parameters_are_the_papers) {
   double values[3];
   riis_valve *valve = new_valve("mitral");
   CHECK_OK(riis_valve_get_n_parameters(valve, &n));
-  /* The paper has 18 parameters: those of its table, its t, and the translation. The last parameter is the skirt's length. */
+  /* The paper has 18 parameters: the parameters of its table, its t, and the translation. The last parameter here is the skirt's
+   * length. */
   assert_int_equal(n, n_scalars + 2);
   for (int i = 0; i < n_scalars; ++i) {
     riis_parameter parameter;
@@ -91,7 +92,7 @@ TEST(every_parameter_matters) {
   }
 }
 
-/* Returns the length of all edges with v = 0. */
+/* Returns the total length of all edges with v = 0. */
 static double annulus_length(const riis_triangles *c) {
   double sum = 0;
   for (int64_t t = 0; t < c->n_triangles; ++t)
@@ -102,7 +103,7 @@ static double annulus_length(const riis_triangles *c) {
   return sum;
 }
 
-/* The surface is fine enough for the digits in docs/theory/mitral.md. The oracle gives more digits. */
+/* The surface is fine enough for the digits in docs/theory/mitral.md. For more digits the oracle would be needed. */
 TEST(numbers_of_the_model) {
   const struct {
     double opening, area, area_to_6_digits, annulus, z_low, z_high;
@@ -187,8 +188,8 @@ TEST(leaflets_and_patches) {
   }
 }
 
-/* An edge of only one triangle lies on the annulus or on the free edge of an open valve. Otherwise it lies, up to rounding,
- * inside another triangle's edge. This occurs where quads of different levels or polylines of different patches meet. */
+/* An edge of only one triangle lies on the annulus or on the free edge of an open valve. Any other such edge lies inside another
+ * triangle's edge, up to rounding. Such edges occur where quads of different levels or polylines of different patches meet. */
 TEST(has_no_cracks) {
   for (int i = 0; i <= 2; ++i) {
     const int owned_before = n_owned();
@@ -235,7 +236,7 @@ TEST(has_no_cracks) {
   }
 }
 
-/* Closed leaflets meet in one polyline. Both leaflets have its vertices to the last bit. */
+/* Closed leaflets meet in one polyline. Both leaflets have the vertices of this polyline, to the last bit. */
 TEST(closed_leaflets_share_their_edge) {
   riis_surface *surface = mitral_surface(0, 0.05);
   const riis_triangles c = triangles_of(surface);
@@ -252,13 +253,13 @@ TEST(closed_leaflets_share_their_edge) {
           break;
         }
     }
-  /* At the other corners, a grid line of one leaflet ends inside a chord of the other leaflet. */
+  /* At other corners, a grid line of one leaflet ends inside a chord of the other leaflet. */
   printf("closed edge: %d of %d corners are also the other leaflet's\n", n_shared, n_of_edge);
   assert_true(n_shared >= 6 && 3 * n_shared >= n_of_edge);
 }
 
-/* Two neighbouring grid lines of a patch join the same two sides. Returns the least distance between two such lines, as a
- * fraction of the longer side. */
+/* Two neighbouring grid lines of a patch join the same two sides. Returns the least distance of two such lines, as a fraction of
+ * the longer side. */
 static double least_step(const riis_triangles *c, int32_t patch, double *longer) {
   double length_of[2] = {0, 0}, *u = own(malloc((size_t)c->n_triangles * 2 * sizeof *u));
   size_t n = 0;
@@ -267,7 +268,7 @@ static double least_step(const riis_triangles *c, int32_t patch, double *longer)
       const int64_t p = c->vertex_id[3 * t + k], q = c->vertex_id[3 * t + (k + 1) % 3];
       const double v = c->uv[2 * p + 1];
       if (c->patch_id[t] != patch || c->uv[2 * q + 1] != v || (v != 0 && v != 1)) continue;
-      /* At most one edge of a triangle is on the side. */
+      /* A triangle has at most one edge on the side. */
       length_of[(int)v] += distance(c->xyz + 3 * p, c->xyz + 3 * q);
       u[n++] = c->uv[2 * p];
       u[n++] = c->uv[2 * q];
@@ -281,10 +282,10 @@ static double least_step(const riis_triangles *c, int32_t patch, double *longer)
   return least;
 }
 
-/* In valves of many shapes, no two grid lines nearly coincide. If both sides need a line, and the two lines are within 0.02
- * of the tolerance, they become one line (docs/theory/triangles.md). At a joint of the annulus O has a kink. Next to a
- * joint there is a line only if the tolerance needs one. The least ratio in 3,840 valves was 0.4. (Triangles can still be
- * flat: quads are sheared where a leaflet's arcs meet its free edge at a small angle.) */
+/* In valves of many shapes, no two grid lines nearly coincide. If both sides need a line, and these lines are within 0.02 of the
+ * tolerance, they become one line (docs/theory/triangles.md). At a joint of the annulus, the offset O of the arcs has a kink. A
+ * line next to a joint exists only if the tolerance needs it. The least ratio in 3,840 valves was 0.4. (Triangles can still be
+ * flat: if a leaflet's arcs meet its free edge at a small angle, the quads are sheared.) */
 TEST(has_no_slivers) {
   random_source rng = random_start("test_mitral_surface");
   double least = 1e30;
@@ -310,7 +311,7 @@ TEST(has_no_slivers) {
   CHECK_AT_MOST(0.1, least);
 }
 
-/* Downstream is the ventricle: the space below the closed valve, and around the open valve. */
+/* Downstream is the ventricle, which lies below the closed valve and around the open valve. */
 TEST(normals_point_downstream) {
   riis_surface *closed = mitral_surface(0, 0.05), *open = mitral_surface(1, 0.05);
   assert_int_equal(closest_to(closed, 0, 0, -1).side, 1);
@@ -322,8 +323,8 @@ TEST(normals_point_downstream) {
   assert_int_equal(closest_to(open, 2.4, 0, -0.5).side, 1);
 }
 
-/* No point of the valve moves by more than about 2.6 times the change of the opening; the number is the oracle's. At an
- * opening 1e-9 from either end, the surface therefore has nearly the same vertices as at that end. */
+/* The oracle says that points of the valve move by at most about 2.6 times the change of the opening. At an opening 1e-9 from
+ * either end, the surface therefore has nearly the vertices of that end. */
 TEST(opens_continuously) {
   const double ends[2] = {0, 1}, near[2] = {1e-9, 1 - 1e-9};
   for (int i = 0; i < 2; ++i) {
@@ -339,7 +340,7 @@ TEST(opens_continuously) {
   }
 }
 
-/* An update to a new opening gives the same surface as a new surface at that opening, to the last bit. */
+/* An update to a new opening equals a new surface at this opening, to the last bit. */
 TEST(an_update_moves_the_valve) {
   riis_valve *valve = mitral_valve(0);
   riis_surface *moving = new_surface(valve, NULL);
@@ -363,7 +364,7 @@ static double area_of(const riis_valve *valve) {
   return area;
 }
 
-/* If there is a second state, opening 0 is the first state and opening 1 the second. */
+/* With a second state, opening 0 is the first state and opening 1 the second state. */
 TEST(opens_from_one_state_to_another) {
   const char *kinds[2] = {"aortic", "mitral"}, *names[2] = {"leaflet_radius_in", "AP_diameter"};
   const double values[2] = {0.9, 3.3};
@@ -376,7 +377,8 @@ TEST(opens_from_one_state_to_another) {
     CHECK_OK(riis_valve_set_open_state(valve, second));
     CHECK_OK(riis_valve_set_scalar(valve, "opening", 0));
     CHECK_OK(riis_valve_set_scalar(first, "opening", 0));
-    /* Vertices of the aortic valve depend on its motion between the states, so a valve with one state has other vertices. */
+    /* The vertices of an aortic valve depend on its motion between the states. With only one state, the valve therefore has other
+     * vertices. */
     const double off = i == 0 ? 1e-3 : 0;
     CHECK_NEAR(area_of(valve), area_of(first), off);
     CHECK_OK(riis_valve_set_scalar(valve, "opening", 0.5));
@@ -388,7 +390,7 @@ TEST(opens_from_one_state_to_another) {
     if (i == 1) CHECK_OK(riis_valve_set_scalar(second, "opening", 1));
     CHECK_NEAR(area_of(valve), area_of(second), off);
     assert_true(half_open != area_of(valve) && half_open != area_of(first));
-    /* The second state was copied, so later changes of it do not matter. */
+    /* The second state was copied, so later changes of the original have no effect. */
     const double open = area_of(valve);
     free_one_owned(second);
     CHECK_SAME(area_of(valve), open);
@@ -396,7 +398,7 @@ TEST(opens_from_one_state_to_another) {
   }
 }
 
-/* Half way between two aortic states, the middle of each free edge is half way. */
+/* Half way between two aortic states, the middle of each free edge is half way between its places in both states. */
 TEST(control_points_are_blended) {
   riis_valve *valve = new_valve("aortic"), *open = new_valve("aortic");
   CHECK_OK(riis_valve_set_scalar(open, "right.leaflet_radius_in", 1.04));
@@ -422,7 +424,7 @@ TEST(refusals) {
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "anterior_length is 20|5 times AP_diameter, which is 3",
                 riis_surface_create(valve, NULL, &surface));
   CHECK_OK(riis_valve_set_scalar(valve, "anterior_length", 2.12));
-  /* A flat annulus whose tangent points to the end of the free edge at the commissure. */
+  /* At the commissure, the tangent of the flat annulus points to the end of the free edge. */
   riis_valve *flat = mitral_valve(0);
   CHECK_OK(riis_valve_set_scalar(flat, "anterior_horn_height", 0));
   CHECK_OK(riis_valve_set_scalar(flat, "posterior_horn_height", 0));
@@ -439,7 +441,7 @@ TEST(refusals) {
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "open is NULL", riis_valve_set_open_state(aortic, NULL));
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'pulmonary'|there are: aortic, bi|mitral|, trileaflet",
                 riis_valve_create("pulmonary", &aortic));
-  /* The message names the state that is wrong. */
+  /* The message names the wrong state. */
   riis_valve *open = mitral_valve(1);
   CHECK_OK(riis_valve_set_scalar(open, "anterior_length", 20));
   CHECK_OK(riis_valve_set_open_state(valve, open));

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests surfaces with a velocity. Their triangles equal those of an update without velocities. Their velocities are
- * compared with known motions. A refusal does not change the surface. The mitral valve's own motion is in
- * test_mitral_motion.c. */
+ * Tests surfaces with a velocity. The triangles equal those of an update without velocities. The velocities are compared with
+ * known motions. A refusal does not change the surface. test_mitral_motion.c tests the motion of the mitral valve. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -17,8 +16,8 @@ static double distance(const double *p, const double *q) { return hypot(hypot(p[
 
 /* --- Valves ---------------------------------------------------------------------------------------------------------- */
 
-/* A strip of three patches. Curves 0 to 2 are the lower ones, and curves 3 to 5 the upper ones. Curves 6 to 9 run from below
- * to above, and the last is a point. */
+/* A strip of three patches. Curves 0 to 2 are the lower ones, and curves 3 to 5 the upper ones. Curves 6 to 9 run upwards from
+ * the lower to the upper curves, and curve 9 is a point. */
 enum { n_curves = 10, n_patches = 3, n_control = 32 };
 static const int32_t degrees[n_curves] = {3, 2, 1, 2, 3, 3, 1, 3, 2, 1};
 static const int32_t is_reversed[n_curves] = {0, 0, 0, 0, 1, 0, 0, 1, 0, 0};
@@ -68,7 +67,7 @@ static riis_valve *valve_of(const strip *from) {
   return own(valve);
 }
 
-/* Returns the strip at time t, when each point x has moved to (1 + growth t) x + drift t. */
+/* Returns the strip at time t. At time t, each point x has moved to (1 + growth t) x + drift t. */
 static strip strip_at(const strip *from, double t, double growth, const double *drift) {
   strip made;
   for (int i = 0; i < n_control; ++i)
@@ -179,7 +178,7 @@ TEST(arrays_have_no_velocity) {
 
 /* --- Known motions --------------------------------------------------------------------------------------------------- */
 
-/* Returns the largest speed of the vertices of a leaflet's triangles, or of all triangles for -1. */
+/* Returns the largest speed of the vertices of a leaflet's triangles. The leaflet -1 means all triangles. */
 static double largest_speed(const riis_surface *surface, int32_t leaflet_id) {
   static const double zero[3] = {0, 0, 0};
   const riis_triangles c = triangles_of(surface);
@@ -214,7 +213,7 @@ TEST(nothing_moves_where_nothing_changed) {
   }
 }
 
-/* One of three cusps moves, or one scallop of the mitral valve. */
+/* Only one of three cusps moves, or only one scallop of the mitral valve. */
 TEST(parts_at_rest_have_no_velocity) {
   static const double turned[3] = {5, 3, 121}, of_non_coronary[3] = {0, 0, -121.5};
   riis_valve *valve = new_valve("aortic"), *before = copy_of(valve);
@@ -261,7 +260,7 @@ static placed placed_by(const riis_surface_options *o) {
   return made;
 }
 
-/* Finds the earlier position of a point that is at x now: the inverse of scale times rotation is its transpose divided by the
+/* Finds the earlier position of a point that is now at x. The inverse of scale times rotation is its transpose divided by the
  * square of the scale. */
 static void before_of(const riis_surface_options *now, const riis_surface_options *then, const double *x,
                       long double *was) {
@@ -286,7 +285,7 @@ TEST(placements_move) {
     if (trial % 2) random_placement(&now);
     now.flip_normals = trial % 5 == 0;
     then = now;
-    /* Options of the earlier state that do not place it are ignored. */
+    /* The only options of the earlier state that count are those of its placement. */
     then.tolerance = 7, then.n_threads = -3, then.flip_normals = 9, then.half_thickness = NAN;
     const int what = trial / 3 % 4;
     for (int c = 0; c < 3 && (what == 0 || what == 3); ++c) then.translation[c] += now.scale * between(-1, 1);
@@ -315,8 +314,8 @@ TEST(placements_move) {
   printf("off by %.2g of the coordinates over the time\n", worst);
 }
 
-/* Control points are scaled by 1 + growth t and moved by drift t. Every point of the surface moves in the same way, even
- * with arc length as parameter. The other state may be earlier or later. */
+/* Control points are scaled by 1 + growth t and moved by drift t. Every point of the surface moves like the control points, even
+ * if arc length is its parameter. The other state may be earlier or later. */
 TEST(patches_grow_and_drift) {
   double worst = 0;
   for (int trial = 0; trial < trials_of(40); ++trial) {
@@ -332,7 +331,7 @@ TEST(patches_grow_and_drift) {
     CHECK_OK(riis_surface_update_moving(surface, valve, before, dt, NULL, NULL));
     const riis_triangles c = triangles_of(surface);
     const double *velocity = velocity_of(surface);
-    /* A vertex lies on the polylines, which are within the tolerance of the curves. */
+    /* Vertices lie on the polylines, which are within the tolerance of the curves. */
     const double allowed = fabs(growth) * options.tolerance * 0.1 + 1e-10 / fabs(dt);
     for (int64_t i = 0; i < c.n_vertices; ++i)
       for (int k = 0; k < 3; ++k) {
@@ -345,7 +344,7 @@ TEST(patches_grow_and_drift) {
   printf("off by %.3f of what the tolerance allows\n", worst);
 }
 
-/* The same two states with a negative time give the opposite velocities, to the last bit. */
+/* With a negative time, the two states give the opposite velocities, to the last bit. */
 TEST(time_goes_back) {
   for (int trial = 0; trial < trials_of(45); ++trial) {
     const int owned_before = n_owned();
@@ -373,7 +372,7 @@ TEST(vertices_come_from_their_place_before) {
     riis_surface_options options = surface_options(), then;
     options.tolerance = 0.05;
     then = options;
-    if (trial == 0) /* changes any number of parameters at once */
+    if (trial == 0) /* changes several parameters at once */
       CHECK_OK(riis_valve_set_scalar(valve, "bending_height", 0.7));
     CHECK_OK(riis_valve_set_scalar(valve, "opening", trial % 4 ? between(0, 1) : 0));
     CHECK_OK(riis_valve_set_scalar(before, "opening", trial % 4 == 1 ? 1 : between(0, 1)));
@@ -410,7 +409,7 @@ TEST(vertices_come_from_their_place_before) {
   CHECK_AT_MOST(worst_uv, 0.1);
 }
 
-/* Steps of a thousandth give the same speeds as steps of a fiftieth. In the longer steps, rounding and jumps hardly matter. */
+/* Steps of a thousandth give the speeds of steps of a fiftieth. The longer steps are hardly affected by rounding and jumps. */
 TEST(no_vertex_of_the_aortic_valve_is_an_outlier) {
   riis_valve *valve = random_valve(0), *before = copy_of(valve);
   riis_surface *surface = new_surface(valve, NULL);
@@ -465,7 +464,7 @@ static kept keep(const riis_surface *surface) {
   return made;
 }
 
-/* Checks that the arrays are at the same address with the same values. */
+/* Checks that the arrays have the same address and the same values as before. */
 static void check_kept(const kept *k) {
   const riis_triangles c = triangles_of(k->surface);
   assert_ptr_equal(velocity_of(k->surface), k->velocity);
@@ -518,7 +517,7 @@ TEST(refusals_leave_the_surface_as_it_was) {
   MOVING_REFUSED(RIIS_INVALID_PARAMETER, "in valve_before: in the open state, the left cusp", aortic, bad, 1, NULL,
                  NULL);
 
-  /* Wrong options are refused. The message says if they belong to the earlier placement. */
+  /* Wrong options are refused. If an option belongs to the earlier placement, the message says so. */
   riis_surface_options options = surface_options();
 #define BEFORE_REFUSED(change, parts)                                             \
   do {                                                                            \

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Laws of opening are compared with values computed by hand, with closed forms, and with their own order of accuracy. A
+ * Laws of opening are compared with values computed by hand and with closed forms, and their order of accuracy is checked. A
  * restart continues with the same bits. */
 #include <riis/riis.h>
 
@@ -74,14 +74,15 @@ TEST(rounding_of_a_period_does_not_matter) {
   check_table(&table, 0.8 + 0.15, 0.5, 1 / 0.3);
 }
 
-/* Returns the distance of a time from a key n_periods later. The unit is the rounding of the largest of time, key and period. */
+/* Returns the distance of a time from a key n_periods later. The unit is the rounding of the largest of the time, the key and the
+ * period. */
 static double units_from_key(double time, double key, double period, int n_periods) {
   const long double distance = fabsl((long double)time - key - (long double)period * n_periods);
   return (double)(distance / (DBL_EPSILON * fmaxl(fmaxl(fabsl(time), fabsl(key)), period)));
 }
 
-/* Checks the doubles around each key in periods -2 to 1000. Times within 8 units of rounding of a key have the key's opening
- * and the rate after it, to the last bit. Returns the number of these times. */
+/* Checks the doubles around each key in the periods -2 to 1000. A time within 8 units of rounding of a key has the key's opening
+ * and the rate after the key, to the last bit. Returns the number of such times. */
 static int64_t check_keys_of_periods(const riis_opening_table *table) {
   const int64_t n = table->n_keys;
   int64_t n_at_keys = 0;
@@ -128,7 +129,7 @@ TEST(a_key_has_the_rate_after_it_in_every_period) {
   }
 }
 
-/* A last key counts as the first key of the next period, even if it misses the period's end by a billionth. */
+/* The last key counts as the first key of the next period. The last key may even miss the period's end by a billionth. */
 TEST(a_last_key_is_the_first_one_of_the_next_period) {
   const double opening[] = {0.5, 1, 0.5};
   for (int sign = -1; sign <= 1; ++sign) {
@@ -318,14 +319,14 @@ TEST(a_switch_opens_by_pressure_and_closes_by_flow) {
   assert_int_equal(now.phase, RIIS_PHASE_CLOSING);
   CHECK_OK(riis_opening_switch_advance(&law, &now, 0.35, -1, -0.1, &now));
   CHECK_NEAR(now.opening, 0.5, 1e-12);
-  /* The valve reverses half way, without a jump. */
+  /* Half way, the valve reverses without a jump. */
   CHECK_OK(riis_opening_switch_advance(&law, &now, 0.36, 2, 0, &now));
   const double where = now.opening;
   CHECK_OK(riis_opening_switch_advance(&law, &now, 0.36 + 1e-9, 2, 0, &now));
   CHECK_NEAR(now.opening, where, 1e-6);
 }
 
-/* A solver's steps may miss the ramp's end by rounding: the sum of steps of 2 ms is slightly less than 0.04 s. */
+/* The steps of a solver may miss the ramp's end by rounding: the sum of steps of 2 ms is slightly less than 0.04 s. */
 TEST(an_opening_rounds_to_at_most_one) {
   const riis_opening_switch law = some_switch();
   for (int i = 0; i < 4096; ++i) {
@@ -357,7 +358,7 @@ TEST(a_filter_and_a_dwell_keep_noise_out) {
   assert_true(turns >= 5 && turns <= 10);
 }
 
-/* Advances a valve by random pressures and flows, and counts the turns that happen in the middle of a motion. */
+/* Advances a valve by random pressures and flows. Counts the reversals in the middle of a motion. */
 static int n_turns_in_motion(double opening, double closing, double dwell, int *n_turns) {
   riis_opening_switch law = some_switch();
   law.opening_duration = opening;
@@ -386,8 +387,8 @@ TEST(a_dwell_as_long_as_a_motion_lets_it_end) {
   }
 }
 
-/* In: the pressure difference and the flow of a mitral valve in a flow solver. While the leaflets close, they push blood back,
- * and the pressure before them exceeds the pressure behind them from 5 to 30 ms after the turn. */
+/* Input: the pressure difference and the flow of a mitral valve in a flow solver. Leaflets that close push blood back. The
+ * pressure before them therefore exceeds the pressure behind them from 5 to 30 ms after the flow reverses. */
 TEST(closing_leaflets_do_not_open_the_valve_again) {
   for (int i = 0; i < 2; ++i) {
     riis_opening_switch law = some_switch();
@@ -413,11 +414,11 @@ TEST(closing_leaflets_do_not_open_the_valve_again) {
   }
 }
 
-/* Advances a law to a time. The law's pressures and flows are functions of time. */
+/* Advances a law to a time, with pressures and flows that are functions of time. */
 typedef void driven_step(void *state, double time);
 
-/* A law continues from a copy of its state that was made half way, as after a restart. It ends with the same bits as without the
- * copy. */
+/* Half way, the law's state is copied, and a law continues from the copy, as after a restart. The bits at the end do not depend
+ * on the copy. */
 static void check_restart(driven_step *advance, void *state, void *kept, size_t size) {
   enum { n_steps = 600, half = n_steps / 2 };
   for (int i = 1; i <= n_steps; ++i) {
@@ -470,8 +471,8 @@ TEST(without_a_drive_friction_stops_the_leaflet) {
   CHECK_NEAR(now.rate, now.angle_rate / 75, 1e-15);
 }
 
-/* The pressure and the flow are constant. Explicit Euler with small steps in long double gives an independent answer, accurate
- * to first order. */
+/* The pressure and the flow are constant. Explicit Euler with small steps in long double gives an independent answer. This answer
+ * is accurate to first order. */
 TEST(the_angle_follows_the_published_equation) {
   for (int trial = 0; trial < 6; ++trial) {
     const riis_opening_angle law = aortic_angle();
@@ -503,7 +504,7 @@ static double driven(int n) {
     const double t = end * i / n;
     CHECK_OK(riis_opening_angle_advance(&law, &now, t, 0.05 * cos(200 * t), 20 + 30 * sin(250 * t), &now));
   }
-  assert_true(now.angle > 1 && now.angle < 74); /* the leaflet did not reach a stop */
+  assert_true(now.angle > 1 && now.angle < 74); /* the leaflet has reached no stop */
   return now.angle;
 }
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests the sizes of leaflets, orifices and ideal leaks. Areas are compared with counts of random points seen along the axis,
- * and with lines in another direction.
- * Perimeters are compared with differences of areas. Placed valves are compared with the same valves without placement. */
+ * Tests the sizes of leaflets, orifices and ideal leaks. Areas are compared with counts of random points seen along the axis, and
+ * with lengths of lines in another direction. Perimeters are compared with differences of areas. Placed valves are compared with
+ * valves that have no placement. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -55,7 +55,7 @@ static double squared_distance_to_segment(const double *p, const double *a, cons
   return dx * dx + dy * dy;
 }
 
-/* Returns the squared distance in the plane between a point and a triangle that is projected along z. */
+/* Returns the squared distance in the xy plane from a point to a triangle that is projected along z. */
 static double squared_distance_to(const double *p, const double corner[3][2]) {
   int n_left = 0, n_right = 0;
   double nearest = INFINITY;
@@ -69,8 +69,8 @@ static double squared_distance_to(const double *p, const double corner[3][2]) {
   return n_left == 3 || n_right == 3 ? 0 : nearest;
 }
 
-/* The area of the orifice is compared with the share of points that no triangle covers. The effective area is compared with the
- * share of points that are also not near a triangle. */
+/* The area of the orifice is compared with the share of points that no triangle covers. For the effective area, points near a
+ * triangle do not count. */
 TEST(areas_are_counts_of_points) {
   enum { n_side = 121 };
   for (int trial = 0; trial < n_trials(); ++trial) {
@@ -78,7 +78,7 @@ TEST(areas_are_counts_of_points) {
     riis_surface_options options = surface_options();
     options.triangulation = trial % 2 ? RIIS_TRIANGULATION_FIXED : RIIS_TRIANGULATION_ADAPTED;
     riis_valve *valve = valve_at(kind, between(0.3, 1));
-    /* Rays in gaps between cusps would see nothing. */
+    /* Rays through gaps between cusps would meet nothing. */
     if (kind == 0) CHECK_OK(riis_valve_unset(valve, "leaflet_angle"));
     const riis_surface *surface = new_surface(valve, &options);
     const riis_resistance how = resistance(between(0.03, 0.2), trial % 2 ? RIIS_RIM_CUT : RIIS_RIM_ROUND);
@@ -95,7 +95,7 @@ TEST(areas_are_counts_of_points) {
     int n_uncovered = 0, n_far = 0, n_inside = 0;
     for (int i = 0; i < n_side * n_side; ++i) {
       const double x = (2 * (i % n_side) + 1.0) / n_side - 1, y = (2 * (i / n_side) + 1.0) / n_side - 1;
-      /* The points are turned, so that no straight edge is parallel to their rows. */
+      /* The rows of points are turned, so that no straight edge is parallel to them. */
       const double p[2] = {sqrt(2) * around.reach * (0.8 * x - 0.6 * y), sqrt(2) * around.reach * (0.6 * x + 0.8 * y)};
       if (!is_inside(&around, p[0], p[1])) continue;
       double nearest = INFINITY;
@@ -132,8 +132,8 @@ static double meets(double ax, double ay, double bx, double by) {
   return (ay >= 0) == (by >= 0) ? NAN : ax + (bx - ax) * ay / (ay - by);
 }
 
-/* Returns the area of the orifice by lines at an angle to the axes. The lengths count that lie inside the outline and under no
- * triangle. A radius of 0 stands for the attachment as the outline. */
+/* Returns the area of the orifice by lines at an angle to the axes. The parts of a line count that lie inside the outline and are
+ * not covered by a triangle. If the radius is 0, the outline is the attachment. */
 static double area_by_turned_lines(const riis_surface *surface, double radius, const double *axis) {
   enum { n_lines = 1500 };
   const double c = cos(0.37), s = sin(0.37), reach = radius > 0 ? radius : 3, spacing = 2 * reach / n_lines;
@@ -198,9 +198,9 @@ static double area_by_turned_lines(const riis_surface *surface, double radius, c
   return area;
 }
 
-/* Orifices are compared with the results of turned lines, inside the disc or the attachment. The attachment of the aortic valve
- * is no closed line. The free edges of the coapting valve reach out of the attachment. The orifices must also be those that
- * polygons gave. These were made by other programs, for valves whose axis of view is known by symmetry. */
+/* Orifices inside the disc or the attachment are compared with the results of turned lines. The attachment of the aortic valve is
+ * not a closed line. The free edges of the coapting valve extend beyond the attachment. The orifices must also equal expected
+ * numbers from polygons, which other programs made. These numbers are for valves whose axis of view follows from symmetry. */
 TEST(orifices_are_those_of_turned_lines) {
   static const double openings[] = {0, 0.25, 0.5, 0.75, 1};
   static const double by_polygons[n_kinds][5] = {{-1, -1, -1, -1, -1},
@@ -224,7 +224,7 @@ TEST(orifices_are_those_of_turned_lines) {
   }
 }
 
-/* Unequal cusps are seen along z, also where their open edges reach beyond the attachment. */
+/* Unequal cusps are seen along z. The cusps' open edges may reach beyond the attachment. */
 TEST(unequal_cusps_are_seen_along_z) {
   riis_valve *valve = new_valve("bicuspid");
   CHECK_OK(riis_valve_set_scalar(valve, "opening", 1));
@@ -248,7 +248,7 @@ TEST(perimeters_are_derivatives_of_areas) {
     const riis_resistance less = resistance((slit - step) / found.rim_reach, RIIS_RIM_ROUND),
                           more = resistance((slit + step) / found.rim_reach, RIIS_RIM_ROUND);
     const double lost = orifice_of(surface, &less).effective_area - orifice_of(surface, &more).effective_area;
-    /* Takes the mean perimeter over the step, because a slit that closes within the step loses both of its edges. */
+    /* Takes the mean perimeter over the step. A slit that closes within the step loses both of its edges. */
     enum { n_parts = 16 };
     double mean = 0;
     for (int i = 0; i <= n_parts; ++i) {
@@ -326,7 +326,7 @@ TEST(leaflets_share_the_surface) {
     CHECK_REFUSED(RIIS_INVALID_ARGUMENT, n == 2 ? "leaflet is 2|has 2" : "leaflet is 3|has 3",
                   riis_surface_get_leaflet(surface, n, &none, sizeof none));
   }
-  /* The free edge of a closed cusp of the trileaflet valve goes straight from the wall to the axis, and straight back. */
+  /* In the closed trileaflet valve, the free edge of a cusp goes straight from the wall to the axis, and straight back. */
   const riis_surface *closed = surface_of_kind("trileaflet", NULL);
   for (int i = 0; i < 3; ++i) CHECK_NEAR(leaflet_of(closed, i).free_edge, 2.5, 1e-12);
   const shape square = unit_square();
@@ -354,7 +354,7 @@ TEST(leaks_are_ideal) {
                   riis_surface_get_leak(surface, &how, 1, &flow));
     how.R = NAN;
     CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "resistance.R is nan", riis_surface_get_leak(surface, &how, 1, &flow));
-    /* With a smaller R the flow would be infinite, or NaN if there is no drop. */
+    /* With a smaller R the flow would be infinite. Without a pressure drop the flow would be NaN. */
     how.R = 1e-61;
     CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "resistance.R is 1e-61", riis_surface_get_leak(surface, &how, 0, &flow));
     how.R = 1e-60, how.half_thickness = 1e50;
@@ -403,7 +403,7 @@ TEST(wrong_calls_are_refused) {
   CHECK_OK(riis_surface_get_orifice(surface, NULL, &orifice, sizeof orifice));
   assert_int_equal(orifice.outline, RIIS_OUTLINE_BOUNDARY);
 
-  /* A single patch covers the inside of its own outline. */
+  /* A single patch covers the whole inside of its outline. */
   const shape square = unit_square();
   const riis_orifice whole = orifice_of(surface_of(&square, NULL), NULL);
   assert_int_equal(whole.outline, RIIS_OUTLINE_ATTACHMENT);
@@ -412,8 +412,8 @@ TEST(wrong_calls_are_refused) {
   CHECK_NEAR(fabs(whole.axis[2]), 1, 1e-14);
 }
 
-/* Two patches hang on arches in a plane through the z axis. Seen along z the arches enclose nothing, so the axis turns until the
- * farthest edges surround an area. */
+/* Two patches hang on arches in a plane through the z axis. Seen along z, the arches enclose no area. The axis therefore turns
+ * until the farthest edges surround an area. */
 TEST(outlines_need_not_be_seen_along_z) {
   shape wings = {0};
   for (int side = -1; side <= 1; side += 2) {

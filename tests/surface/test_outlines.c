@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests the orifice and the free edges of surfaces from arrays and keyframes, and the coaptation of leaflets. The expected
- * values come from closed forms, and from valves with the same surfaces. */
+ * Tests the orifice and the free edges of surfaces from arrays and keyframes, and the coaptation of leaflets. The expected values
+ * come from closed forms, and from valves with equal surfaces. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -42,7 +42,7 @@ static riis_surface_options oblique(void) {
   return options;
 }
 
-/* Makes a surface from arrays that has the triangles and the leaflets of another surface. */
+/* Makes a surface from arrays of the triangles and the leaflets of another surface. */
 static riis_surface *as_arrays(const riis_surface *surface, const riis_surface_options *options) {
   const riis_triangles all = triangles_of(surface);
   int32_t *ids = own(malloc((size_t)all.n_triangles * 3 * sizeof *ids));
@@ -57,8 +57,8 @@ static double edge_length(const double *edge) {
 }
 
 /* Returns the area that the attachment encloses, seen along z. The area is the sum of the triangles between the axis and each
- * edge. It sums absolute values, because the edges of mirrored halves run in opposite directions. The sum is right if
- * each ray from the axis meets the attachment once. */
+ * edge. The sum uses absolute values, because the edges of mirrored halves run in opposite directions. The sum is right if each
+ * ray from the axis meets the attachment once. */
 static double area_of_attachment(const riis_surface *surface) {
   riis_attachment held;
   CHECK_OK(riis_surface_get_attachment(surface, &held, sizeof held));
@@ -85,8 +85,8 @@ static double length_of_commissure(const riis_surface *surface) {
   return length;
 }
 
-/* A valve's triangles, given as arrays, have the valve's free edges. Patches have vertices inside the edges of their neighbours,
- * and these edges do not count as boundary. The attachment is the outline. */
+/* Arrays of a valve's triangles have the valve's free edges. A patch may have vertices inside the edges of its neighbours. Such
+ * edges do not count as boundary. The attachment is the outline. */
 TEST(arrays_have_the_edges_of_their_valve) {
   static const char *const kinds[3] = {"trileaflet", "aortic", "mitral"};
   for (int trial = 0; trial < trials_of(36); ++trial) {
@@ -105,8 +105,8 @@ TEST(arrays_have_the_edges_of_their_valve) {
     CHECK_OK(riis_surface_get_n_leaflets(surface, &n));
     assert_int_equal(n, kind == 2 ? 2 : 3);
     if (kind == 1) {
-      /* The paper's cusps are not joined at the commissures. Each cusp therefore has its own boundary, and one of these is the
-       * outline. */
+      /* The paper's cusps are not joined at the commissures. Each cusp therefore has a separate boundary. One of these boundaries
+       * is the outline. */
       assert_int_equal(orifice_of(surface).outline, RIIS_OUTLINE_BOUNDARY);
       free_owned_after(owned_before);
       continue;
@@ -121,7 +121,8 @@ TEST(arrays_have_the_edges_of_their_valve) {
     double opening;
     CHECK_OK(riis_valve_get(valve, "opening", 1, &opening));
     if (kind == 2 && opening == 1) {
-      /* The annulus of the open mitral valve is flat, so the axis is the valve's axis. Normals point down into the ventricle. */
+      /* The annulus of the open mitral valve is flat, so the axis is the valve's axis. The normals point down into the
+       * ventricle. */
       CHECK_NEAR(found.outline_area, s * s * of_valve.outline_area, 1e-3 * s * s * of_valve.outline_area);
       CHECK_NEAR(found.area, s * s * of_valve.area, 1e-3 * s * s * of_valve.outline_area);
       const riis_orifice there = orifice_of(new_surface(valve, &placed));
@@ -135,7 +136,7 @@ TEST(arrays_have_the_edges_of_their_valve) {
 
 enum { n_round = 400, n_rings = 4 };
 
-/* Makes a band of a sphere between two heights, in leaflets by quadrants. Its outline is the wider circle. */
+/* Makes a band of a sphere between two heights. Each quadrant is a leaflet. The wider circle is the outline. */
 static riis_surface *band(double low, double high, const riis_surface_options *options) {
   static double xyz[3 * n_round * n_rings];
   static int32_t ids[6 * n_round * (n_rings - 1)];
@@ -167,7 +168,7 @@ TEST(bands_have_the_orifice_of_their_narrow_end) {
     CHECK_NEAR(found.area, pi * hole * s * s, 1e-3 * s * s);
     CHECK_NEAR(found.radius, 0, 0);
     CHECK_NEAR(leaflet_of(surface, 0).free_edge, 2 * pi * sqrt(hole) * s, 1e-4 * s);
-    /* The axis points to the side to which the normals point. */
+    /* The axis points to the side of the normals. */
     riis_surface_options turned = options;
     const riis_orifice z = orifice_of(surface_of_kind("trileaflet", (turned.flip_normals = 0, &turned)));
     for (int c = 0; c < 3; ++c) CHECK_NEAR(found.axis[c], (options.flip_normals ? -1 : 1) * z.axis[c], 1e-9);
@@ -182,7 +183,7 @@ TEST(bands_have_the_orifice_of_their_narrow_end) {
   CHECK_NEAR(none.area + none.outline_area + none.perimeter + none.effective_area, 0, 0);
 }
 
-/* Keyframes give the same numbers as arrays with the same vertices. */
+/* Keyframes give the numbers that arrays with the same vertices give. */
 TEST(keyframes_have_the_orifice_of_their_arrays) {
   riis_valve *valve = new_valve("mitral");
   riis_surface_options options = surface_options();
@@ -220,7 +221,7 @@ TEST(keyframes_have_the_orifice_of_their_arrays) {
              leaflet_of(surface, 0).free_edge + 2 * length_of_commissure(surface), 1e-9);
 }
 
-/* Makes two rectangles of 1 by w as leaflets 0 and 1. The second is turned about the y axis, then shifted. */
+/* Makes two rectangles of 1 by w as leaflets 0 and 1. The second rectangle is turned about the y axis, then shifted. */
 static riis_surface *plates(double w, double turn, double x, double z, const riis_surface_options *options) {
   double xyz[24];
   for (int i = 0; i < 8; ++i) {
@@ -238,7 +239,7 @@ TEST(contacts_have_known_areas) {
   for (int trial = 0; trial < trials_of(6); ++trial) {
     const riis_surface_options options = oblique();
     const double s = options.scale, reach = between(0.05, 0.2), w = between(1, 2);
-    /* Parallel plates touch over their overlap, widened by sqrt(reach^2 - distance^2). */
+    /* Parallel plates touch in their overlap, which is widened by sqrt(reach^2 - distance^2). */
     const double apart = between(0, 0.8) * reach, shift = between(0.3, 0.6);
     const riis_surface *parallel = plates(w, 0, shift, apart, &options);
     const double wide = w - shift + sqrt(reach * reach - apart * apart);
@@ -249,14 +250,14 @@ TEST(contacts_have_known_areas) {
                  2e-3 * s * s * reach * 4);
     const riis_coaptation none = coaptation_of(parallel, s * apart * 0.7 + 1e-9 * s, RIIS_ALL_LEAFLETS);
     CHECK_NEAR(none.area + none.edge, 0, 0);
-    /* A reach far below the plates' size costs no more work. The plates overlap over a strip, because the whole overlap is
+    /* A reach far below the plates' size costs no additional work. The plates overlap in a strip, because the whole overlap is
      * divided into small parts. */
     const double strip = 0.15;
     const riis_surface *nearby = plates(w, 0, w - strip, 2e-6, &options);
     CHECK_NEAR(coaptation_of(nearby, s * 1e-6, RIIS_ALL_LEAFLETS).area, 0, 0);
     CHECK_NEAR(coaptation_of(nearby, s * 4e-6, 0).area, s * s * strip, 5e-3 * s * s);
-    /* Two plates that share an edge touch over a strip along the edge. The strip's width is the reach over the sine of their
-     * angle. */
+    /* Two plates that share an edge touch in a strip along this edge. The strip's width is the reach divided by the sine of the
+     * plates' angle. */
     const double angle = between(0.3, 1.2);
     const riis_surface *hinge = plates(w, angle, 0, 0, &options);
     const riis_coaptation found = coaptation_of(hinge, s * reach, 0);
@@ -265,8 +266,8 @@ TEST(contacts_have_known_areas) {
   }
 }
 
-/* Closed trileaflet cusps touch along all of their free edges. Open cusps touch only near the commissures. A skirt and a
- * housing touch nothing. */
+/* Closed trileaflet cusps touch along their whole free edges. Open cusps touch only near the commissures. Skirts and housings do
+ * not count as touching. */
 TEST(closed_leaflets_touch_along_their_free_edges) {
   for (int trial = 0; trial < 2; ++trial) {
     riis_valve *valve = new_valve("trileaflet");

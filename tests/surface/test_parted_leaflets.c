@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests orifices of surfaces from arrays whose leaflets do not touch at the commissures. A valve and the arrays of its triangles
- * must have one orifice. If the leaflets shrink, a raster counts the projected opening inside the outline before they shrank. */
+ * Tests orifices of surfaces from arrays whose leaflets do not touch at the commissures. A valve and arrays of its triangles must
+ * have equal orifices. After the leaflets shrink, a raster counts the projected opening inside the earlier outline. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -25,7 +25,7 @@ typedef struct soup {
   int32_t *ids, *leaflet;
 } soup;
 
-/* Copies the triangles of a surface. Vertices that two leaflets share are doubled, so that leaflets can move apart. */
+/* Copies the triangles of a surface. Vertices that two leaflets share are doubled, so that the leaflets can move apart. */
 static soup copy_of(const riis_surface *surface) {
   const riis_triangles all = triangles_of(surface);
   enum { n_leaflets = 3 };
@@ -43,7 +43,7 @@ static soup copy_of(const riis_surface *surface) {
   return made;
 }
 
-/* Moves each leaflet's vertices towards the centroid of the leaflet, by a share of the distance. */
+/* Moves each leaflet's vertices towards its centroid, by a share of the distance. */
 static void shrink(soup *of, double share) {
   for (int32_t leaflet = 0; leaflet < 3; ++leaflet) {
     double whole = 0, centroid[3] = {0, 0, 0};
@@ -65,7 +65,7 @@ static void shrink(soup *of, double share) {
   }
 }
 
-/* Turns over a part of the triangles: none, all, those of one leaflet, or about half. */
+/* Reverses a part of the triangles: none, all, those of one leaflet, or about half. */
 enum { n_turnings = 4 };
 static void turn_over(soup *of, int turning) {
   for (int64_t i = 0; i < of->n_triangles; ++i) {
@@ -87,7 +87,7 @@ static riis_surface *surface_of_soup(const soup *from, int has_leaflets, const r
 
 enum { n_side = 600 };
 
-/* Returns the area inside the outline that no triangle covers, by the middles of square cells. */
+/* Returns the area inside the outline that no triangle covers. The area is counted by the centres of square cells. */
 static double open_area(const soup *of, const frame *seen, const outline *inside) {
   char *is_covered = calloc((size_t)n_side * n_side, 1);
   const double cell = 2 * inside->reach / n_side;
@@ -134,8 +134,8 @@ static riis_valve *valve_at(int kind, double opening) {
 static void check_sample(int kind, int opening, int share, int how) {
   static const double shares[n_shares] = {0, 0.002, 0.01, 0.03};
   const int owned_before = n_owned();
-  /* If triangles are turned over one by one, edges inside leaflets stay open, and the axis is less exact. The free edges of the
-   * open coapting valve reach as far out as its attachment, so this axis would then turn away. */
+  /* If single triangles are reversed, edges inside leaflets stay open, and the axis is less exact. The free edges of the open
+   * coapting valve reach as far out as its attachment. The axis of reversed triangles would then turn away. */
   const int turning = kind == 3 && opening + 1 == n_openings ? how % n_turnings % 3 : how % n_turnings;
   const double most = orifice_of(new_surface(valve_at(kind, 1), NULL)).area;
   riis_surface_options options = surface_options(), placed = surface_options();
@@ -174,7 +174,7 @@ TEST(leaflets_that_do_not_touch_have_an_orifice) {
     check_sample(i % n_kinds, i / n_kinds % n_openings, i / (n_kinds * n_openings) % n_shares, (int)between(0, 8));
 }
 
-/* A file of rigid leaflets has no disc of the housing. */
+/* A file with rigid leaflets does not have the disc of the housing. */
 TEST(rigid_leaflets_lack_their_disc) {
   riis_valve *valve = new_valve("bileaflet");
   CHECK_OK(riis_valve_set_scalar(valve, "opening", 1));
@@ -184,7 +184,7 @@ TEST(rigid_leaflets_lack_their_disc) {
   assert_int_equal(orifice_of(surface_of_soup(&leaflets, 1, NULL)).outline, RIIS_OUTLINE_BOUNDARY);
 }
 
-/* Makes a tube around the z axis, from -length / 2 to length / 2. Its triangles run round as random numbers say. */
+/* Makes a tube around the z axis, from -length / 2 to length / 2. The winding of each triangle is random. */
 static riis_surface *tube_of(double radius, double length, const riis_surface_options *placed) {
   enum { n_round = 512 };
   const double pi = 3.14159265358979323846;
@@ -201,7 +201,7 @@ static riis_surface *tube_of(double radius, double length, const riis_surface_op
   return surface_from(&arrays, placed);
 }
 
-/* A ring or a tube with the radius of the housing stands for the disc that a file of rigid leaflets lacks. */
+/* A file of rigid leaflets lacks the housing's disc. A ring or a tube of the housing's radius stands for this disc. */
 TEST(a_wall_bounds_the_orifice_of_rigid_leaflets) {
   riis_valve *valve = new_valve("bileaflet");
   CHECK_OK(riis_valve_set_scalar(valve, "opening", 1));
@@ -227,7 +227,7 @@ TEST(a_wall_bounds_the_orifice_of_rigid_leaflets) {
     assert_int_equal(found.outline, RIIS_OUTLINE_WALL);
     CHECK_NEAR(found.area / (s * s), expected.area, 0.005 * most);
     CHECK_NEAR(found.outline_area / (s * s), expected.outline_area, 1e-3 * expected.outline_area);
-    /* The axis of a valve has the side of its z axis. */
+    /* The axis of view points to the side of the valve's z axis. */
     placed.half_thickness = 0.1 * s;
     CHECK_OK(riis_surface_get_orifice_in_wall(new_surface(valve, &placed), wall, NULL, &of_closed, sizeof of_closed));
     CHECK_NEAR(of_closed.area, found.area, 0.005 * most * s * s);

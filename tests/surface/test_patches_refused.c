@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests every refusal of valves from the caller's patches by status and message. */
+ * Tests each refusal of a valve from the caller's patches, by status and message. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -88,7 +88,7 @@ TEST(curves_are_checked) {
   CHANGED_IS_REFUSED(square.degree[2] = 4, RIIS_INVALID_PARAMETER, "degree of curve 2 is 4;");
   CHANGED_IS_REFUSED(square.degree[0] = -1, RIIS_INVALID_PARAMETER, "degree of curve 0 is -1;");
   CHANGED_IS_REFUSED(square.degree[3] = INT32_MAX, RIIS_INVALID_PARAMETER, "degree of curve 3 is 2147483647;");
-  /* These arrays have six numbers for each straight line. */
+  /* These arrays have six numbers for each straight curve. */
   CHANGED_IS_REFUSED(arrays.control[23] = NAN, RIIS_INVALID_PARAMETER,
                      "z of control point 1 of curve 3 is nan;|at most 1e+30");
   CHANGED_IS_REFUSED(arrays.control[0] = -INFINITY, RIIS_INVALID_PARAMETER, "x of control point 0 of curve 0 is -inf;");
@@ -131,7 +131,7 @@ TEST(sides_have_to_meet) {
                      "side v = 1 ends in (1, 1, 0), side u = 1 ends in (3, 1, 0)");
   CHANGED_IS_REFUSED(square.reversed[1] = 1, RIIS_INVALID_PARAMETER,
                      "side v = 1 begins in (1, 1, 0), side u = 0 ends in (0, 1, 0)");
-  /* A gap of up to 1e-9 of the valve's size, which is sqrt(2) here, counts as rounding by the caller. */
+  /* A gap of up to 1e-9 of the valve's size counts as rounding by the caller. The size is sqrt(2) here. */
   CHANGED_IS_REFUSED(arrays.control[5] = 2e-9, RIIS_INVALID_PARAMETER, "patch 0 does not close");
   shape nearly = unit_square();
   nearly.control[0][1][2] = 1e-9;

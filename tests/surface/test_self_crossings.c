@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Pairs of a surface's triangles that go through each other are compared with a check of all pairs in extended precision.
- * Triangles are in general position, touch in every way, lie in one plane, or go through each other by a given depth.
- * RIIS_TEST_LONG=1 tries fifty times as many. */
+ * A search finds the pairs of a surface's triangles that go through each other. The search is compared with a check of all pairs
+ * in extended precision. Triangles are in general position, touch in every way, lie in one plane, or go through each other by a
+ * given depth. RIIS_TEST_LONG=1 tries fifty times as many. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -31,7 +31,7 @@ static int has_area(const double *t) {
   return n[0] * n[0] + n[1] * n[1] + n[2] * n[2] > 1e-12;
 }
 
-/* Adds a triangle with its own vertices, unless it has hardly any area. */
+/* Adds a triangle with separate vertices. A triangle with hardly any area is left out. */
 static void add_triangle(soup *s, const double *t, int32_t leaflet_id) {
   if (!has_area(t)) return;
   memcpy(s->xyz + 3 * s->n_vertices, t, 9 * sizeof *t);
@@ -58,7 +58,7 @@ static void add_random(soup *s) {
   }
 }
 
-/* Triangles with small whole coordinates share corners and sides, lie in common planes, and cross exactly there. */
+/* Triangles have small whole coordinates, so they share corners and sides, lie in common planes, and cross exactly there. */
 static void add_whole_numbers(soup *s) {
   const int64_t largest = random_integer(1, 4);
   const int in_plane = one_in(3);
@@ -75,7 +75,7 @@ static void point_of(const double *t, int kind, double *point) {
   for (int i = 0; i < 3; ++i) point[i] = t[i] + u * (t[3 + i] - t[i]) + v * (t[6 + i] - t[i]);
 }
 
-/* The second triangle has a corner, or the middle of a side, on the first triangle, up to a shift of any size. */
+/* A corner or the middle of a side of the second triangle lies on the first triangle, up to a shift of any size. */
 static void add_touching(soup *s) {
   double t[9], other[9], point[3];
   for (int k = 0; k < 8; ++k) {
@@ -86,7 +86,7 @@ static void add_touching(soup *s) {
     const double shift = one_in(2) ? 0 : ldexp(random_between(&rng, -1, 1), -(int)random_integer(2, 50));
     for (int i = 0; i < 3; ++i) {
       other[i] = point[i] + shift;
-      /* Mirrors the corner on some axes only, so that the triangles are only near each other. */
+      /* Mirrors the corner on some axes only. The triangles are then only near each other. */
       if (one_in(3) && k % 2) other[i] = 2 * point[i] - other[3 + i];
     }
     if (k % 4 == 0)
@@ -110,7 +110,7 @@ static void add_in_plane(soup *s) {
   }
 }
 
-/* A wavy sheet. Each triangle has its own vertices, or neighbours share them. */
+/* A wavy sheet. Triangles have separate vertices, or share the vertices of their neighbours. */
 static void add_sheet(soup *s, int side, int32_t leaflet_id, int shares) {
   const double height = random_between(&rng, -0.1, 0.1), tilt = random_between(&rng, -0.5, 0.5);
   const int64_t first = s->n_vertices;
@@ -143,7 +143,7 @@ static void add_sheets(soup *s) {
   for (int32_t k = 0; k < 2; ++k) add_sheet(s, side, one_in(3) ? 0 : k, shares);
 }
 
-/* Changes the soup's unit and position. */
+/* Changes the unit and the position of the triangles. */
 static void move(soup *s) {
   const double unit = ldexp(1, (int)random_integer(-120, 120)), far = one_in(2) ? 0 : random_between(&rng, -50, 50);
   for (int64_t i = 0; i < 3 * s->n_vertices; ++i) s->xyz[i] = unit * (s->xyz[i] + far);
@@ -157,7 +157,8 @@ static riis_surface *surface_of_soup(const soup *s, double half_thickness) {
   return surface_from(&arrays, &options);
 }
 
-/* Returns the crossings. The list's arrays live as long as the test. If the test passes `crossings`, its memory is reused. */
+/* Returns the crossings. The list's arrays live as long as the test. If the caller passes `crossings`, the call reuses the memory
+ * of this list. */
 static riis_crossing_list crossings_in(const riis_surface *surface, double depth, int32_t n_threads,
                                        riis_crossings *crossings) {
   riis_crossing_options options;
@@ -208,14 +209,14 @@ typedef struct tally {
   int64_t n_crossing, n_touching, n_undecided;
 } tally;
 
-/* Checks the numbers of a pair. */
+/* Checks the numbers that are reported for a pair. */
 static void check_pair(const riis_crossing_list *pairs, int64_t at, const double *a, const double *b, double depth,
                        double largest) {
   const double longest = fmax(longest_edge(a), longest_edge(b));
   double middle[3];
   const double length = oracle_segment(a, b, middle);
   CHECK_NEAR(pairs->depth[at], depth, 0x1p-24 * longest + 0x1p-48 * largest);
-  /* The angle between the planes is at least depth / longest. The segment is ill-conditioned by this ratio. */
+  /* The angle between the planes is at least depth / longest. The smaller this ratio, the less exact is the segment. */
   const double error = 0x1p-44 * (longest + largest) * longest / depth;
   CHECK_NEAR(pairs->length[at], length, error);
   for (int i = 0; i < 3; ++i) CHECK_NEAR(pairs->point[3 * at + i], middle[i], error);
@@ -307,8 +308,7 @@ TEST(pairs_equal_those_of_all_triangles) {
     print_message("kind %d: %lld cross, %lld touch, %lld are too close to call\n", kind,
                   (long long)tallies[kind].n_crossing, (long long)tallies[kind].n_touching,
                   (long long)tallies[kind].n_undecided);
-    /* Of all kinds of triangles, random ones have the fewest crossing pairs: 157 in 100 trials, and 85 with the worst of 81
-     * seeds. */
+    /* Random triangles have the fewest crossing pairs of all kinds: 157 in 100 trials, and 85 with the worst of 81 seeds. */
     if (kinds[kind] == add_in_plane)
       assert_int_equal(tallies[kind].n_crossing, 0);
     else
@@ -317,7 +317,7 @@ TEST(pairs_equal_those_of_all_triangles) {
   }
 }
 
-/* There are so many groups of triangles that threads share the work, and the tree of boxes has several levels. */
+/* There are so many groups of triangles that threads share the work. The tree of boxes has several levels. */
 static int same_summary(const riis_crossing_list *a, const riis_crossing_list *b) {
   const size_t from = offsetof(riis_crossing_list, total_length), to = offsetof(riis_crossing_list, seconds);
   return a->n_pairs == b->n_pairs && memcmp((const char *)a + from, (const char *)b + from, to - from) == 0;
@@ -345,9 +345,9 @@ TEST(threads_find_the_same) {
   }
 }
 
-/* Unit squares at right angles cross along a segment of a whole side's length. Each triangle of one square crosses one triangle
- * of the other. The shortest way to separate two triangles is to move a corner across the other triangle's diagonal: half a side
- * times sin 45 degrees. */
+/* Two unit squares at right angles cross along a segment as long as a side. Each triangle of one square crosses one triangle of
+ * the other square. The shortest way to separate two triangles moves a corner across the other triangle's diagonal. The length of
+ * this way is half a side times sin 45 degrees. */
 TEST(unit_squares_cross_along_one_unit) {
   const double xyz[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0.5, 0, -0.5, 0.5, 1, -0.5, 0.5, 1, 0.5, 0.5, 0, 0.5};
   const int32_t ids[] = {0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7};
@@ -462,8 +462,8 @@ TEST(valves_do_not_cross) {
   }
 }
 
-/* The closed leaflets of the mitral valve touch. Fixed triangles of such leaflets may cross by twice the error bound. The depth
- * at opening 0 is printed, for docs/theory/crossings.md. */
+/* The closed leaflets of the mitral valve touch. Fixed triangles of closed leaflets may cross by twice the error bound. The test
+ * prints the depth at opening 0 for docs/theory/crossings.md. */
 TEST(fixed_triangles_cross_within_their_error) {
   riis_surface_options options = surface_options();
   options.triangulation = RIIS_TRIANGULATION_FIXED;
@@ -486,8 +486,7 @@ TEST(fixed_triangles_cross_within_their_error) {
   }
 }
 
-/* A cusp that is turned by 60 degrees goes through its neighbours. Other methods of measuring distances use the same
- * triangles. */
+/* A cusp that is turned by 60 degrees goes through its neighbours. All methods of measuring distances use these triangles. */
 TEST(a_turned_cusp_crosses) {
   riis_valve *valve = new_valve("aortic");
   const double turned[3] = {0, 0, 60};

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Sizes by a surgeon's names, and parameters that follow from others unless they are set (docs/theory/sizes.md). Random
- * calls are compared with a model of the rules. The last tests look for crossings of random valves; RIIS_TEST_LONG=1 tries as
- * many as docs/theory/sizes.md states. */
+ * Tests sizes with a surgeon's names, and parameters that follow from others until they are set (docs/theory/sizes.md). Random
+ * calls are compared with a model of the rules. The last tests look for crossings of random valves. RIIS_TEST_LONG=1 tries as
+ * many valves as docs/theory/sizes.md states. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -52,7 +52,7 @@ static riis_valve *copy_of(const riis_valve *valve) {
 
 enum { max_parameters = 128 };
 
-/* The values that were set, from which the expected values of a valve follow. */
+/* The values that were set. The expected values of a valve follow from the values that were set. */
 typedef struct model {
   const char *kind;
   int64_t n;
@@ -90,8 +90,8 @@ static const char *of_cusp(int cusp, const char *name) {
   return made;
 }
 
-/* Returns the exponent p for which the profile x = in + (end - in) (y / y_end)^p points at the axis at its end. For this p, p
- * (end - in) is end. The sizes are the radii in and out, and the angle. */
+/* Returns the exponent p with which the profile x = in + (end - in) (y / y_end)^p ends towards the axis. For this exponent, p
+ * (end - in) equals end. The sizes are the radii `in` and `end`, and the angle. */
 static double largest_power(const double *sizes) {
   const double end = sizes[1] * cos(sizes[2] * acos(-1) / 180);
   return end > sizes[0] ? end / (end - sizes[0]) : INFINITY;
@@ -99,14 +99,14 @@ static double largest_power(const double *sizes) {
 
 static double first_expected(const model *of, const char *name) { return expected(of, position_in(of, name))[0]; }
 
-/* Writes the value by the parameter's rule. Returns 0 if the parameter has no rule. */
+/* Writes the value that the parameter's rule gives. Returns 0 if the parameter has no rule. */
 static int rule_value(const model *of, const char *name, double *value) {
   value[0] = value[1] = value[2] = 0;
   if (strcmp(of->kind, "aortic") == 0) {
     for (int k = 0; k < 3; ++k) {
       if (strcmp(name, of_cusp(k, "leaflet_power")) != 0) continue;
-      /* Limits the exponent to the largest exponent whose profile is no steeper at its end than the plane there. The
-       * exponents of the paper are lowered in the same proportion. */
+      /* Limits the exponent so that the profile's end is at most as steep as the plane there. The exponents of the paper are
+       * lowered in proportion. */
       static const double paper[3][4] = {{0.24, 1.365, 61, 1.58}, {0.49, 1.495, 58.5, 2.77}, {0.2, 1.38, 60.5, 1.19}};
       const double now[3] = {first_expected(of, of_cusp(k, "leaflet_radius_in")),
                              first_expected(of, of_cusp(k, "leaflet_radius_out")),
@@ -117,7 +117,7 @@ static int rule_value(const model *of, const char *name, double *value) {
     }
     const int is_left = strcmp(name, "left.rotation") == 0;
     if (!is_left && strcmp(name, "non_coronary.rotation") != 0) return 0;
-    /* Round the axis, the cusps and three equal gaps take 360 degrees. */
+    /* Together, the cusps and three equal gaps take 360 degrees round the axis. */
     const double right = first_expected(of, "right.leaflet_angle"), left = first_expected(of, "left.leaflet_angle"),
                  non_coronary = first_expected(of, "non_coronary.leaflet_angle"),
                  gap = (360 - 2 * right - 2 * left - 2 * non_coronary) / 3;
@@ -147,7 +147,7 @@ static const double *expected(const model *of, int64_t id) {
   return memcpy(value, of->parameters[id].default_values, 3 * sizeof *value);
 }
 
-/* Compares every parameter of the valve. Values that follow a rule may differ by rounding, because the model has other
+/* Compares every parameter of the valve. Values that follow a rule may differ by rounding, because the model uses other
  * formulas. */
 static void check_is_as(const riis_valve *valve, const model *of) {
   for (int64_t i = 0; i < of->n; ++i) {
@@ -160,7 +160,7 @@ static void check_is_as(const riis_valve *valve, const model *of) {
   }
 }
 
-/* A call that sets a parameter, by one of its names. */
+/* A call that sets a parameter by one of its names. */
 typedef struct setting {
   int64_t id;
   char name[80];
@@ -202,7 +202,7 @@ static const char *const kinds[] = {"trileaflet", "aortic", "mitral", "bileaflet
 
 /* --- Rules -------------------------------------------------------------------------------------------------------------- */
 
-/* If nothing is set, or if the defaults are set, all values have the bits of the defaults. */
+/* If the caller sets nothing or sets the defaults, all values have the bits of the defaults. */
 TEST(rules_give_the_defaults) {
   for (int k = 0; k < 4; ++k) {
     const model of = new_model(kinds[k]);
@@ -286,7 +286,7 @@ TEST(order_does_not_matter) {
   assert_true(n_surfaces > 40);
 }
 
-/* Values are set, unset and set for all cusps. The valve is copied. A failed call changes nothing. */
+/* Values are set, unset, and set for all cusps. The valve is copied. A failed call changes nothing. */
 TEST(random_calls_are_as_the_model) {
   for (int trial = 0; trial < 40; ++trial) {
     const int owned_before = n_owned();
@@ -330,7 +330,7 @@ TEST(random_calls_are_as_the_model) {
   }
 }
 
-/* A valve that was given all values of another valve has its shape, but its parameters no longer follow rules. */
+/* A valve that gets all values of another valve has the other's shape. The valve's parameters no longer follow rules. */
 TEST(all_values_are_set_when_read_back) {
   riis_valve *valve = new_valve("trileaflet"), *back = new_valve("trileaflet");
   CHECK_OK(riis_valve_set_scalar(valve, "annulus", 2.3));
@@ -354,7 +354,7 @@ TEST(all_values_are_set_when_read_back) {
   CHECK_SAME(value_of(back, "bending_height"), value_of(valve, "bending_height"));
 }
 
-/* An open state keeps the values that its rules gave at the call, as if all values were set. */
+/* An open state keeps the values that its rules gave during the call, as if the caller had set all values. */
 TEST(open_states_follow_their_own_rules) {
   riis_valve *valves[2], *open = new_valve("trileaflet"), *all_set = new_valve("trileaflet");
   CHECK_OK(riis_valve_set_scalar(open, "annulus", 2.6));
@@ -521,7 +521,7 @@ TEST(other_refusals) {
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "in the open state: bending_radius_out was not set and is",
                 riis_surface_create(valve, NULL, &surface));
   assert_null(surface);
-  /* A caller that was compiled before the fields existed gets none of them. */
+  /* A caller that was compiled before the fields existed gets no new field. */
   riis_parameter parameter;
   memset(&parameter, 0x5a, sizeof parameter);
   const riis_parameter before = parameter;
@@ -538,7 +538,7 @@ typedef struct crossing {
   int32_t patches[2];
 } crossing;
 
-/* Of the openings 0, 0.1, ..., 1, takes the one with the most crossings, and returns these. */
+/* Returns the crossings of the opening with the most crossings, out of 0, 0.1, ..., 1. */
 static crossing worst_crossing(riis_valve *valve, const riis_surface_options *options) {
   crossing worst = {0};
   riis_crossings *crossings = NULL;
@@ -562,8 +562,8 @@ static crossing worst_crossing(riis_valve *valve, const riis_surface_options *op
   return worst;
 }
 
-/* The ranges contain the sizes of all sources in docs/theory/trileaflet.md. Half of the valves are placed obliquely, in another
- * unit. */
+/* The ranges contain the sizes of all sources in docs/theory/trileaflet.md. Half of the valves are placed obliquely and have
+ * another unit. */
 TEST(trileaflet_cusps_do_not_cross) {
   const int n = trials(10, 350);
   int n_crossing = 0;
@@ -593,7 +593,7 @@ TEST(trileaflet_cusps_do_not_cross) {
   assert_int_equal(n_crossing, 0);
 }
 
-/* If sizes do not follow rules, as in earlier versions, a tall valve crosses. This shows that the search finds crossings. */
+/* If the sizes do not follow rules, a tall valve crosses. Such a valve shows that the search finds crossings. */
 TEST(sizes_that_do_not_follow_cross) {
   riis_valve *valve = new_valve("trileaflet");
   CHECK_OK(riis_valve_set_scalar(valve, "leaflet_height", 1.3));
@@ -602,7 +602,7 @@ TEST(sizes_that_do_not_follow_cross) {
   assert_true(worst_crossing(valve, NULL).n_pairs > 0);
 }
 
-/* How the exponents of the free edges are chosen. */
+/* The ways to choose the exponents of the free edges. */
 enum { follows, bounded, any_power };
 static const char *const power_names[] = {"not set", "at most the bound", "any"};
 
@@ -612,7 +612,7 @@ static double bound_of_power(const riis_valve *valve, int k) {
                                         value_of(valve, of_cusp(k, "leaflet_angle"))});
 }
 
-/* Every size, angle and exponent of an aortic valve varies by that share. The sum of the angles stays 180. */
+/* Every size, angle and exponent of an aortic valve varies by this share. The sum of the angles stays 180 degrees. */
 static riis_valve *random_aortic(double share, int power) {
   riis_valve *valve = new_valve("aortic");
   double sum = 0;
@@ -645,8 +645,8 @@ static int power_is_above(const riis_valve *valve) {
   return is_above;
 }
 
-/* Writes points of a cusp's closed free edge. The first coordinate is along the plane through the axis and the commissure,
- * and the second is the distance beyond this plane. Both halves of the edge have the same coordinates. */
+/* Writes points of a cusp's closed free edge. The first coordinate lies along the plane through the axis and the commissure. The
+ * second coordinate is the distance beyond this plane. Both halves of the edge have the same coordinates. */
 enum { n_edge_points = 300 };
 static void free_edge(const riis_valve *valve, int k, double (*points)[2]) {
   double starts[3], ends[3];
@@ -673,7 +673,8 @@ static double turn_of(const double *a, const double *b, const double *c) {
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
-/* Returns whether the closed free edges of two neighbours go through each other. They lie in one plane. */
+/* Returns whether the closed free edges of two neighbours go through each other. The edges of both neighbours lie in one
+ * plane. */
 static int free_edges_meet(const riis_valve *valve) {
   static double points[3][n_edge_points][2];
   for (int k = 0; k < 3; ++k) free_edge(valve, k, points[k]);
@@ -691,9 +692,9 @@ static int free_edges_meet(const riis_valve *valve) {
   return 0;
 }
 
-/* Returns whether a cusp's attachment turns back behind the cusp's symmetry plane near the root, in the closed or in the open
- * state. The halves of the cusp then go through each other. The attachment is a parabola through the root, where y is 0, the
- * bending curve's end at s, and the commissure at 1. So y'(0) is (y(s) - s^2 y(1)) / (s - s^2). */
+/* Returns whether a cusp's attachment turns back behind the cusp's symmetry plane near the root, in the closed or the open state.
+ * The halves of the cusp then go through each other. The attachment is a parabola through three points: the root with y = 0, the
+ * bending curve's end at s, and the commissure at 1. The parabola's slope y'(0) is therefore (y(s) - s^2 y(1)) / (s - s^2). */
 static int attachment_turns_back(const riis_valve *valve) {
   int turns_back = 0;
   const double s = value_of(valve, "bending_height") / value_of(valve, "leaflet_height"), degree = acos(-1) / 180;
@@ -709,10 +710,10 @@ static int attachment_turns_back(const riis_valve *valve) {
   return turns_back;
 }
 
-/* Returns whether the attachments of two neighbours pass each other below their commissure, in the closed state. At every height
- * both are at the same t. A cusp's distance beyond the plane through the axis and the commissure is (1 - t) (c0 + c1 t). This is
- * -R sin(a) at t = 0, and -b sin(a - a_b) at s. The sum of both distances is above 0 somewhere if the sum of both (c0 + c1) is.
- * Opening moves the attachments apart. */
+/* Returns whether the attachments of two closed neighbours pass each other below their commissure. At every height both
+ * attachments are at the same t. The distance of a cusp beyond the plane through the axis and the commissure is (1 - t) (c0 + c1
+ * t). The distance is -R sin(a) at t = 0, and -b sin(a - a_b) at s. If the sum of both (c0 + c1) is positive, the sum of both
+ * distances is positive at some height. Opening moves the attachments apart. */
 static int attachments_pass(const riis_valve *valve) {
   const double s = value_of(valve, "bending_height") / value_of(valve, "leaflet_height"), degree = acos(-1) / 180;
   double beyond[3];
@@ -725,7 +726,7 @@ static int attachments_pass(const riis_valve *valve) {
   return beyond[0] + beyond[1] > 0 || beyond[1] + beyond[2] > 0 || beyond[2] + beyond[0] > 0;
 }
 
-/* Returns whether a cusp folds near its root at an opening, tried in twentieths. Triangles may cross at the last tenth
+/* Returns whether a cusp folds near its root, at openings in steps of a twentieth. Triangles may cross at openings up to a tenth
  * before the smooth cusp folds. */
 static int cusp_folds(riis_valve *valve) {
   int folds = 0;
@@ -736,8 +737,8 @@ static int cusp_folds(riis_valve *valve) {
   return folds;
 }
 
-/* The attachment of this left cusp hardly leaves the symmetry plane at the root, but does not turn back. When the valve is open,
- * the cusp folds beside its attachment, and its finer triangles also cross. */
+/* At the root, the attachment of this left cusp hardly leaves the symmetry plane, but does not turn back. The open cusp folds
+ * beside its attachment, and even finer triangles cross. */
 TEST(an_open_cusp_may_fold) {
   static const struct {
     const char *name;
@@ -792,7 +793,7 @@ TEST(an_open_cusp_may_fold) {
   }
 }
 
-/* With these bending angles, the attachments of the right and of the left cusp pass each other, and nothing else is wrong. */
+/* With these bending angles, the attachments of the right and the left cusp pass each other. Nothing else is wrong. */
 TEST(passing_attachments_cross) {
   riis_valve *valve = new_valve("aortic");
   for (int passes = 0; passes < 2; ++passes) {
@@ -810,7 +811,7 @@ TEST(passing_attachments_cross) {
   }
 }
 
-/* Four causes explain every valve that crosses, and a valve whose leaflet_power is not set rarely has one of them. */
+/* Four causes explain every valve that crosses. If leaflet_power is not set, these causes are rare. */
 TEST(aortic_cusps_rarely_cross) {
   const int n = trials(6, 300);
   for (int power = follows; power <= any_power; ++power)
@@ -845,7 +846,7 @@ TEST(aortic_cusps_rarely_cross) {
       for (int cause = 0; cause < n_causes; ++cause)
         printf("  %s: %d valves, of which %d cross\n", causes[cause], n_with[cause], n_crossing_with[cause]);
       assert_true(n_unexplained <=
-                  (percent == 10 ? 0 : n / 100)); /* none was found; a fold may hide between openings */
+                  (percent == 10 ? 0 : n / 100)); /* no cause was found; a fold may hide between openings */
       if (is_long_test() && power != any_power && percent == 10) assert_true(20 * n_crossing <= n);
     }
 }

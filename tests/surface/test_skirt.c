@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests the skirt. Its outer edge must lie outwards from the attachment by its length, and its inner edge must lie on the
- * attachment. It must seal a gap to a wall that stays open without a skirt. The leaflets, the orifice, the swept volumes and
- * the attachment must stay the same. */
+ * Tests the skirt. The skirt's inner edge must lie on the attachment, and the outer edge must lie outwards by the skirt's length.
+ * The skirt must seal a gap to a wall that is otherwise open. The leaflets, the orifice, the swept volumes and the attachment
+ * must stay the same. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -29,7 +29,7 @@ static riis_valve *skirted_valve(int kind, double length, double opening) {
   return valve;
 }
 
-/* Sets sizes at random within a range in which no valve crosses itself. */
+/* Sets random sizes from a range in which no valve crosses itself. */
 static void set_random_sizes(riis_valve *valve, int kind) {
   if (kind == 0) CHECK_OK(riis_valve_set_scalar(valve, "leaflet_height", between(1.3, 1.6)));
   if (kind == 1) {
@@ -74,8 +74,8 @@ static double distance_to_edge(const double *p, const double *a, const double *b
   return length_of(off);
 }
 
-/* The line from which skirts lead away: the axis of the valve's frame, or for the mitral valve its parallel through the centroid
- * of the annulus. */
+/* Skirts lead away from this line, which is the axis of the valve's frame. For the mitral valve the line is parallel to this
+ * axis, through the centroid of the annulus. */
 typedef struct axis_line {
   double centre[3], direction[3];
 } axis_line;
@@ -107,7 +107,7 @@ static void outwards_from(const axis_line *axis, const double *p, double *out) {
 /* With RIIS_TEST_LONG=1 each kind of valve has both triangulations. */
 static int n_trials_of_kinds(void) { return is_long_test() ? 2 * n_skirted : n_skirted; }
 
-/* Checks the vertices of both edges of the skirt. */
+/* Checks the vertices of the skirt's inner and outer edge. */
 TEST(the_outer_edge_is_the_length_away) {
   for (int trial = 0; trial < n_trials_of_kinds(); trial += trial_step()) {
     const int owned_before = n_owned(), kind = trial % n_skirted, is_fixed = trial / n_skirted % 2;
@@ -165,7 +165,7 @@ TEST(the_outer_edge_is_the_length_away) {
   }
 }
 
-/* The skirt comes after the leaflets, which stay as they are. */
+/* The skirt's triangles follow those of the leaflets, which do not change. */
 TEST(leaflets_stay_as_they_are) {
   for (int trial = 0; trial < n_trials_of_kinds(); trial += trial_step()) {
     const int owned_before = n_owned(), kind = trial % n_skirted;
@@ -201,8 +201,9 @@ TEST(leaflets_stay_as_they_are) {
   }
 }
 
-/* Along the attachment, the leaflets' edges and the skirt's edges run in opposite directions. Normals therefore point the same
- * way on both sides. With a fixed triangulation, each mitral edge belongs to one leaflet and to the skirt, to the last bit. */
+/* Along the attachment, the edges of the leaflets and of the skirt run in opposite directions. The normals of leaflets and skirt
+ * therefore point to one side. With a fixed triangulation, each mitral edge belongs to one leaflet and to the skirt, to the last
+ * bit. */
 TEST(the_skirt_continues_the_leaflets) {
   for (int trial = 0; trial < n_trials_of_kinds(); trial += trial_step()) {
     const int owned_before = n_owned(), kind = trial % n_skirted, is_fixed = trial / n_skirted % 2;
@@ -216,7 +217,7 @@ TEST(the_skirt_continues_the_leaflets) {
       const double *a = held.edges + 6 * i, *b = a + 3;
       double inside[3], along[3];
       for (int c = 0; c < 3; ++c) inside[c] = 0.4137 * a[c] + 0.5863 * b[c], along[c] = b[c] - a[c];
-      int n[2] = {0, 0}, n_same = 0; /* of the leaflets, of the skirt */
+      int n[2] = {0, 0}, n_same = 0; /* of the leaflets, then of the skirt */
       double direction[2] = {0, 0};
       for (int64_t t = 0; t < all.n_triangles; ++t)
         for (int k = 0; k < 3; ++k) {
@@ -260,7 +261,7 @@ TEST(skirts_cross_nothing) {
   }
 }
 
-/* The side of a point beside the skirt follows the skirt's normals. */
+/* Beside the skirt, the skirt's normals decide the side of a point. */
 TEST(sides_are_right_beside_the_skirt) {
   for (int trial = 0; trial < n_trials_of_kinds(); trial += trial_step()) {
     const int owned_before = n_owned(), kind = trial % n_skirted;
@@ -288,8 +289,7 @@ TEST(sides_are_right_beside_the_skirt) {
   }
 }
 
-/* A wall around the z axis through (x, y). At each angle, the wall's distance from this axis is the attachment's distance plus a
- * gap. */
+/* A wall around the z axis through (x, y). At each angle, the wall is farther from this axis than the attachment by a gap. */
 enum { n_angles = 720 };
 typedef struct wall_shape {
   const riis_attachment *held;
@@ -297,7 +297,7 @@ typedef struct wall_shape {
 } wall_shape;
 
 static double radius_of_attachment(const wall_shape *wall, double x, double y) {
-  /* Finds the edge of the attachment that the ray from the axis through (x, y) meets. */
+  /* Finds the edge of the attachment that a ray from the axis through (x, y) meets. */
   double farthest = 0;
   for (int64_t i = 0; i < wall->held->n_edges; ++i) {
     const double *e = wall->held->edges + 6 * i;
@@ -328,8 +328,8 @@ static int leaks(const riis_surface *surface, const test_mesh *nodes) {
   return passage.state == RIIS_PASSAGE_OPEN;
 }
 
-/* The closed valve stands in a mesh whose wall is a gap away from the attachment. A skirt as long as the gap closes it. The
- * closed aortic valve is left out: it leaks in such a mesh even if the wall cuts its attachment. */
+/* The closed valve stands in a mesh with a gap between the attachment and the wall. A skirt as long as the gap closes the gap.
+ * The aortic valve is left out, because it leaks in such a mesh even if the wall cuts its attachment. */
 TEST(skirts_seal_gaps) {
   static const double gaps[4] = {0.05, 0.1, 0.15, 0.2};
   for (int kind = 0; kind < 4; kind += kind == 1 ? 2 : 1)
@@ -378,7 +378,7 @@ TEST(skirts_seal_gaps) {
     }
 }
 
-/* Returns the length of the longer side of a strip. No line v of the strip is longer. */
+/* Returns the length of a strip's longer side. All lines v of the strip are at most this long. */
 static double longer_side(const riis_triangles *t, const double *xyz, int32_t patch) {
   double length[2] = {0, 0};
   for (int64_t i = 0; i < t->n_triangles; ++i)
@@ -390,8 +390,9 @@ static double longer_side(const riis_triangles *t, const double *xyz, int32_t pa
   return fmax(length[0], length[1]);
 }
 
-/* With a fixed triangulation, a vertex moves by its velocity times the step, plus its slide. It slides because its label changes
- * with the lines of mitral patches, which follow the joints of the annulus. A velocity belongs to a constant label. */
+/* With a fixed triangulation, a vertex moves by its velocity times the step, plus a slide. Lines of mitral patches follow the
+ * joints of the annulus, so the vertex's label changes. A velocity belongs to a constant label, so a velocity does not contain
+ * the slide. */
 TEST(skirts_move_with_the_attachment) {
   const double seconds = 0.1;
   for (int trial = 0; trial <= n_skirted; trial += trial_step()) {
@@ -404,7 +405,7 @@ TEST(skirts_move_with_the_attachment) {
     CHECK_OK(riis_surface_update_moving(surface, now, before, seconds, NULL, NULL));
     const riis_triangles is = triangles_of(surface);
     assert_int_equal(is.n_vertices, was.n);
-    /* Both vertices are on chords, which lie within the tolerance of the smooth valve. */
+    /* Both vertices lie on chords, which are within the tolerance of the smooth valve. */
     const double chords = 2 * info_of(surface).error_bound / seconds;
     double fastest = 0, worst = 0, slide = 0;
     for (int64_t t = 0; t < is.n_triangles; ++t)
@@ -431,8 +432,7 @@ TEST(skirts_move_with_the_attachment) {
   }
 }
 
-/* A wall: a tube with a straight axis, cut by planes from 0 to 1 along it. The sides consist of triangles with random
- * diagonals. */
+/* A wall: a tube with a straight axis, cut by planes at 0 and 1 along the axis. The wall's triangles have random diagonals. */
 typedef struct tube_wall {
   axis_line axis; /* through the middle */
   double radius, half_length;
@@ -483,7 +483,7 @@ static double distance_to_tube(const tube_wall *wall, const double *p, const dou
   return fabs(first) < fabs(second) ? first : second;
 }
 
-/* Makes a tube around a placed valve. The tube's axis is shifted and tilted against the valve's axis. */
+/* Makes a tube around a placed valve. The tube's axis is shifted and tilted relative to the valve's axis. */
 static tube_wall tube_around(const riis_surface *surface, const axis_line *axis, double scale) {
   const riis_attachment held = attachment_of(surface);
   tube_wall made = {*axis, 0, 20 * scale};
@@ -511,8 +511,8 @@ static riis_gap gap_between(const riis_surface *surface, const riis_surface *wal
   return gap;
 }
 
-/* Puts landmark n on a random vertex of the attachment, and its target at most `most` away along each axis. Returns how many
- * landmarks it made: none if the vertex is near an earlier landmark. */
+/* Puts landmark n on a random vertex of the attachment. The landmark's target is at most `most` away along each axis. Returns the
+ * number of new landmarks, which is 0 if the vertex is near an earlier landmark. */
 static int add_landmark(const riis_attachment *held, int n, double most, double *sources, double *targets) {
   const double *p = held->edges + 3 * (int64_t)between(0, 2 * (double)held->n_edges - 0.5);
   double nearest = INFINITY;
@@ -540,8 +540,8 @@ static int64_t skirt_points(riis_valve *valve, double *points) {
   return n;
 }
 
-/* Moves a warp in n_steps steps from one time to another. Returns the largest step of the skirt's points, and the time at which
- * this step begins. */
+/* Moves a warp from one time to another in n_steps steps. Returns the largest step of the skirt's points, and the time at which
+ * it begins. */
 static double largest_step(riis_valve *valve, riis_warp *warp, int n, const double *sources, const double *targets,
                            double from, double to, int n_steps, double *begins) {
   static double points[2][3000];
@@ -565,8 +565,7 @@ static double largest_step(riis_valve *valve, riis_warp *warp, int n, const doub
   return largest;
 }
 
-/* The gap to a round tube is the root of a quadratic equation. A skirt to that tube ends on it, and the leaflets stay the
- * same. */
+/* A quadratic equation gives the gap to a round tube. A skirt to this tube ends on the tube, and the leaflets stay the same. */
 TEST(skirts_reach_walls_and_no_farther) {
   for (int trial = 0; trial < n_trials_of_kinds(); trial += trial_step()) {
     const int owned_before = n_owned(), kind = trial % n_skirted;
@@ -624,7 +623,7 @@ TEST(skirts_reach_walls_and_no_farther) {
     CHECK_AT_MOST(farthest, allowed);
     assert_true(all.n_triangles > triangles_of(bare).n_triangles);
 
-    /* The skirt's lengths belong to the valve's shape. So a copy of the valve has the same lengths, and a fixed triangulation
+    /* The skirt's lengths belong to the valve's shape. A copy of the valve therefore has these lengths, and a fixed triangulation
      * refuses a valve with other lengths. */
     riis_valve *copy = NULL;
     CHECK_OK(riis_valve_copy(valve, &copy));
@@ -672,7 +671,7 @@ static shape funnel(const double *centre, const double *direction, double radius
   return made;
 }
 
-/* Patches in any frame get a flat ring, because their attachment is a circle. */
+/* Patches in any frame get a flat ring as their skirt, because their attachment is a circle. */
 TEST(patches_have_skirts_in_any_frame) {
   for (int trial = 0; trial < 4; ++trial) {
     const int owned_before = n_owned();
@@ -761,7 +760,7 @@ TEST(wrong_skirts_are_refused) {
                 riis_surface_get_gap(surface_of_kind("bileaflet", NULL), wall, NULL, &gap, sizeof gap));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "encloses no area",
                 riis_surface_get_gap(new_surface(flat, NULL), wall, NULL, &gap, sizeof gap));
-  /* A short wall is missed at the commissures. A narrow wall is inside the attachment. */
+  /* A wall that is too short is missed at the commissures. A wall that is too narrow is inside the attachment. */
   gap = gap_between(bare, short_wall, NULL);
   assert_true(gap.n_without_wall > 0 && gap.n_without_wall < gap.n_ends);
   const tube_wall narrow = {{{0, 0, 0}, {0, 0, 1}}, 0.9, 5};
@@ -774,7 +773,8 @@ TEST(wrong_skirts_are_refused) {
   new_surface(trileaflet, NULL);
 }
 
-/* A wall that cuts the valve is nearer than the attachment in some places. The skirt is then thin there, and longer in others. */
+/* If a wall cuts the valve, it is nearer than the attachment in some places. The skirt is thin in these places, and longer in
+ * others. */
 TEST(skirts_to_cutting_walls_cross_nothing) {
   static const char *const kinds[] = {"coapting", "trileaflet", "aortic", "mitral"};
   static const int as_kind[] = {0, 0, 2, 1}; /* the position in `skirted` of a kind with the same axis */
@@ -812,9 +812,8 @@ TEST(skirts_to_cutting_walls_cross_nothing) {
   CHECK_MET(n_cut > n_trials / 4);
 }
 
-/* A warped aortic valve's cusps are not joined at the commissures, and its skirts end beside each other there. If a violent warp
- * lets the cusps themselves go through each other, the skirt is not judged. A patch that such a warp folds onto its own skirt
- * is not judged either. */
+/* The cusps of a warped aortic valve are not joined at the commissures, so their skirts end beside each other. A violent warp may
+ * make the cusps go through each other, or fold a patch onto its skirt. The test does not judge the skirts of such warps. */
 TEST(skirts_of_warped_cusps_cross_nothing) {
   const int n_trials = trials(6, 100);
   int n_states = 0, n_judged = 0, n_own = 0;
@@ -862,7 +861,7 @@ TEST(skirts_of_warped_cusps_cross_nothing) {
   CHECK_MET(n_judged > 0.9 * n_states);
 }
 
-/* The ends of two cusps move past each other, and the line between them turns. If the skirt jumped, the jump would be as large in
+/* The ends of two cusps move past each other, and the line between them turns. A jump of the skirt would still be as large within
  * a 64th of the step. */
 TEST(skirts_move_continuously_with_a_warp) {
   const int n_trials = trials(4, 60);
@@ -872,7 +871,7 @@ TEST(skirts_move_continuously_with_a_warp) {
     riis_valve *valve = skirted_valve(2, between(0.1, 0.3), between(0, 1));
     const riis_attachment held = attachment_of(new_surface(valve, NULL));
     double sources[3 * 14], targets[3 * 14];
-    /* The first two landmarks are the ends of two cusps at a commissure, the highest vertices of their sides. */
+    /* The first two landmarks are the ends of two cusps at a commissure: the highest vertices of the cusps' sides. */
     const double *top[3] = {NULL, NULL, NULL};
     const int left = one_in(2) ? 1 : 2;
     for (int64_t i = 0; i < 2 * held.n_edges; ++i) {

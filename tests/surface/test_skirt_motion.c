@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Velocities of skirts are compared with central displacements: with those of the attachment and of points that lie outwards
- * from it, from formulas of their own, and with those of the vertices of a fixed triangulation. */
+ * Compares velocities of skirts with central displacements. The compared points belong to the attachment, lie outwards from it by
+ * separate formulas, or are vertices of a fixed triangulation. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -27,13 +27,13 @@ static const char *const kinds[n_kinds] = {"aortic", "trileaflet", "coapting", "
 
 /* --- States and steps ------------------------------------------------------------------------------------------------- */
 
-/* What moves. The middle of a step has these values plus half of the rates. */
+/* A state that moves. In the middle of a step, the state has these values plus half of the rates. */
 typedef struct state_of_skirt {
   double opening, size[3]; /* the sizes are factors; the last factor scales the skirt's length */
   riis_surface_options placed;
 } state_of_skirt;
 
-/* A leaflet of three patches whose attachment rises between the three ends. */
+/* A leaflet of three patches. The attachment rises between the patches' ends. */
 static shape cone(double radius, double rise, double mouth) {
   shape made = {0};
   const double third = 2 * acos(-1) / 3;
@@ -113,7 +113,7 @@ static void random_state(state_of_skirt *at, int32_t triangulation) {
 enum { opens, grows, is_carried, all_at_once, n_motions };
 static const char *const motions[n_motions] = {"opens", "grows", "is carried", "does all of this"};
 
-/* Moves a state by a step of this time. */
+/* Moves a state by a step of the given time. */
 static void move(state_of_skirt *at, int motion, double seconds) {
   if (motion == opens || motion == all_at_once) at->opening += seconds * (between(0, 1) < 0.5 ? -1 : 1);
   for (int i = 0; i < 3 && (motion == grows || motion == all_at_once); ++i) at->size[i] += seconds * between(-1, 1);
@@ -126,7 +126,7 @@ static void move(state_of_skirt *at, int motion, double seconds) {
 
 /* --- The skirt from its definition ------------------------------------------------------------------------------------ */
 
-/* Points at even shares of a strip's inner side, and the points outwards from them, with the shares of these on the outer
+/* Points at even shares of a strip's inner side, the points outwards from them, and the shares of these points on the outer
  * side. */
 enum { n_even = 1000 };
 typedef struct strip {
@@ -136,7 +136,7 @@ enum { max_strips = 20 };
 typedef struct skirt {
   int n;
   int32_t patch_id[max_strips];
-  strip at[max_strips][2]; /* in both states: 0 is the earlier one */
+  strip at[max_strips][2]; /* in both states; index 0 is the earlier state */
 } skirt;
 static skirt oracle;
 
@@ -160,7 +160,7 @@ static void read_inner_sides(const riis_triangles *t, const smooth_motion *motio
   assert_true(oracle.n > 0);
 }
 
-/* Writes the line from which the skirt leads away in one state. */
+/* Writes the line from which the skirt leads away, in one state. */
 static void axis_at(int kind, int state, double *centre, double *direction) {
   for (int c = 0; c < 3; ++c) centre[c] = 0, direction[c] = c == 2;
   if (kind != mitral && kind != of_patches) return;
@@ -223,8 +223,8 @@ static double fastest_of_skirt(const riis_triangles *t) {
   return fastest;
 }
 
-/* The velocity is the central displacement of the same label at the middle of the step. A label is a share of the length on two
- * lines: the attachment, and the line outwards from it. Inside triangles the bound of velocities holds. */
+/* The velocity is the central displacement of a fixed label at the middle of the step. A label has two shares of a length: along
+ * the attachment, and along the line outwards from it. Inside triangles the error stays within the bound of velocities. */
 TEST(skirts_have_the_velocity_of_their_points) {
   for (int kind = 0; kind < n_kinds; ++kind)
     for (int fixed = 0; fixed < 2; ++fixed) {
@@ -276,8 +276,7 @@ TEST(skirts_have_the_velocity_of_their_points) {
             "%s, %s, %s: off by %.2g %% of the largest speed at vertices, %.2g %% inside triangles of at most %.2g\n",
             kinds[kind], fixed ? "fixed" : "adapted", motions[motion], 100 * worst[motion], 100 * inside,
             100 * bound / fastest);
-        CHECK_AT_MOST(worst[motion], 0.015); /* the cubics of the outer side are accurate to a thousandth of the
-                                                length */
+        CHECK_AT_MOST(worst[motion], 0.015); /* the cubics of the outer side are accurate to a thousandth */
         CHECK_AT_MOST(inside * fastest, bound + 1e-9 * fastest);
         smooth_motion_destroy(smooth);
         free_owned_after(owned_before);
@@ -287,8 +286,8 @@ TEST(skirts_have_the_velocity_of_their_points) {
 
 /* --- Vertices of a fixed triangulation -------------------------------------------------------------------------------- */
 
-/* Returns the largest difference between a triangle's velocity and its motion, at its centroid and perpendicular to the
- * triangle. */
+/* Returns the largest difference between a triangle's velocity and its motion. Velocity and motion are taken at the triangle's
+ * centroid, along its normal. */
 static double across(const riis_triangles *t, const double *was, double seconds, int64_t i) {
   const int64_t *id = t->vertex_id + 3 * i;
   const double *a = t->xyz + 3 * id[0], *b = t->xyz + 3 * id[1], *c = t->xyz + 3 * id[2];
@@ -302,8 +301,8 @@ static double across(const riis_triangles *t, const double *was, double seconds,
   return fabs(dot(off, normal)) / sqrt(dot(normal, normal));
 }
 
-/* With a fixed triangulation, the skirt's vertices move with their velocities, except that the lines of a mitral skirt slide
- * along the annulus with the lines of the leaflet. The velocity does not contain this slide. */
+/* With a fixed triangulation, the skirt's vertices move with their velocities. The lines of a mitral skirt also slide along the
+ * annulus with the lines of the leaflet. The velocity does not contain this slide. */
 TEST(vertices_of_fixed_skirts_move_with_their_velocities) {
   for (int kind = 0; kind < n_kinds; kind += trial_step()) {
     const int owned_before = n_owned();
@@ -367,7 +366,8 @@ static riis_warp *warp_at(riis_valve *valve, const riis_surface *rest, double ti
   return warp;
 }
 
-/* The outer side of a strip, by the share of the inner side. Its pieces belong to even parts of the inner side. */
+/* The outer side of a strip, as a function of the inner side's share. The spans of the outer side belong to equal parts of the
+ * inner side. */
 typedef struct outer_side {
   int64_t n_pieces;
   double control[8][4][3];
@@ -399,7 +399,7 @@ static void outer_point(const outer_side *on, double share, double *p) {
   }
 }
 
-/* Returns the share of the side's own length that lies before a share of the inner side. */
+/* Returns the share of the outer side's length that lies before a share of the inner side. */
 static double outer_share(const outer_side *on, double share) {
   enum { n = 2000 };
   double last[3], p[3], whole = 0, before = 0;
@@ -419,7 +419,7 @@ static void inner_point(const strip *at, double share, double *p) {
   for (int c = 0; c < 3; ++c) p[c] = at->inner[j][c] + (share * n_even - j) * (at->inner[j + 1][c] - at->inner[j][c]);
 }
 
-/* Returns the share of a strip's inner side that is nearest to a point, in one state of a motion. */
+/* Returns the share on a strip's inner side at which the side is nearest to a point, in one state of a motion. */
 static double nearest_share(const strip *at, const double *p) {
   int nearest = 0;
   for (int j = 0; j <= n_even; ++j)
@@ -435,8 +435,8 @@ static double nearest_share(const strip *at, const double *p) {
   return share;
 }
 
-/* The attachment of a warped valve is material that the map moves. The skirt's inner side moves with it, and the outer side moves
- * with the points that lie outwards from it. */
+/* The attachment of a warped valve is material that the map moves. The skirt's inner side moves with this material. The outer
+ * side moves with the points that lie outwards from it. */
 TEST(skirts_move_with_warped_attachments) {
   for (int kind = 0; kind < n_kinds; ++kind)
     for (int fixed = 0; fixed < 2; ++fixed) {
@@ -494,7 +494,7 @@ TEST(skirts_move_with_warped_attachments) {
       smooth_motion_destroy(warped), smooth_motion_destroy(resting);
       printf("%s, %s, warped: off by %.2g %% of the largest speed at the attachment, %.2g %% at the outer edge\n",
              kinds[kind], fixed ? "fixed" : "adapted", 100 * worst[0], 100 * worst[1]);
-      /* A curve of the patches turns by 120 degrees. The slide of its material is known less precisely. */
+      /* A curve of the patches turns by 120 degrees. The slide of its material is less exact. */
       const double allowed = kind == of_patches ? 0.03 : 0.01;
       CHECK_AT_MOST(worst[0], allowed);
       CHECK_AT_MOST(worst[1], allowed);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests skirts of surfaces from arrays. A valve's own triangles, given back as arrays, get the skirt that the valve gets. The
- * direction is compared with sums over the attachment, and velocities are compared with differences. */
+ * Tests skirts of surfaces from arrays. Arrays of a valve's own triangles get the skirt that the valve gets. Directions are
+ * compared with sums over the attachment, and velocities with differences. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -38,7 +38,7 @@ static double distance_between(const double *a, const double *b) {
 
 static double dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-/* The line from which the skirt leads away: through the centroid of the edges, along their vector area. */
+/* The skirt leads away from this line: it passes through the centroid of the attached edges, along their vector area. */
 typedef struct line {
   double centre[3], direction[3];
 } line;
@@ -72,8 +72,8 @@ static void moved_outwards(const line *axis, const double *p, double length, dou
   for (int c = 0; c < 3; ++c) moved[c] = p[c] + length * q[c] / size;
 }
 
-/* Checks each triangle of the skirt: it has one attached edge or one outer edge, which lies a length outwards. Returns their
- * number. */
+/* Checks each triangle of the skirt. The triangle must have one attached edge, or one outer edge that lies a length outwards.
+ * Returns the number of triangles. */
 static int64_t check_strip(const riis_surface *surface, int64_t n_given, double length, double rounding) {
   const riis_attachment held = attachment_of(surface);
   const riis_triangles all = triangles_of(surface);
@@ -98,7 +98,7 @@ static int64_t check_strip(const riis_surface *surface, int64_t n_given, double 
   return n;
 }
 
-/* Returns the largest distance of the skirt's vertices in one surface from the skirt of the other surface. */
+/* Returns the largest distance from the vertices of one surface's skirt to the skirt of the other surface. */
 static double largest_distance(const riis_surface *from, const riis_surface *to, int32_t patch_of_from) {
   const riis_triangles all = triangles_of(from);
   double largest = 0;
@@ -136,8 +136,8 @@ static void check_same_measures(const riis_surface *with, const riis_surface *ba
   }
 }
 
-/* The axis of a valve from arrays is that of a valve from patches. The axis of the built-in mitral valve is vertical, and that of
- * the built-in aortic valve is the axis of the root. The limits here allow for angles from these axes (docs/theory/skirt.md). */
+/* A valve from arrays has the axis of a valve from patches. For the built-in mitral valve the axis is vertical. For the built-in
+ * aortic valve the axis is that of the root. The limits here allow for angles from these axes (docs/theory/skirt.md). */
 static const double share_of_length[n_kinds] = {0.005, 0.005, 0.02, 0.1};
 
 TEST(a_valve_that_is_given_back_gets_its_own_skirt) {
@@ -191,7 +191,7 @@ TEST(any_placement_moves_the_skirt_with_the_leaflets) {
     options.rotation_angle = between(-180, 180);
     const riis_surface *placed = surface_from(&arrays, &options);
     check_strip(placed, arrays.n_vertices, options.scale * arrays.skirt_length, 1e-13 * options.scale * 10);
-    /* The normals agree with those of the leaflets: no edge is used twice in one direction. */
+    /* The skirt's normals agree with those of the leaflets: no two triangles use an edge in one direction. */
     const riis_attachment held = attachment_of(placed);
     const riis_triangles all = triangles_of(placed);
     for (int64_t i = 0; i < held.n_edges; ++i) {
@@ -209,7 +209,7 @@ TEST(any_placement_moves_the_skirt_with_the_leaflets) {
   }
 }
 
-/* Copies points, moved by a random affine motion. */
+/* Copies points and moves them by a random affine motion. */
 static double *moved_points(const riis_surface_arrays *arrays, const double *motion, double time) {
   const double *xyz = arrays->x;
   double *to = own(malloc((size_t)arrays->n_vertices * 3 * sizeof *to));
@@ -265,7 +265,7 @@ TEST(velocities_are_those_of_the_moving_skirt) {
   }
 }
 
-/* The attachment of keyframes is chosen once, in the first frame. */
+/* The first frame of keyframes determines the attachment for all frames. */
 TEST(keyframes_carry_their_skirt) {
   const riis_surface *bare = valve_surface("coapting", 0, 0, RIIS_TRIANGULATION_ADAPTED);
   for (int has_attachment = 0; has_attachment < 2; ++has_attachment) {
@@ -311,7 +311,7 @@ TEST(keyframes_carry_their_skirt) {
   }
 }
 
-/* Gives each leaflet vertices of its own, as several files do, and shrinks the leaflets about their centroids. */
+/* Gives each leaflet separate vertices, as several files do, and shrinks the leaflets about their centroids. */
 static riis_surface_arrays parted(const riis_surface_arrays *from, double shrink) {
   const double *xyz = from->x;
   const int32_t *ids = from->vertex_ids;
@@ -363,7 +363,7 @@ TEST(leaflets_of_several_files) {
 TEST(the_gap_gives_the_lengths) {
   const riis_surface *bare = valve_surface("coapting", 0, 0, RIIS_TRIANGULATION_ADAPTED);
   riis_surface_arrays arrays = given_back(bare, 1);
-  /* A tube around the valve, off its axis. */
+  /* Makes a tube around the valve, off the valve's axis. */
   enum { n_round = 96 };
   double tube[n_round * 6];
   int32_t faces[n_round * 6];
@@ -467,7 +467,7 @@ TEST(refusals) {
   for (int64_t i = 0; i < good.n_vertices; ++i) attached[i] = 1; /* painted all over */
   refuse(&bad, RIIS_INVALID_SURFACE, "arrays.attached: no open edge leads from vertex ");
 
-  /* A closed surface, a tube with two rims, and leaflets that do not touch. */
+  /* Tests a closed surface, a tube with two rims, and leaflets that do not touch. */
   static const double corners[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
   static const int32_t tetrahedron[12] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2};
   riis_surface_arrays closed = triangle_arrays(4, corners, 4, tetrahedron);
@@ -491,7 +491,7 @@ TEST(refusals) {
   for (int i = 0; i < 24; ++i) lower_rim[i] = i % 2 == 0;
   tube.attached = lower_rim;
   assert_int_equal(check_strip(surface_from(&tube, NULL), 24, 0.1, 1e-15), 24);
-  for (int i = 0; i < 3; ++i) chain[2 * i] = 1; /* an open chain is enough if it encloses an area with its ends */
+  for (int i = 0; i < 3; ++i) chain[2 * i] = 1; /* an open chain suffices if its joined ends enclose an area */
   tube.attached = chain;
   assert_int_equal(check_strip(surface_from(&tube, NULL), 24, 0.1, 1e-14), 4);
   riis_valve *valve = new_valve("bileaflet");

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Skirts of random patients. Landmarks with noise lie on a root whose cusps differ. A valve is placed and warped by these
- * landmarks, and its skirt leads to the wall of that root. RIIS_TEST_LONG=1 takes 100 patients at 11 openings instead of 4 at 3.
- * One additional patient is the same in every run. */
+ * Tests skirts of random patients. Landmarks with noise lie on a root whose cusps differ. These landmarks place and warp a valve,
+ * and its skirt leads to the wall of the root. RIIS_TEST_LONG=1 takes 100 patients at 11 openings instead of 4 patients at 3
+ * openings. One additional patient is the same in every run. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -26,8 +26,8 @@ enum { n_attachment = 18, n_landmarks = 6 + n_attachment, n_round = 132, n_high 
 
 static double radians(double degrees) { return degrees * acos(-1) / 180; }
 
-/* From this state of the generator, the random numbers give an aortic patient. In this patient, the plane along the axis through
- * the ends of two cusps is special: one cusp's attachment leans across it. Skirts on both sides of that plane would cross. */
+/* From this state, the random numbers make an aortic patient with a special plane along the axis. The plane passes through the
+ * ends of two cusps, and one cusp's attachment leans across it. Skirts on both sides of the plane would cross. */
 static const uint64_t state_of_leaning_patient = 3451592321834770229u;
 
 static root random_root(int is_wide) {
@@ -71,7 +71,7 @@ static void put(const root *of, double degrees, double r, double z, double *at) 
     at[c] = 10 * (of->turn[c][0] * p[0] + of->turn[c][1] * p[1] + of->turn[c][2] * p[2]) + of->shift[c];
 }
 
-/* The point of a cusp's attachment at a place from -1 to 1. Both ends are its commissures. */
+/* The point of a cusp's attachment at a place from -1 to 1. The commissures are at -1 and 1. */
 static void on_attachment(const root *of, int cusp, double place, double *at) {
   const double first = of->angle[(cusp + 2) % 3] - (cusp == 0 ? 360 : 0), last = of->angle[cusp];
   const double degrees = first + 0.5 * (place + 1) * (last - first);
@@ -108,7 +108,7 @@ static marks random_marks(const root *of, double noise) {
   return made;
 }
 
-/* The wall, with waves as a segmentation leaves them. */
+/* The wall has waves like a wall from a segmentation. */
 static riis_surface *wall_of(const root *of, double margin) {
   static double xyz[n_round * n_high][3];
   static int32_t ids[2 * n_round * (n_high - 1)][3];
@@ -129,7 +129,7 @@ static riis_surface *wall_of(const root *of, double margin) {
   return surface_from(&arrays, NULL);
 }
 
-/* Warps a valve from its own landmarks to targets, smoothed by the noise. */
+/* Warps a valve from its own landmarks to targets. The noise determines the smoothing. */
 static void warp_valve(riis_valve *valve, int64_t n, const double *from, const double *to, double noise,
                        const riis_surface_options *placement) {
   riis_warp_options options;
@@ -165,7 +165,7 @@ static riis_surface_options place_by(riis_valve *valve, const marks *of, double 
   return options;
 }
 
-/* A mitral annulus keeps its shape except for noise, in a round wall. */
+/* A mitral annulus in a round wall. Noise alone changes its shape. */
 static riis_surface *mitral_patient(riis_valve *valve, riis_surface_options *options, int is_wide, double noise) {
   options->scale = 10;
   for (int c = 0; c < 3; ++c) options->translation[c] = between(-100, 100);
@@ -227,7 +227,7 @@ TEST(skirts_of_patients_reach_the_wall) {
         options.triangulation = is_fixed ? RIIS_TRIANGULATION_FIXED : RIIS_TRIANGULATION_ADAPTED;
         CHECK_OK(riis_valve_set_scalar(valve, "opening", 0.1 * i));
         CHECK_OK(riis_valve_set_scalar(bare, "opening", 0.1 * i));
-        /* A warp by noisy landmarks may fold at an opening. It is then refused, and no skirt is made. */
+        /* A warp by noisy landmarks may fold at an opening. The call is then refused, and makes no skirt. */
         riis_surface *surface = NULL;
         if (riis_surface_create(valve, &options, &surface) != RIIS_OK) {
           if (!strstr(riis_last_error(), "warp")) fail_msg("patient %d: %s", trial, riis_last_error());

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
- * A surface that is updated in its old memory equals a new surface, in every bit of its content, of closest points and of
- * marks. This holds for any earlier content of the surface, and for any number of threads. It also holds for the first queries
- * after an update, which several threads may make at once, and after updates without a query. A refused update leaves no trace
- * and gives the same message as with one thread. */
+ * A surface that is updated in its old memory equals a new surface. Content, closest points and marks have the same bits in both.
+ * The equality holds for any earlier content of the surface, and for any number of threads. The equality also holds after updates
+ * without a query, and for first queries that several threads make at once. A refused update changes nothing, and its message
+ * does not depend on the number of threads. */
 #include <pthread.h>
 #include <riis/riis.h>
 
@@ -15,8 +15,7 @@ static random_source rng;
 
 static int64_t any_of(int64_t n) { return (int64_t)(random_bits(&rng) % (uint64_t)n); }
 
-/* Triangles from arrays. In an update, they move, change their order, or are replaced by other triangles, perhaps by more or
- * fewer. */
+/* Triangles from arrays. An update moves the triangles, changes their order, or replaces them by other triangles. */
 enum { max_triangles = 600 };
 static double soup[9 * max_triangles];
 static int32_t soup_ids[3 * max_triangles];
@@ -46,7 +45,7 @@ static void change_soup(void) {
   if (kind == 4) new_soup(1 + any_of(max_triangles), 0);
 }
 
-/* The source of a surface: arrays, patches or a valve. */
+/* The source of a surface is arrays, patches or a valve. */
 typedef struct content {
   riis_valve *valve; /* or a valve */
   riis_surface_arrays arrays;
@@ -79,7 +78,7 @@ static content random_content(riis_valve *const *valves) {
     if (any_of(4) == 0) c.options.tolerance = 1;
     if (any_of(8) == 0) c.options.tolerance = 0.01;
     if (any_of(6) == 0) c.options.measure = RIIS_MEASURE_SAMPLING, c.options.measure_tolerance = 0.2;
-    /* Sometimes the tolerance is so fine that it is refused. */
+    /* A tolerance may be so fine that it is refused. */
     if (any_of(6) == 0) c.options.tolerance = c.options.half_thickness = 1e-5;
   } else {
     change_soup();
@@ -95,7 +94,7 @@ static content random_content(riis_valve *const *valves) {
 
 enum { n_points = 30, n_callers = 3 };
 
-/* A thread of the caller that queries the closest points one by one. */
+/* A thread of the caller, which queries closest points one by one. */
 typedef struct caller {
   const riis_surface *surface;
   const double *points;
@@ -114,7 +113,7 @@ static void *query_all(void *argument) {
 }
 
 /* Checks that closest points have the same bits. Some query points are at vertices, where pseudonormals decide the sides. Several
- * threads begin at once, so any of them may build the tree. */
+ * threads begin at once, and any of them may build the tree. */
 static void check_closest(const riis_surface *updated, const riis_surface *fresh) {
   const riis_triangles all = triangles_of(fresh);
   double points[3 * n_points];
@@ -159,7 +158,7 @@ static void check_marks(const riis_surface *updated, const riis_surface *fresh, 
   CHECK_OK(riis_mark_nodes(updated, mesh, &options, result));
   assert_true(same_results(result, expected));
   options.search = RIIS_SEARCH_CLUSTERS;
-  /* The search over clusters is refused for distances by sampling. */
+  /* Surfaces that measure distances by sampling refuse the search over clusters. */
   if (riis_mark_nodes(updated, mesh, &options, result) == RIIS_OK) assert_true(same_results(result, expected));
   free_owned_after(owned_before);
 }

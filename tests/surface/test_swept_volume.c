@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests swept volumes. They are compared with sums over moving updates, and with closed forms for leaflets that turn and patches
- * that translate. Volumes of parts must add up. */
+ * Swept volumes are compared with sums over moving updates. Swept volumes are also compared with closed forms, for leaflets that
+ * turn and patches that translate. The volumes of parts must add up to the whole volume. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -30,7 +30,7 @@ enum { n_kinds = 5 };
 static const char *const kinds[n_kinds] = {"aortic", "mitral", "trileaflet", "bileaflet", "coapting"};
 static int n_trials(void) { return trials(n_kinds, 2 * n_kinds); }
 
-/* A valve of a kind with some of its own parameters. */
+/* A valve of a kind, with the values of some parameters. */
 static riis_valve *random_valve(int kind) {
   riis_valve *valve = new_valve(kinds[kind]);
   if (kind == 0) set(valve, "leaflet_angle", between(45, 60));
@@ -50,7 +50,7 @@ static void random_placement(riis_surface_options *options) {
   options->rotation_angle = between(-180, 180);
 }
 
-/* Returns the volume of one step: the integral of u . n over the triangles in the middle of the step, times the step's time. */
+/* Returns the volume of one step: the integral of u . n over the triangles at the step's middle, times the step's time. */
 static double rate_on(const riis_surface *surface, int32_t leaflet_id) {
   const riis_triangles all = triangles_of(surface);
   double sum = 0;
@@ -68,7 +68,7 @@ static double rate_on(const riis_surface *surface, int32_t leaflet_id) {
   return sum;
 }
 
-/* The volume is compared with a sum over many small steps in time, each by the triangles of a moving update. */
+/* The volume is compared with a sum over many small steps in time. Each step uses the triangles of a moving update. */
 static double by_steps(riis_valve *valve, double from, double to, const riis_surface_options *options,
                        int32_t leaflet_id) {
   enum { n_steps = 12 };
@@ -113,7 +113,7 @@ static double value_of(const riis_valve *valve, const char *name) {
   return value;
 }
 
-/* A leaflet that turns about its hinge sweeps the angle times the moment of its area about the hinge. */
+/* A leaflet turns about its hinge. The swept volume is the angle times the moment of its area about the hinge. */
 TEST(rigid_leaflets_sweep_their_moments) {
   for (int trial = 0; trial < trials_of(60); ++trial) {
     riis_valve *valve = new_valve("bileaflet");
@@ -135,7 +135,7 @@ TEST(rigid_leaflets_sweep_their_moments) {
   }
 }
 
-/* A square that translates sweeps its area times the shift along its normal. */
+/* A square translates. The swept volume is the area times the shift along its normal. */
 TEST(squares_sweep_boxes) {
   for (int trial = 0; trial < trials_of(30); ++trial) {
     const shape closed = unit_square();

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  * tolerance * half thickness bounds the distance between the triangles and the smooth surface. The distance is measured with
- * independent evaluations of the smooth surface. For the aortic valve these are Coons patches of its Bézier curves by exact
- * arc length. For the mitral valve they come from tests/support/mitral_oracle.h. */
+ * independent evaluations of the smooth surface. The aortic valve is evaluated as Coons patches of its Bézier curves by exact arc
+ * length. The mitral valve is evaluated by tests/support/mitral_oracle.h. */
 #include "internals.h"
 #include "test_support.h"
 
@@ -68,8 +68,8 @@ static void aortic_point(int32_t patch_id, double u, double v, double *placed) {
 
 static mitral_oracle *mitral;
 
-/* Gives a point of the smooth mitral valve. For each patch, the table has its range on the annulus, from one u down to the
- * next. The other patches are mirror images. */
+/* Gives a point of the smooth mitral valve. The table has the range of each patch on the annulus, from one u down to the next.
+ * The patches outside the table are mirror images. */
 static void mitral_point(int32_t patch_id, double u, double v, double *point) {
   double at[MITRAL_ORACLE_BREAKS];
   mitral_oracle_breaks(mitral, at);
@@ -92,7 +92,7 @@ static double distance_between(const double *p, const double *q) {
   return hypot(hypot(p[0] - q[0], p[1] - q[1]), p[2] - q[2]);
 }
 
-/* Makes Gauss-Newton steps from a first guess of (u, v), and returns the least distance that occurs. */
+/* Makes Gauss-Newton steps from a first guess of (u, v). Returns the least distance that occurs. */
 static double distance_on_way(const smooth_valve *smooth, int32_t patch_id, double u, double v, const double *p) {
   double nearest = INFINITY;
   for (int step = 0; step < 4; ++step) {
@@ -114,8 +114,8 @@ static double distance_on_way(const smooth_valve *smooth, int32_t patch_id, doub
   return nearest;
 }
 
-/* Returns the distance of p from the patch, never below the truth. The steps can end in another minimum, or leave the patch
- * where it folds. If a distance is too large, the search is therefore repeated from start points all over the patch. */
+/* Returns the distance of p from the patch, never below the truth. The steps can end in a wrong minimum, or leave the patch where
+ * it folds. If a distance is too large, the search is repeated from start points all over the patch. */
 static double distance_to_smooth(const smooth_valve *smooth, int32_t patch_id, const double *guess, const double *p,
                                  double enough) {
   double nearest = distance_on_way(smooth, patch_id, guess[0], guess[1], p);
@@ -208,8 +208,8 @@ TEST(mitral_deviation_stays_within_the_bound) {
   }
 }
 
-/* Compares each quad with the smooth patch at equal (u, v), all over the quad. Each quad is within its own bound, and some
- * quad nearly reaches its bound. Returns the largest fraction of the bound. */
+/* Compares each quad with the smooth patch at equal (u, v), all over the quad. Each quad is within its bound, and some quad
+ * nearly reaches its bound. Returns the largest error as a fraction of the bound. */
 static double largest_share_of_bound(const smooth_valve *smooth, int n_parameters, const char *const *names,
                                      const double *values, double max_error) {
   int64_t n;
@@ -270,7 +270,7 @@ TEST(every_quad_stays_within_its_own_bound) {
   assert_true(of_aortic > 0.5 && of_mitral > 0.5);
 }
 
-/* Valves of many shapes: each parameter with a single number changes by a third up or down, one at a time. */
+/* Tests valves of many shapes. Each parameter with a single number changes alone by a third, up or down. */
 TEST(so_it_does_for_other_aortic_valves) {
   random_source rng = random_start("test_tolerance");
   double worst = 0;
@@ -303,7 +303,7 @@ TEST(so_it_does_for_other_aortic_valves) {
   CHECK_MET(n_tried > trials_of(20));
 }
 
-/* Makes a valve between two states. In each state, all parameters change at once by up to a quarter. */
+/* Makes a valve between two states. In each state, all parameters change by up to a quarter. */
 static riis_valve *random_mitral(mitral_parameters *parameters, random_source *rng) {
   riis_valve *valves[2];
   for (int k = 0; k < 2; ++k) {
@@ -346,7 +346,7 @@ TEST(so_it_does_for_other_mitral_valves) {
       worst = fmax(worst, fmax(d.to_triangles, d.to_smooth));
       ++n_tried;
     } else {
-      assert_int_equal(status, RIIS_INVALID_PARAMETER); /* random values may not fit together */
+      assert_int_equal(status, RIIS_INVALID_PARAMETER); /* random values may be invalid together */
     }
     free_owned_after(owned_before);
   }
@@ -354,7 +354,7 @@ TEST(so_it_does_for_other_mitral_valves) {
   CHECK_MET(n_tried > trials_of(30));
 }
 
-/* A fixed triangulation is tested at openings that were not used to choose it. */
+/* A fixed triangulation is tested at openings that played no part in its choice. */
 TEST(so_does_a_fixed_triangulation) {
   random_source rng = random_start("test_tolerance");
   riis_surface_options options = surface_options();
@@ -369,7 +369,7 @@ TEST(so_does_a_fixed_triangulation) {
     riis_surface *surface = NULL;
     const riis_status status = riis_surface_create(valve, &options, &surface);
     if (status != RIIS_OK) {
-      assert_int_equal(status, RIIS_INVALID_PARAMETER); /* random values may not fit together at some opening */
+      assert_int_equal(status, RIIS_INVALID_PARAMETER); /* random values may be invalid together at some opening */
       free_owned_after(owned_before);
       continue;
     }
@@ -398,7 +398,7 @@ TEST(so_does_a_fixed_triangulation) {
   assert_true(n_refused <= 4);
 }
 
-/* If curves deviate from their shape, the triangles get the rest of the tolerance. The bound includes both. */
+/* If curves deviate from their shape, the triangles may use the rest of the tolerance. The bound includes both errors. */
 TEST(a_deviation_of_curves_is_part_of_the_bound) {
   static const char *const kinds[3] = {"aortic", "mitral", "bileaflet"};
   const double off = 0x1p-10;

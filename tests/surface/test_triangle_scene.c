@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The Embree scene only decides which triangles to skip. Its answers therefore equal those of a loop over all triangles with
- * the same kernel, bit for bit. This holds for every position and shape of the surface, and for distances at the limit. */
+ * The Embree scene only decides which triangles to skip. The scene's answers therefore have the bits of a loop over all triangles
+ * with the same kernel. The bits agree for every position and shape of the surface, and for distances at the limit. */
 #include "internals.h"
 #include "test_support.h"
 
@@ -40,7 +40,7 @@ TEST(equals_the_loop_bit_for_bit) {
   printf("%lld point-triangle pairs\n", (long long)n_pairs);
 }
 
-/* The limit is inclusive. Limits are equal to the distance, one bit below it, or one bit above it. */
+/* The limit is inclusive. Each limit equals the distance, or is one bit below or above it. */
 TEST(limit_is_inclusive_to_the_last_bit) {
   const double xyz[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
   const double heights[3] = {0.1, nextafter(0.1, 0), nextafter(0.1, 1)};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The trileaflet valve has three equal cusps. They have the same bits where they meet, close a vessel, and open
+ * The trileaflet valve has three equal cusps. The cusps have the same bits where they meet, close a vessel, and open
  * (docs/theory/trileaflet.md). */
 #include <riis/riis.h>
 
@@ -10,7 +10,8 @@
 #include "cusp_checks.h"
 
 static const double turn[3] = {0, 120, -120}, half_angle[3] = {60, 60, 60};
-/* Defaults: the root radius R, the commissures' radius, and the height of the free edges before and after the translation. */
+/* Defaults: the root radius R, the radius at the commissures, and the height of the free edges before and after the
+ * translation. */
 static const double root = 1.25, commissure = 1.25, edge_height = 1.2, edge_z = 0;
 
 static riis_valve *copy_of(const riis_valve *valve) {
@@ -35,7 +36,7 @@ TEST(closed_free_edges_are_straight) {
     const double along = p[0] * cos(a) + p[1] * sin(a), across = p[1] * cos(a) - p[0] * sin(a);
     CHECK_NEAR(across, 0, 1e-15);
     CHECK_NEAR(p[2], edge_z, 1e-15);
-    /* The position along the edge is proportional to u, because both curves of the patch are parametrised by arc length. */
+    /* The position along the edge is proportional to u, because arc length is the parameter of both curves. */
     CHECK_NEAR(along, all.uv[2 * v] * commissure, 1e-12);
     farthest = fmax(farthest, along), nearest = fmin(nearest, along);
   }
@@ -45,8 +46,8 @@ TEST(closed_free_edges_are_straight) {
 
 static int64_t n_of_pairs, n_of_places;
 
-/* If vertices of different cusps are nearer than 1e-9, they must have the same bits, up to the sign of zero. Counts such pairs,
- * and the pairs on the axis. */
+/* Checks pairs of vertices of different cusps that are nearer than 1e-9. Such a pair must have the same bits, up to the sign of
+ * zero. Counts such pairs, and the pairs on the axis. */
 static void check_common_vertices(const riis_surface *surface, double scale) {
   const riis_triangles all = triangles_of(surface);
   int32_t *cusp = own(malloc((size_t)all.n_vertices * sizeof *cusp));
@@ -65,7 +66,8 @@ static void check_common_vertices(const riis_surface *surface, double scale) {
   free_one_owned(cusp);
 }
 
-/* Cusps have the same bits where they meet: in both triangulations, in placed surfaces and after moving updates. */
+/* Cusps have the same bits where they meet. The bits agree for both triangulations, in placed surfaces and after moving
+ * updates. */
 TEST(cusps_meet_in_the_same_bits) {
   random_source random = random_start("test_trileaflet");
   for (int trial = 0; trial < trials_of(72); ++trial) {
@@ -100,7 +102,7 @@ TEST(cusps_meet_in_the_same_bits) {
   }
 }
 
-/* A turn by 120 degrees about the axis does not change the valve. Each cusp is its own mirror image. */
+/* A turn by 120 degrees about the axis does not change the valve. Each cusp equals its mirror image. */
 TEST(cusps_are_equal) {
   for (int i = 0; i <= 4; ++i) {
     riis_surface_options options = surface_options();
@@ -162,7 +164,7 @@ TEST(closes_cylinders) {
   assert_true(leaks_through(new_valve("trileaflet"), 1.6, -2, 0.1)); /* flow passes around the valve */
 }
 
-/* The attachment is near the wall of a cylinder. The test prints its deviation, for users who make meshes. */
+/* The attachment lies near the wall of a cylinder. The test prints the deviation for users who make meshes. */
 TEST(attachment_is_near_a_cylinder) {
   riis_surface_options options = surface_options();
   options.tolerance = 0.01;
@@ -186,7 +188,7 @@ TEST(attachment_is_near_a_cylinder) {
 
 /* --- Opening ----------------------------------------------------------------------------------------------------------- */
 
-/* From its control points, returns the length of both halves of the free edge. */
+/* Returns the length of both halves of the free edge, from their control points. */
 static double edge_by_formula(double t) {
   const double sine = sin(60 * cusp_degree), closed = commissure, open = 1.1 * commissure, r = 0.8 * root;
   double control[4][2], length = 0, last[2] = {0, 0};
@@ -222,14 +224,14 @@ TEST(free_edges_have_the_lengths_of_the_formula) {
 TEST(opens_by_itself) {
   const double orifice = check_opening(new_valve("trileaflet"), root, turn, half_angle, 0.1, "trileaflet");
   assert_true(orifice > 3 && orifice < 4);
-  /* When the valve is closed, only slivers along the wall stay uncovered. */
+  /* In the closed valve, only slivers along the wall stay uncovered. */
   assert_true(orifice_area(new_surface(new_valve("trileaflet"), NULL), root, 600) < 0.05);
   CHECK_AT_MOST(orifice_area(new_surface(new_valve("trileaflet"), NULL), 1.23, 600), 0);
 }
 
-/* With fixed triangles, a vertex's velocity is its displacement divided by the time. It differs slightly only on grid lines
- * that end between two vertices of a side, because such lines end on chords. Where closed cusps meet, each vertex has the
- * velocity of its own cusp, which is outwards. */
+/* With fixed triangles, a vertex's velocity is its displacement divided by the time. A small difference occurs only on grid lines
+ * that end between two vertices of a side, because such lines end on chords. Closed cusps meet, and each vertex there has the
+ * outward velocity of its own cusp. */
 TEST(velocity_is_that_of_the_vertices) {
   riis_surface_options options = surface_options();
   options.triangulation = RIIS_TRIANGULATION_FIXED;
@@ -282,7 +284,7 @@ TEST(closed_free_edges_are_no_rims) {
   }
 }
 
-/* With a second valve, the closed curves come from the first valve, and the open curves from the second. */
+/* If there is a second valve, the closed curves come from the first valve, and the open curves from the second. */
 TEST(opens_to_another_valves_open_state) {
   riis_valve *valve = new_valve("trileaflet"), *other = new_valve("trileaflet"), *plain = new_valve("trileaflet");
   CHECK_OK(riis_valve_set_scalar(other, "open_radius_ratio", 0.9));
@@ -332,7 +334,7 @@ TEST(every_parameter_by_name) {
     CHECK_OK(riis_valve_get(valve, table[i].name, table[i].n_values, values));
     assert_memory_equal(values, table[i].values, sizeof values);
     assert_memory_equal(parameter.default_values, table[i].values, sizeof values);
-    /* If the open state changes a little, the surface changes. */
+    /* A small change of the open state changes the surface. */
     riis_valve *changed = valve_at("trileaflet", 0.5);
     for (int k = 0; k < table[i].n_values; ++k) values[k] += 0.01;
     CHECK_OK(riis_valve_set(changed, table[i].name, table[i].n_values, values));

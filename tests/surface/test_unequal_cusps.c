@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Coapting valves with two to four cusps, with unequal cusps, with fused commissures and with bumps: what holds exactly
- * (docs/theory/coapting.md). */
+ * Tests exact properties of coapting valves (docs/theory/coapting.md). The valves have two to four cusps, unequal cusps, fused
+ * commissures and bumps. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -40,7 +40,7 @@ static int64_t patch_of(const riis_valve_patches *patches, int32_t patch_id) {
   return patch;
 }
 
-/* Returns the last piece of a side in the direction of the curve, as a cubic. A quadratic is raised to one. */
+/* Returns the last span of a side, in the direction of the curve, as a cubic. The degree of a quadratic is raised to three. */
 static cubic side_of(const riis_valve_patches *patches, int32_t patch_id, int side) {
   const int64_t curve = patches->curve_id[4 * patch_of(patches, patch_id) + side];
   const int64_t piece = patches->first_piece[curve + 1] - 1;
@@ -70,7 +70,7 @@ static double length_of_derivative(const cubic *curve, double t) {
   return sqrt(sum);
 }
 
-/* The length by the rule of docs/theory/coapting.md, "How it opens". */
+/* The length of the free edge by the rule of docs/theory/coapting.md, "How it opens". */
 static double length_by_rule(const cubic *curve) {
   static const double at[4] = {0.06943184420297371239, 0.33000947820757186760, 0.66999052179242813240,
                                0.93056815579702628761};
@@ -88,7 +88,7 @@ static double free_length(const riis_valve_patches *patches, int cusp) {
   return length_by_rule(&edges[0]) + length_by_rule(&edges[1]);
 }
 
-/* Sets random sizes of the whole valve, which a valve of this kind accepts nearly always. */
+/* Sets random sizes of the whole valve. A valve of this kind accepts nearly all such sizes. */
 static void set_sizes(random_source *random, riis_valve *valve) {
   const double rc = random_between(random, 1.1, 1.4), h = rc * random_between(random, 1.35, 1.5);
   CHECK_OK(riis_valve_set_scalar(valve, "root_radius", rc * random_between(random, 0.95, 1.05)));
@@ -98,7 +98,7 @@ static void set_sizes(random_source *random, riis_valve *valve) {
   CHECK_OK(riis_valve_set_scalar(valve, "belly", random_between(random, 0.4, 0.55)));
 }
 
-/* Gives each cusp and each commissure its own sizes, within a share of the defaults. */
+/* Gives each cusp and each commissure separate sizes, within a share of the defaults. */
 static void set_own_sizes(random_source *random, riis_valve *valve, int n_cusps, double share) {
   double h, h_e;
   CHECK_OK(riis_valve_get(valve, "commissure_height", 1, &h));
@@ -111,7 +111,7 @@ static void set_own_sizes(random_source *random, riis_valve *valve, int n_cusps,
   }
 }
 
-/* Returns a valve of the kind with unequal cusps that the library accepts, fused if `fusion` is not 0. */
+/* Returns a valve of the kind with unequal cusps that the library accepts. The commissures are fused if `fusion` is not 0. */
 static riis_valve *unequal_valve(random_source *random, int kind, double fusion) {
   for (;;) {
     riis_valve *valve = new_valve(kinds[kind]);
@@ -127,7 +127,7 @@ static riis_valve *unequal_valve(random_source *random, int kind, double fusion)
   }
 }
 
-/* A bump that does nothing gives each cusp patches of its own. They are where the images of equal cusps are. */
+/* A bump without effect gives each cusp separate patches. The separate patches lie where the images of equal cusps lie. */
 TEST(equal_cusps_are_where_their_own_patches_would_be) {
   random_source random = random_start("test_unequal_cusps");
   for (int trial = 0; trial < trials_of(9); ++trial) {
@@ -151,7 +151,7 @@ TEST(equal_cusps_are_where_their_own_patches_would_be) {
   }
 }
 
-/* Sectors are scaled to a sum of 360 degrees, and sizes of a cusp may repeat those of the valve. */
+/* Sectors are scaled to a sum of 360 degrees. Sizes of a cusp may equal those of the valve. */
 TEST(equal_sizes_by_other_names_are_the_same_valve) {
   for (int kind = 0; kind < 3; ++kind) {
     riis_valve *plain = valve_at(kinds[kind], 0.6), *other = valve_at(kinds[kind], 0.6);
@@ -175,14 +175,14 @@ TEST(equal_sizes_by_other_names_are_the_same_valve) {
   }
 }
 
-/* The length from the root along the symmetry curve of cusp 0 to the free edge. */
+/* The length of cusp 0's symmetry curve, from the root to the free edge. */
 static double geometric_height(riis_valve *valve) {
   const riis_valve_patches closed = patches_of(valve, 0);
   const cubic below = side_of(&closed, 0, u0), zone = side_of(&closed, 1, u0);
   return length_by_rule(&below) + length_by_rule(&zone);
 }
 
-/* Surgeons measured 2.38 +- 0.20 cm, from 1.5 to 3 cm, in 286 patients (docs/theory/coapting.md). Cusps grow with the root. */
+/* In 286 patients, surgeons measured 2.38 +- 0.20 cm, from 1.5 to 3 cm (docs/theory/coapting.md). Cusps grow with the root. */
 TEST(bicuspid_cusps_are_as_high_as_those_of_patients) {
   riis_valve *usual = new_valve("bicuspid"), *dilated = new_valve("bicuspid");
   CHECK_OK(riis_valve_set_scalar(usual, "annulus", 2.7));
@@ -220,7 +220,7 @@ TEST(free_edges_keep_their_length) {
 
 static int is_same_point(const double *a, const double *b) { return memcmp(a, b, 3 * sizeof *a) == 0; }
 
-/* The halves of a cusp meet in its symmetry plane, and neighbours in their commissure, to the last bit. */
+/* To the last bit, the halves of a cusp meet in its symmetry plane, and neighbours meet in their commissure. */
 TEST(neighbours_share_their_points) {
   random_source random = random_start("test_unequal_cusps");
   for (int trial = 0; trial < trials_of(12); ++trial) {
@@ -229,7 +229,7 @@ TEST(neighbours_share_their_points) {
     CHECK_OK(riis_valve_set_scalar(valve, "opening", random_between(&random, 0, 1)));
     CHECK_OK(riis_valve_set_scalar(valve, "skirt_length", trial % 4 < 2 ? 0 : 0.2));
     const riis_triangles all = triangles_of(new_surface(valve, NULL));
-    /* The ends of the attachments, from both neighbours. */
+    /* The ends of the attachments, as both neighbours have them. */
     double commissures[4][3];
     int is_known[4] = {0, 0, 0, 0}, n_checked = 0;
     for (int64_t i = 0; i < 3 * all.n_triangles; ++i) {
@@ -245,12 +245,12 @@ TEST(neighbours_share_their_points) {
     }
     assert_true(n_checked >= n);
     for (int k = 0; k < n; ++k) assert_true(is_known[k]);
-    /* Both halves have the same curves in the symmetry plane. */
+    /* Both halves of a cusp have the same curves in the symmetry plane. */
     const riis_valve_patches patches = patches_of(valve, 0.5);
     for (int k = 0; k < n; ++k)
       for (int part = 0; part < 2; ++part) {
         const int64_t here = patch_of(&patches, 4 * k + part), there = patch_of(&patches, 4 * k + 2 + part);
-        /* The mirrored half is given with u reversed. */
+        /* In the mirrored half, u is reversed. */
         assert_int_equal(patches.curve_id[4 * here + u0], patches.curve_id[4 * there + u1]);
         const cubic a = side_of(&patches, 4 * k + part, v1), b = side_of(&patches, 4 * k + 2 + part, v1);
         assert_true(is_same_point(a.q[0].x, b.q[0].x));
@@ -259,7 +259,8 @@ TEST(neighbours_share_their_points) {
   }
 }
 
-/* Seen along the axis, the attachment is near the cylinder: as docs/theory/coapting.md says for one piece and for two. */
+/* Seen along the axis, the attachment is near the cylinder. docs/theory/coapting.md gives the distance for attachments of one and
+ * of two spans. */
 TEST(attachments_are_on_the_cylinder) {
   for (double sector = 120; sector <= 240; sector += 5) {
     riis_valve *valve = new_valve("bicuspid");
@@ -278,7 +279,8 @@ TEST(attachments_are_on_the_cylinder) {
   }
 }
 
-/* Returns the length of half an open free edge without sag, by chords, from the formulas of the document. */
+/* Returns the length of half an open free edge without sag. The length is measured along chords, and the document gives the
+ * formulas. */
 static double open_length(double ratio, double radius, double half_sector, double expansion) {
   const double s = sin(half_sector), c = cos(half_sector), w = 4 / 3.0 * tan(half_sector / 4) * radius;
   const double flat = fmin(1, fmax(0, (ratio - c) / (1 - c) / 0.7)), near = fmax(0, 1 - fabs(c - 0.5) / 0.22);
@@ -296,7 +298,7 @@ static double open_length(double ratio, double radius, double half_sector, doubl
   return length;
 }
 
-/* The edge of a wide cusp opens like a fish's mouth: until 0.97 of its length is used. */
+/* A wide cusp opens like a fish's mouth, until 0.97 of its edge's length is used. */
 TEST(wide_cusps_open_as_far_as_their_edge_allows) {
   static const double sectors[3] = {180, 160, 220}, stretches[3] = {0, 0.1, 0.05};
   for (int trial = 0; trial < 3; ++trial) {
@@ -317,7 +319,7 @@ TEST(wide_cusps_open_as_far_as_their_edge_allows) {
   }
 }
 
-/* The free and the fused part are the healthy closed edge, and the fused part follows the commissure as it is. */
+/* Together, the free and the fused part are the healthy closed edge. The fused part follows the present commissure. */
 TEST(fused_parts_stay_as_in_the_closed_valve) {
   for (int kind = 0; kind < 3; ++kind) {
     const int n = n_cusps_of(kind);
@@ -344,7 +346,7 @@ TEST(fused_parts_stay_as_in_the_closed_valve) {
   }
 }
 
-/* A bump mixes the states of its own leaflet, and leaves the others as they are. */
+/* A bump changes the states of its leaflet, and leaves other leaflets unchanged. */
 TEST(bumps_mix_the_two_states) {
   static const double shares[2] = {0.2, 0.6};
   for (int kind = 0; kind < 3; ++kind) {
@@ -374,10 +376,10 @@ TEST(bumps_mix_the_two_states) {
 
 /* --- One of equal cusps that changes --------------------------------------------------------------------------------- */
 
-/* Equal cusps are images of one half, and unequal cusps have patches of their own, in another order. */
+/* Equal cusps are images of one half. Unequal cusps have separate patches in another order. */
 enum { n_ids = 64, n_near = 400 };
 
-/* Finds the first and the last vertex of each patch that a triangle uses. */
+/* For each patch, finds the first and the last vertex that a triangle uses. */
 static void find_blocks(const riis_triangles *all, int64_t first[n_ids], int64_t last[n_ids]) {
   for (int id = 0; id < n_ids; ++id) first[id] = all->n_vertices, last[id] = -1;
   for (int64_t i = 0; i < 3 * all->n_triangles; ++i) {
@@ -388,8 +390,8 @@ static void find_blocks(const riis_triangles *all, int64_t first[n_ids], int64_t
   }
 }
 
-/* Finds for each vertex of one surface the vertex of another surface with the same patch, u and v, or -1 if no triangle has
- * it. Returns 0 if the surfaces have other vertices. */
+/* For each vertex of one surface, finds the vertex of another surface with equal patch, u and v. The result is -1 for a vertex
+ * without triangles. Returns 0 if the surfaces have different vertices. */
 static int match_vertices(const riis_surface *from, const riis_surface *to, int64_t *match) {
   const riis_triangles a = triangles_of(from), b = triangles_of(to);
   int64_t first_a[n_ids], last_a[n_ids], first_b[n_ids], last_b[n_ids];
@@ -408,7 +410,7 @@ static int match_vertices(const riis_surface *from, const riis_surface *to, int6
   return 1;
 }
 
-/* Makes a valve with random equal cusps, perhaps fused, with a skirt and warped. */
+/* Makes a valve with random equal cusps and a skirt. The valve is warped, and perhaps fused. */
 static riis_valve *equal_valve(random_source *random, int kind) {
   riis_valve *valve = new_valve(kinds[kind]);
   set_sizes(random, valve);
@@ -440,7 +442,7 @@ static riis_valve *copy_of(const riis_valve *valve) {
   return own(made);
 }
 
-/* Returns the valve with one size of one cusp or commissure changed by a share of it. */
+/* Returns the valve after a change of one size of one cusp or commissure, by a share of this size. */
 static riis_valve *with_changed(const riis_valve *valve, const char *name, double share) {
   double value;
   riis_valve *made = copy_of(valve);
@@ -475,7 +477,7 @@ static riis_mark_list all_marks(const riis_surface *surface, const double *xyz) 
   return list;
 }
 
-/* Rates of vertices and derivatives of distances and of K are differences between surfaces of unequal cusps. */
+/* Three results are differences between surfaces of unequal cusps: rates of vertices, and derivatives of distances and of K. */
 TEST(a_size_of_one_of_equal_cusps_has_derivatives) {
   random_source random = random_start("test_unequal_cusps");
   const double share = 1e-6;
@@ -526,7 +528,7 @@ TEST(a_size_of_one_of_equal_cusps_has_derivatives) {
       const double slope = (above[3 * to_high[i / 3] + i % 3] - below[3 * to_low[i / 3] + i % 3]) / (2 * share * size);
       speed = fmax(speed, fabs(direction.rate[i])), off = fmax(off, fabs(slope - direction.rate[i]));
     }
-    /* A cusp that opens as far as its edge allows does not open farther with another open_radius_ratio. */
+    /* If a cusp already opens as far as its edge allows, another open_radius_ratio does not open it farther. */
     if (!(speed > 1e-6)) {
       assert_true(strstr(name, "open_radius_ratio") != NULL && off <= 1e-6);
       free_owned_after(owned_before);
@@ -559,8 +561,8 @@ TEST(a_size_of_one_of_equal_cusps_has_derivatives) {
   assert_true(n_off <= 0.02 * n_compared); /* ties, and nodes whose closest triangle changes */
 }
 
-/* Velocities from equal to unequal cusps and back are those of the same valve whose equal cusps also have patches of their own,
- * because of a bump that does nothing. */
+/* A valve goes from equal to unequal cusps and back. The velocities equal those of a valve whose equal cusps have separate
+ * patches. A bump without effect gives that valve its separate patches. */
 TEST(equal_cusps_become_unequal_in_motion) {
   random_source random = random_start("test_unequal_cusps");
   int n_alike = 0, n_moving = 0;
@@ -596,7 +598,7 @@ TEST(equal_cusps_become_unequal_in_motion) {
     }
     n_moving += fastest > 0.01;
     worst = fmax(worst, off);
-    /* The other way: the bits do not depend on the build of the earlier state but for rounding. */
+    /* In the reverse direction, the build of the earlier state changes the bits only by rounding. */
     riis_surface *from_patches = new_surface(unequal, &options);
     CHECK_OK(riis_surface_update_moving(other, unequal, equal, 0.01, NULL, NULL));
     CHECK_OK(riis_surface_update_moving(from_patches, unequal, of_patches, 0.01, NULL, NULL));
@@ -610,7 +612,7 @@ TEST(equal_cusps_become_unequal_in_motion) {
   CHECK_AT_MOST(worst, 1e-9);
 }
 
-/* A fused commissure has patches that another one lacks. A little fusion gives both states these patches. */
+/* A fused commissure has patches that an unfused commissure lacks. A little fusion gives these patches to both states. */
 TEST(fusion_of_one_state_only_is_refused) {
   riis_valve *whole = valve_at("coapting", 0.4), *fused = copy_of(whole), *nearly = copy_of(whole);
   set_of(fused, "commissure", 1, "fusion", 0.3);

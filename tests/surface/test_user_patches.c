@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Compares surfaces of valves from the caller's patches with the patches' own curves. */
+ * Compares surfaces of valves from the caller's patches with the curves of these patches. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -35,8 +35,8 @@ TEST(square_has_its_area_and_normal) {
   assert_int_equal(above.side, -1);
 }
 
-/* A wavy patch with curves of every degree. Coordinates are small multiples of 1/8, so interpolation between states does not
- * round. */
+/* Makes a wavy patch with curves of every degree. Coordinates are small multiples of 1/8, so interpolation between states is
+ * exact. */
 static shape wavy(void) {
   static const double v0[4][3] = {{0, 0, 0}, {0.375, -0.25, 0.5}, {0.75, 0.25, -0.25}, {1.25, 0, 0.125}};
   static const double v1[3][3] = {{0, 1, 0.25}, {0.5, 1.5, 0.75}, {1, 1.25, 0}};
@@ -70,7 +70,7 @@ TEST(both_bases_and_no_optional_arrays_give_the_same) {
 TEST(line_of_any_degree_gives_the_same_surface) {
   const shape from = wavy();
   const double *a = from.control[3][0], *b = from.control[3][1];
-  /* The degree, and the positions of the inner control points on the line, evenly and unevenly spaced. */
+  /* The degree, and the positions of the inner control points on the line. The positions are evenly or unevenly spaced. */
   const struct {
     int32_t degree;
     double at[2];
@@ -96,7 +96,8 @@ static void bezier_point(const shape *from, int64_t curve, double t, double *p) 
 
 enum { n_steps = 4000, n_dense = 120 };
 
-/* Gives the points at the fractions 0, 1 / n_dense, 2 / n_dense, ... of the curve's length, measured along n_steps chords. */
+/* Gives the points of the curve at the fractions 0, 1 / n_dense, 2 / n_dense, ... of its length. The length is measured along
+ * n_steps chords. */
 static void points_by_length(const shape *from, int side, double (*points)[3]) {
   static double fine[n_steps + 1][3], length[n_steps + 1];
   const int64_t curve = from->curve_id[side];
@@ -117,7 +118,7 @@ static void points_by_length(const shape *from, int side, double (*points)[3]) {
   }
 }
 
-/* Makes a surface from arrays of points of the shape's first patch, by Coons' formula. */
+/* Makes a surface from arrays of points of the shape's first patch. Coons' formula gives the points. */
 static riis_surface *dense_surface(const shape *from) {
   static double side[4][n_dense + 1][3], xyz[(n_dense + 1) * (n_dense + 1)][3];
   static int32_t quads[n_dense * n_dense][4];
@@ -144,7 +145,7 @@ static riis_surface *dense_surface(const shape *from) {
   return surface_from(&arrays, &options);
 }
 
-/* Returns the largest distance to a surface from the vertices and middles of another surface's triangles. */
+/* Returns the largest distance to a surface from another surface's vertices and from the middles of its triangles. */
 static double largest_distance(const riis_surface *to, const riis_surface *from) {
   const riis_triangles all = triangles_of(from);
   double largest = 0;
@@ -214,8 +215,8 @@ TEST(random_patches_are_coons_patches) {
   }
 }
 
-/* Makes two patches that share a curve from (0, 0, 0) to (0, 1, z), which is u = 1 of both. The second patch is turned by half
- * a circle, so its v runs backwards along the curve. */
+/* Makes two patches that share their side u = 1, a curve from (0, 0, 0) to (0, 1, z). The second patch is turned by half a
+ * circle, so its v runs backwards along the curve. */
 static shape pair_of_patches(double z) {
   const double shared[4][3] = {{0, 0, 0}, {0.5, 0.25, z}, {-0.25, 0.75, 3 * z}, {0, 1, z}};
   const double far[3][3] = {{2, 1, 0}, {2.5, 0.5, 2 * z}, {2, 0, z}};
@@ -234,7 +235,7 @@ static shape pair_of_patches(double z) {
   return pair;
 }
 
-/* The vertices at u = 1 of a patch, each once, in the order of v. For the second patch, v is reversed. */
+/* Lists each vertex at u = 1 of a patch once, in the order of v. For the second patch, v is reversed. */
 typedef struct {
   double v, p[3];
 } boundary_vertex;
@@ -283,8 +284,8 @@ static double distance_to_polyline(const double *p, const boundary_vertex *line,
   return smallest;
 }
 
-/* Makes a patch with the shared curve at u = 1, and with a moved copy of it at u = 0. The patch's quads are planar and never
- * split, so its vertices at u = 1 form the curve's polyline. */
+/* Makes a patch with the shared curve at u = 1, and a moved copy of this curve at u = 0. The patch's quads are planar and never
+ * split. The vertices at u = 1 therefore form the curve's polyline. */
 static shape strip_along_shared_curve(const shape *pair) {
   shape strip = {0};
   double moved[4][3];
@@ -328,7 +329,7 @@ TEST(shared_curves_leave_no_cracks) {
       check_holds(a, n_a, &of_curve[i]);
       check_holds(b, n_b, &of_curve[i]);
     }
-    /* If only one patch has a vertex, it lies on the other patch's edges, up to rounding. */
+    /* A vertex that only one patch has lies on the other patch's edges, up to rounding. */
     for (int i = 0; i < n_a; ++i) CHECK_AT_MOST(distance_to_polyline(a[i].p, b, n_b), 1e-15);
     for (int i = 0; i < n_b; ++i) CHECK_AT_MOST(distance_to_polyline(b[i].p, a, n_a), 1e-15);
     /* The normals of both patches point along S_u x S_v. */
@@ -382,7 +383,7 @@ TEST(opening_blends_control_points) {
   for (int64_t i = 0; i < closed.n_curves; ++i)
     for (int k = 0; k <= closed.degree[i]; ++k)
       for (int c = 0; c < 3; ++c) {
-        /* The open state is sheared and lifted such that the sides still meet at the corners. */
+        /* The open state is sheared and lifted. The sides of this state still meet at the corners. */
         open.control[i][k][c] += c == 2 ? 0.5 + closed.control[i][k][0] : 0.25 * closed.control[i][k][2];
         middle.control[i][k][c] = 0.5 * (closed.control[i][k][c] + open.control[i][k][c]);
       }
@@ -396,7 +397,7 @@ TEST(opening_blends_control_points) {
     riis_surface *surface = new_surface(valve, NULL);
     check_same_surfaces(surface, surface_of(expected[step], NULL));
   }
-  /* The valve may also be its own open state. */
+  /* A valve may be its own open state. */
   CHECK_OK(riis_valve_set_open_state(valve, valve));
   riis_surface *surface = new_surface(valve, NULL);
   free_one_owned(valve);

@@ -6,7 +6,7 @@
 
 #include "handles.h"
 
-/* A unit square in z = 0 of two triangles, and a third triangle 5 above it. */
+/* Two triangles are a unit square in z = 0. A third triangle lies 5 above this square. */
 static const double xyz[21] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 5, 1, 0, 5, 0, 1, 5};
 static const int32_t ids[9] = {0, 1, 2, 0, 2, 3, 4, 5, 6};
 static const int32_t leaflets[3] = {7, 8, 9};
@@ -126,8 +126,8 @@ TEST(winding_is_the_callers_unless_flipped) {
   assert_int_equal(closest_to(flipped, 0.9, 0.1, 1).side, -1);
 }
 
-/* Two triangles lie back to back. At the common edges the sum of their normals is 0 up to rounding, so the side is taken from
- * the reported triangle alone. */
+/* Two triangles lie back to back. At the common edges the sum of their normals is 0 up to rounding. The side is therefore taken
+ * from the reported triangle alone. */
 TEST(side_of_folded_faces_is_the_triangles_own) {
   const double points[9] = {0.1, 0.2, 0.3, 1.7, 0.4, 0.1, 0.3, 1.9, 0.7};
   const int32_t faces[6] = {0, 1, 2, 1, 0, 2};
@@ -162,7 +162,7 @@ TEST(update_replaces_the_content) {
   CHECK_NEAR(closest_to(surface, 0.9, 0.1, 1).distance, 1, 0);
 }
 
-/* An update with vertices alone moves the faces of the last arrays. It equals an update with faces and vertices. */
+/* An update with vertices alone keeps the faces of the last arrays. Such an update equals an update with faces and vertices. */
 TEST(vertices_alone_keep_the_faces) {
   enum { n = 30 };
   random_source rng = random_start("test_user_surface");
@@ -244,10 +244,10 @@ TEST(vertices_alone_are_refused_without_their_faces) {
                 riis_surface_update_from_arrays(surface, &vertices, NULL));
 }
 
-/* A closed body with sharp edges. Points inside are recognised even if the closest point is on an edge or a corner, where the
- * normal of one face would give the wrong side. */
+/* A closed body with sharp edges. Points inside are recognised even if the closest point is on an edge or a corner. At such
+ * points, the normal of a single face would give the wrong side. */
 TEST(side_at_edges_and_corners_of_a_wedge) {
-  /* A thin tetrahedron, with dihedral angles far below and far above 90 degrees. */
+  /* A thin tetrahedron. The dihedral angles are far below and far above 90 degrees. */
   const double points[12] = {0, 0, 0, 4, 0, 0, 2, 0.5, 0, 2, 0.25, 0.3};
   const int32_t faces[12] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2};
   riis_surface_arrays arrays = triangle_arrays(4, points, 4, faces);
@@ -256,7 +256,7 @@ TEST(side_at_edges_and_corners_of_a_wedge) {
   int n_inside = 0, n_edge = 0;
   for (int trial = 0; trial < 50000; ++trial) {
     const double p[3] = {random_between(&rng, -1, 5), random_between(&rng, -0.5, 1), random_between(&rng, -0.5, 0.8)};
-    /* Whether the point is inside all four planes. */
+    /* Returns whether the point is inside all four planes. */
     int inside = 1;
     for (int f = 0; f < 4; ++f) {
       const double *a = points + 3 * faces[3 * f], *b = points + 3 * faces[3 * f + 1],

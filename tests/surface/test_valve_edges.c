@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Free edges and orifices of the valves that patients have. The edges are found among the patches' sides, and a raster of the
- * triangles measures the orifices. */
+ * Tests free edges and orifices of valves that patients have. The edges come from the sides of patches. A raster of the triangles
+ * measures the orifices. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -27,7 +27,7 @@ static double speed_of(const double *control, int degree, double t) {
   return sqrt(square);
 }
 
-/* The rule that defines the length of a free edge: 16 panels of Gauss's rule with four points. */
+/* This rule defines the length of a free edge: Gauss's rule with four points on each of 16 parts. */
 static double length_of_piece(const double *control, int degree) {
   enum { n_panels = 16 };
   double sum = 0;
@@ -63,7 +63,8 @@ static int is_same_side(const patch_side *a, const patch_side *b) {
   return fmin(along, against) < 1e-9 && fabs(a->length - b->length) < 1e-9;
 }
 
-/* Adds the lengths of each leaflet's free edge: the sides that are not attached, and at which no other patch lies. */
+/* Adds the lengths of each leaflet's free edge. A free edge consists of sides that are not attached and that no other patch
+ * shares. */
 static void lengths_of_edges(riis_valve *valve, double *lengths) {
   riis_valve_patches patches;
   CHECK_OK(riis_valve_get_patches(valve, &patches, sizeof patches));
@@ -79,7 +80,7 @@ static void lengths_of_edges(riis_valve *valve, double *lengths) {
   free_one_owned(sides);
 }
 
-/* The free edge keeps its length, fused or not, unless it stretches. */
+/* The free edge keeps its length if it does not stretch. Fusion does not matter. */
 TEST(free_edges_keep_their_length) {
   double worst = 0;
   for (int trial = 0; trial < trials(3 * n_studied, 40 * n_studied); ++trial) {
@@ -110,7 +111,8 @@ TEST(free_edges_keep_their_length) {
   CHECK_AT_MOST(worst, 1e-12);
 }
 
-/* Returns the area inside the outline that no triangle covers, seen along the axis. Beside an annulus the grid is also open. */
+/* Returns the area inside the outline that no triangle covers, seen along the axis. The part of the grid beside an annulus is
+ * also open. */
 static double open_area(const riis_surface *surface, double root_radius) {
   enum { n = 400 };
   riis_attachment annulus;
@@ -124,7 +126,7 @@ static double open_area(const riis_surface *surface, double root_radius) {
   return orifice_area(surface, half_width, n) - (double)n_beside * pow(2.0 * half_width / n, 2);
 }
 
-/* The orifices at the openings 0, 1/4, 1/2, 3/4 and 1 that another implementation of the construction has, or -1. */
+/* The orifices at the openings 0, 1/4, 1/2, 3/4 and 1, or -1. Another implementation of the construction gave these orifices. */
 typedef struct orifices {
   const char *kind, *settings;
   double area[5];
@@ -170,7 +172,7 @@ TEST(orifices_are_those_of_the_prototype) {
       CHECK_OK(riis_surface_get_orifice(surface, NULL, &orifice, sizeof orifice));
       printf(" %.2f, %.2f for %.2f;", area, orifice.area, of->area[i]);
       off = fmax(off, fabs(area - of->area[i]));
-      /* The library's outline is the attachment, which differs from the disc by the commissures' expansion. */
+      /* The library's outline is the attachment. This outline differs from the disc, because the commissures expand. */
       CHECK_NEAR(orifice.area, area, 0.05 * of->area[4]);
     }
     printf(" off by %.1f %% of the open one\n", 100 * off / of->area[4]);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Studies of the valves that patients have. Random sizes do not cross, closed valves are sealed, symmetric sizes give symmetric
- * valves, and velocities are those of the vertices. RIIS_TEST_LONG=1 makes 300 sets for each row of the random study. */
+ * Studies valves that patients have. Valves of random sizes do not cross, and closed valves are sealed. Symmetric sizes give
+ * symmetric valves. Velocities are those of the vertices. RIIS_TEST_LONG=1 makes 300 sets for each row of the random study. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -16,7 +16,7 @@ static double between(double low, double high) { return random_between(&rng, low
 
 /* --- Random valves ----------------------------------------------------------------------------------------------------- */
 
-/* Returns whether leaflets cross at some of the openings. */
+/* Returns whether leaflets cross at one of some openings. */
 static int crosses(riis_valve *valve, riis_crossings *crossings) {
   static const double openings[] = {0, 0.1, 0.25, 0.4, 0.55, 0.7, 0.8, 0.9, 1};
   const int n = is_long_test() ? 21 : (int)(sizeof openings / sizeof *openings);
@@ -38,7 +38,8 @@ static int crosses(riis_valve *valve, riis_crossings *crossings) {
   return 0;
 }
 
-/* Few sets may miss a share by chance, so the bounds are wider for them: by three standard deviations. */
+/* If there are few sets, chance may lift them above a share. The bounds for few sets are therefore wider by three standard
+ * deviations. */
 static double at_most(double share, int n) {
   return n * share + (is_long_test() ? 0 : 3 * sqrt(n * share * (1 - share)));
 }
@@ -47,7 +48,7 @@ typedef struct tally {
   int accepted, refused, crossing;
 } tally;
 
-/* Makes n valves of a row of the study, which is a kind with its sectors. */
+/* Makes n valves for a row of the study. A row is a kind with its sectors. */
 static void study_row(const studied *of, double spread, sickness has, int n, riis_crossings *crossings, tally *count) {
   const tally before = *count;
   while (count->accepted - before.accepted < n && count->refused - before.refused <= 2 * n + 10) {
@@ -62,7 +63,8 @@ static void study_row(const studied *of, double spread, sickness has, int n, rii
          count->refused - before.refused);
 }
 
-/* Returns how often too many sets cross or are refused. Shares are those of each row with many sets, else of all rows. */
+/* Returns how often too many sets cross or are refused. With many sets, each row has its own share. With few sets, all rows have
+ * one common share. */
 static int broken_bounds(double spread, const double *most_crossing, const double *most_refused) {
   riis_crossings *crossings = NULL;
   CHECK_OK(riis_crossings_create(&crossings));
@@ -72,8 +74,8 @@ static int broken_bounds(double spread, const double *most_crossing, const doubl
     tally count = {0, 0, 0};
     for (int row = 0; row < n_studied; ++row) {
       const studied *of = &all_studied[row];
-      /* Leaflets around a saddle do not fuse. With two spreads these are at least 20 sets of each kind, because kinds with cusps
-       * have two rows. */
+      /* Leaflets around a saddle do not fuse. Kinds with cusps have two rows, so two spreads give at least 20 sets of each
+       * kind. */
       if ((has != fused || of->has_cusps) && (n_studied * (int)has + row) % trial_step() == 0)
         study_row(of, spread, has, trials(of->has_cusps ? 2 : 5, 300), crossings, &count);
       if (!is_long_test() && row + 1 < n_studied) continue;
@@ -89,7 +91,7 @@ static int broken_bounds(double spread, const double *most_crossing, const doubl
 }
 
 TEST(random_valves_do_not_cross) {
-  /* Bumps of random places and widths fold a quarter of the bicuspid valves even beside nearly usual sizes. */
+  /* Random bumps make a quarter of the bicuspid valves fold, even if all other sizes are nearly usual. */
   static const double none_crosses[n_sicknesses] = {0, 0, 0}, few_cross[n_sicknesses] = {0.01, 0.01, 0.02},
                       few_refused[n_sicknesses] = {0.1, 0.1, 0.35}, some_refused[n_sicknesses] = {0.35, 0.35, 0.35};
   assert_int_equal(broken_bounds(0.1, none_crosses, few_refused), 0);
@@ -98,7 +100,7 @@ TEST(random_valves_do_not_cross) {
 
 /* --- Sealing ----------------------------------------------------------------------------------------------------------- */
 
-/* Returns whether a closed valve leaks, cusps in a tube, other leaflets inside their annulus. */
+/* Returns whether a closed valve leaks. Cusps stand in a tube, and other leaflets inside their annulus. */
 static int leaks_when(riis_valve *valve, const studied *of, double opening, double half_thickness) {
   CHECK_OK(riis_valve_set_scalar(valve, "opening", opening));
   if (of->has_cusps) return leaks_through(valve, get(valve, "root_radius"), -0.8, half_thickness);
@@ -123,7 +125,7 @@ TEST(closed_valves_are_sealed) {
       if (leaks_when(valve, of, 0, k ? 0.05 : 0.1)) fail_msg("%s %s leaks", of->kind, of->settings);
     assert_true(leaks_when(valve, of, 0.3, 0.05));
     if (!of->has_cusps) continue;
-    /* The wall is farther out than the attachment. Only a skirt reaches it. */
+    /* The wall is farther out than the attachment, so only a skirt reaches the wall. */
     const double wall = 1.15 * get(valve, "root_radius");
     CHECK_OK(riis_valve_set_scalar(valve, "opening", 0));
     assert_true(leaks_through(valve, wall, -0.8, 0.05));
@@ -132,7 +134,7 @@ TEST(closed_valves_are_sealed) {
   }
 }
 
-/* The fill finds a gap exactly if the gap is wider than the band. */
+/* The fill finds exactly the gaps that are wider than the band. */
 TEST(fills_find_gaps) {
   const studied cusps = {"coapting", 3, 1, "gap=0.25"};
   riis_valve *apart = valve_of(cusps.kind, cusps.settings);
@@ -150,8 +152,8 @@ TEST(fills_find_gaps) {
 
 /* --- Symmetry ---------------------------------------------------------------------------------------------------------- */
 
-/* Makes the valve whose leaflets come in another order. Leaflet `shift` of the valve becomes leaflet 0. A mirror image also
- * reverses the order, and each free edge. */
+/* Makes the same valve with its leaflets in another order: leaflet `shift` becomes leaflet 0. A mirror image also reverses the
+ * order, and each free edge. */
 static riis_valve *reordered(const riis_valve *valve, int n_leaflets, int shift, int is_mirrored) {
   riis_valve *made = NULL;
   int64_t n;
@@ -196,7 +198,8 @@ static double angle_of(const riis_valve *valve, int n_leaflets, int to) {
   return 360 * angle / sum;
 }
 
-/* Returns how far vertices of one surface, with x and y times `side`, are from the other surface. */
+/* Returns how far the vertices of one surface are from the other surface. First, x and y of the vertices are multiplied by
+ * `side`. */
 static double farthest(const riis_surface *from, const double *side, const riis_surface *to) {
   const riis_triangles all = triangles_of(from);
   double most = 0;
@@ -212,7 +215,7 @@ TEST(reordered_leaflets_make_the_same_valve) {
   for (int trial = 0; trial < trials(6 * n_studied, 30 * n_studied); ++trial) {
     const int owned_before = n_owned(), is_mirrored = trial / n_studied % 2;
     const studied *of = &all_studied[trial % n_studied];
-    /* The leaflets around a saddle differ. Those of a mitral valve are their own mirror images. */
+    /* The leaflets around a saddle differ. Each leaflet of a mitral valve equals its mirror image. */
     riis_valve *valve = of->has_cusps ? random_valve(&rng, of, 0.1, (sickness)(trial / n_studied / 2 % n_sicknesses))
                         : of->n_leaflets == 2 && is_mirrored ? valve_of(of->kind, of->settings)
                                                              : NULL;
@@ -222,7 +225,7 @@ TEST(reordered_leaflets_make_the_same_valve) {
     riis_valve *other = reordered(valve, of->n_leaflets, shift, is_mirrored);
     riis_surface_options turned = surface_options();
     turned.rotation_angle = shift ? -angle_of(valve, of->n_leaflets, shift) : 0;
-    /* Cusp 0 is its own mirror image about the x axis, and leaflets around a saddle about the y axis. */
+    /* Cusp 0 equals its mirror image about the x axis. Leaflets around a saddle equal their mirror images about the y axis. */
     const double opening = between(0, 1), other_side = is_mirrored ? -1 : 1;
     const double side[2] = {of->has_cusps ? 1 : other_side, of->has_cusps ? other_side : 1};
     riis_surface *a = surface_at(valve, opening, &turned), *b = surface_at(other, opening, NULL);
@@ -238,7 +241,7 @@ TEST(reordered_leaflets_make_the_same_valve) {
   CHECK_AT_MOST(worst, 1e-9);
 }
 
-/* Only the ratio of sectors counts. A size that is not set follows. */
+/* Only the ratio of the sectors matters. A size that is not set follows from others. */
 TEST(equal_values_make_equal_valves) {
   for (int row = 0; row < n_studied; row += trial_step()) {
     const studied *of = &all_studied[row];
@@ -268,8 +271,8 @@ TEST(equal_values_make_equal_valves) {
 
 /* --- Motion and warps -------------------------------------------------------------------------------------------------- */
 
-/* With fixed triangles, velocities are differences of the vertices' places, up to the error of these places. A restart at another
- * opening has the same bits. */
+/* With fixed triangles, velocities are differences of the vertices' places, up to the rounding of these places. A restart at
+ * another opening has the same bits. */
 TEST(velocities_are_differences) {
   riis_surface_options fixed = surface_options();
   fixed.triangulation = RIIS_TRIANGULATION_FIXED;

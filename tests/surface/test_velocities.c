@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Velocities of opening valves, at vertices and inside triangles, are compared with the smooth motion. The bound on the
- * errors of velocities is tested for any motion. */
+ * Compares velocities of opening valves with the smooth motion, at vertices and inside triangles. Also tests the bound of the
+ * errors of velocities, for any motion. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -63,8 +63,8 @@ static compared compare(const riis_surface *surface, const smooth_motion *motion
   return made;
 }
 
-/* The valve opens in steps of a thousandth. The first openings in the list had the largest errors so far. RIIS_TEST_LONG
- * tests all openings. */
+/* The valve opens in steps of a thousandth. The first openings of the list have the largest known errors. RIIS_TEST_LONG tests
+ * all openings. */
 TEST(velocities_follow_the_smooth_valve) {
   static const int known[] = {957, 930, 950, 755, 1000};
   enum { n_known = sizeof known / sizeof *known };
@@ -126,7 +126,7 @@ static const struct {
 } values_of[n_kinds] = {
     {aortic_values, 6}, {trileaflet_values, 6}, {mitral_values, 3}, {bileaflet_values, 2}, {coapting_values, 7}};
 
-/* Changes the value at position `only` at random, or about half of all values if `only` is negative. */
+/* Changes one value, at position `only`, at random. If `only` is negative, changes about half of all values. */
 static void move(riis_valve *valve, int kind, int only) {
   for (int i = 0; i < values_of[kind].n; ++i)
     if (only < 0 ? random_bits(&rng) % 2 : i == only)
@@ -142,7 +142,7 @@ static void place(const riis_surface_options *by, const double *p, double *place
   placed[2] = by->scale * p[2] + by->translation[2];
 }
 
-/* Returns the largest difference from the smooth motion at equal patch, u and v. */
+/* Returns the largest difference from the smooth motion, at equal patch, u and v. */
 static double farthest_at_labels(const riis_surface *surface, const smooth_motion *motion,
                                  const riis_surface_options *now, const riis_surface_options *then, double seconds) {
   const riis_triangles c = triangles_of(surface);
@@ -207,7 +207,7 @@ TEST(the_bound_holds_for_any_motion) {
   printf("the bound is at least %.2f times what was found\n", least_ratio);
 }
 
-/* The bound is useful: for an opening motion it is a small fraction of the speed. If few triangles bend much, the bound is
+/* The bound is useful: for an opening valve it is a small fraction of the speed. If few triangles bend strongly, the bound is
  * close to the true error. docs/theory/velocity.md has the printed shares. */
 TEST(the_bound_is_near) {
   static const double most[n_kinds] = {0.35, 0.06, 0.08, 0.04, 0.06};
@@ -228,8 +228,9 @@ TEST(the_bound_is_near) {
     printf("%s, %d openings: the bound is %.3g to %.3g of the largest speed\n", kinds[kind], n, least, largest);
     CHECK_AT_MOST(largest, most[kind]);
   }
-  /* At opening 0.633 a joint of the annulus passes the end of a mitral patch. The piece behind it is short at this opening, and
-   * its length changes many times over. An earlier bound reached 3.8 times the largest speed on such a piece. */
+  /* At opening 0.633 a joint of the annulus passes the end of a mitral patch. The span behind the joint is short at this opening,
+   * and its length changes many times over. A bound that compared the two states on such a span would reach 3.8 times the largest
+   * speed. */
   riis_valve *passing = new_valve("mitral"), *just_before = new_valve("mitral");
   double worst = 0;
   for (int i = 2; i <= 60; i += trial_step()) {
@@ -243,7 +244,7 @@ TEST(the_bound_is_near) {
   }
   printf("mitral, where a joint passes: the bound is at most %.3g of the largest speed\n", worst);
   CHECK_AT_MOST(worst, 0.2);
-  /* At this opening the leaflets are flat, and about to bend. */
+  /* At this opening the leaflets are flat, and begin to bend. */
   riis_valve *valve = new_valve("mitral"), *before = new_valve("mitral"), *open = new_valve("mitral");
   CHECK_OK(riis_valve_set_scalar(valve, "surface_angle", 25));
   CHECK_OK(riis_valve_set_scalar(open, "surface_angle", -25));
@@ -267,7 +268,7 @@ TEST(the_bound_is_near) {
   CHECK_AT_MOST(bound, 3 * off);
 }
 
-/* A motion that keeps everything in place has no velocity error. */
+/* If a motion leaves everything in place, velocities have no error. */
 TEST(no_motion_has_no_error) {
   for (int kind = 0; kind < n_kinds; ++kind) {
     riis_valve *valve = new_valve(kinds[kind]);

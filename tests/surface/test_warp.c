@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  * Tests warps. The map is compared with a separate solution of its equations. Warped valves are compared with the map and with
- * placed valves. Further tests cover folds, an annulus that moves, and the patches that are read out. */
+ * placed valves. Further cases test folds, an annulus that moves, and the patches that are read out. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -100,7 +100,7 @@ static affine map_of(const riis_surface_options *options) {
   return map;
 }
 
-/* Landmarks along the attachment of a valve's surface, every few vertices. Returns their number. */
+/* Makes landmarks along the attachment of a valve's surface, at every few vertices. Returns their number. */
 static int64_t landmarks_on(const riis_surface *surface, int64_t n_wanted, double *xyz) {
   riis_attachment attachment;
   CHECK_OK(riis_surface_get_attachment(surface, &attachment, sizeof attachment));
@@ -114,7 +114,7 @@ static int64_t landmarks_on(const riis_surface *surface, int64_t n_wanted, doubl
   return n;
 }
 
-/* Landmarks beside the attachment. No curve is cut there, so a warped curve has the pieces that it had. */
+/* The landmarks lie beside the attachment. No curve is cut beside the attachment, so a warped curve keeps its spans. */
 static int64_t landmarks_beside(const riis_surface *surface, int64_t n_wanted, double *xyz) {
   const int64_t n = landmarks_on(surface, n_wanted, xyz);
   for (int64_t i = 0; i < n; ++i)
@@ -122,7 +122,7 @@ static int64_t landmarks_beside(const riis_surface *surface, int64_t n_wanted, d
   return n;
 }
 
-/* A smooth deformation of a root: it widens, tilts, and gets oval. */
+/* A smooth deformation of a root, which widens, tilts and becomes oval. */
 static void deform(const double *x, double size, double *y) {
   const double made[3] = {x[0] * (1 + size) + size * x[1] * x[2], x[1] * (1 - 0.7 * size) + 0.5 * size * x[0] * x[0],
                           x[2] * (1 + 0.5 * size) + size * (x[0] - 0.6 * x[1] * x[0])};
@@ -137,7 +137,7 @@ static double distance_to(const riis_surface *surface, const double *p) {
 
 /* --- The map ---------------------------------------------------------------------------------------------------------- */
 
-/* Solves the whole system [K P; P^T 0] by elimination with pivots, as in textbooks. */
+/* Solves the whole system [K P; P^T 0] by elimination with pivots, as textbooks do. */
 static void solve_dense(int n, double *a, double *b) {
   for (int k = 0; k < n; ++k) {
     int pivot = k;
@@ -180,7 +180,7 @@ TEST(the_map_solves_its_equations) {
     CHECK_OK(status);
     const riis_warp_info info = info_of_warp(warp);
     assert_int_equal(info.n_landmarks, n);
-    if (info.is_planar) { /* a few landmarks may be nearly in a plane by chance, and their map has other equations */
+    if (info.is_planar) { /* a few landmarks may be nearly in a plane, where the map has other equations */
       free_owned_after(owned_before);
       continue;
     }
@@ -191,8 +191,9 @@ TEST(the_map_solves_its_equations) {
       CHECK_NEAR(info.rms_residual, sqrt(0.6 * 3 * (n - 4.0) / n) * noise, 1e-6 * noise);
     }
     if (isfinite(info.smoothing)) {
-      /* The library's lambda is for coordinates in units of the widest rms extent. It is therefore found from the residuals:
-       * each is lambda times the weight of its landmark, because K w + P c + residual is the target. */
+      /* The library's lambda is for coordinates in units of the largest root mean square extent. The test therefore finds lambda
+       * from the residuals. Because K w + P c + residual is the target, each residual is lambda times the weight of its
+       * landmark. */
       for (int i = 0; i < n; ++i) {
         for (int k = 0; k < n; ++k) a[i * m + k] = pow(distance3(from + 3 * i, from + 3 * k) / unit, 3);
         for (int k = 0; k < 4; ++k) a[i * m + n + k] = a[(n + k) * m + i] = k == 0 ? 1 : from[3 * i + k - 1] / unit;
@@ -260,8 +261,8 @@ TEST(affine_and_planar_maps_are_reproduced) {
   }
 }
 
-/* The derivatives of |r|^3 do not jump. A warped line through a landmark therefore has
- * no kink: its direction changes little over a short step. */
+/* The derivatives of |r|^3 do not jump. A warped line through a landmark therefore has no kink. The line's direction changes
+ * little over a short step. */
 TEST(a_landmark_adds_no_kink) {
   double worst = 0;
   for (int trial = 0; trial < trials_of(30); ++trial) {
@@ -304,7 +305,7 @@ TEST(an_identity_changes_nothing) {
     CHECK_OK(riis_valve_set_scalar(valve, "opening", trial < 3 ? 0 : trial < 6 ? 1 : between(0, 1)));
     riis_surface *plain = new_surface(valve, &options), *surface;
     double from[3 * max_landmarks];
-    /* A curve that is cut may get other vertices, and the surface is the same within its error. */
+    /* A curve that is cut may get other vertices. The surface stays the same within its error. */
     const int is_cut = trial % 4 == 2, is_fixed = trial % 4 == 3;
     const int64_t n = is_cut ? landmarks_on(plain, 30, from) : landmarks_beside(plain, 30, from);
     riis_warp *warp = new_warp(n, from, 0, &options);
@@ -331,8 +332,8 @@ TEST(an_identity_changes_nothing) {
   }
 }
 
-/* A rigid warp gives the same shape as the placement: points of either surface lie on the other surface, within the errors of
- * both. The orifice, the swept volume and the attachment also agree. */
+/* A rigid warp gives the same shape as the placement. Points of either surface lie on the other surface, within the errors of
+ * both surfaces. The orifice, the swept volume and the attachment also agree. */
 TEST(a_rigid_warp_equals_a_placement) {
   for (int trial = 0; trial < trials_of(27); trial += trial_step()) {
     const int owned_before = n_owned();
@@ -370,8 +371,8 @@ TEST(a_rigid_warp_equals_a_placement) {
   }
 }
 
-/* Curves of warped valves are compared with the map: their ends, the directions of their end tangents, and their distance from
- * the mapped curve. A curve that is not warped must equal the plain valve's curve. */
+/* Curves of warped valves are compared with the map. The compared values are the curves' ends, the directions of the end
+ * tangents, and the distance from the mapped curve. A curve that is not warped must equal the plain valve's curve. */
 static riis_valve_patches patches_of(riis_valve *valve) {
   riis_valve_patches patches;
   CHECK_OK(riis_valve_get_patches(valve, &patches, sizeof patches));
@@ -439,7 +440,7 @@ TEST(warped_curves_are_near_mapped_curves) {
   CHECK_AT_MOST(worst_angle, 1e-3);
 }
 
-/* If the patches are Coons patches, the patches that are read out make the same valve again. */
+/* If the patches are Coons patches, a valve from the patches that are read out equals the first valve. */
 TEST(patches_make_the_same_valve) {
   for (int trial = 0; trial < trials_of(36); ++trial) {
     const int owned_before = n_owned(), is_warped = trial / 2 % 2;
@@ -485,7 +486,8 @@ TEST(patches_make_the_same_valve) {
   }
 }
 
-/* The warped annulus of a mitral valve has landmarks of its own in both states, and meets them at both ends. */
+/* The warped annulus of a mitral valve has separate landmarks in the closed and the open state. In either state the annulus
+ * passes through its landmarks. */
 TEST(closed_and_open_landmarks_are_met) {
   for (int trial = 0; trial < trials_of(18); ++trial) {
     const int owned_before = n_owned();
@@ -515,8 +517,8 @@ TEST(closed_and_open_landmarks_are_met) {
 
 /* --- In a mesh -------------------------------------------------------------------------------------------------------- */
 
-/* The valve and the mesh of its root are warped alike. The closed valve separates the mesh, and the open one does not. A
- * saddle's annulus is no circle, so its skirt closes the gap to the wall. */
+/* One warp moves the valve and the mesh of its root. The closed valve separates the mesh, and the open valve does not. A saddle's
+ * annulus is not a circle, so its skirt closes the gap to the wall. */
 TEST(warped_valves_seal) {
   static const char *const sealing[3] = {"trileaflet", "mitral_coapting", "tricuspid"};
   for (int trial = 0; trial < 6; ++trial) {
@@ -559,7 +561,7 @@ TEST(warped_valves_seal) {
 
 /* --- An annulus that moves -------------------------------------------------------------------------------------------- */
 
-/* A step of a moving annulus. Separate warps give the maps of both times. */
+/* A step of a moving annulus. The maps of its two times come from separate warps. */
 typedef struct {
   riis_valve *now, *before;           /* warped */
   riis_valve *rest_now, *rest_before; /* the same without warps */
@@ -602,9 +604,9 @@ static warped_step new_step(const char *kind, double opening, double opening_bef
   return step;
 }
 
-/* Returns the largest difference between the velocities of a surface and of its material, and writes the largest speed. The
- * material point x of a vertex y is the point that the map takes to y. In the earlier state, the valve without its warp had the
- * same label at x, and the earlier map took x to another place. */
+/* Compares the velocities of a surface with those of its material. Returns the largest difference, and writes the largest speed.
+ * The map takes a material point x to the vertex y. In the earlier state, the valve without its warp had the same label at x, and
+ * the earlier map took x to another place. */
 static double material_error(const riis_surface *surface, const warped_step *step, const riis_surface_options *options,
                              double *largest, double *rms) {
   const riis_triangles t = triangles_of(surface);
@@ -660,8 +662,8 @@ static double material_error(const riis_surface *surface, const warped_step *ste
 }
 
 /* A velocity is the displacement of the material over the step, also along the leaflet. The bound of velocities holds. The limits
- * of the errors, as shares of the largest speed, have held for 300 seeds. Without RestInside and rest_of_offsets taking
- * displacements where the labels are, the first two steps exceed them. */
+ * of the errors are shares of the largest speed, and have held for 300 seeds. If RestInside and rest_of_offsets did not take
+ * displacements at the labels, the first two steps would exceed the limits. */
 TEST(a_moving_annulus_has_its_velocities) {
   static const struct {
     const char *name;
@@ -716,8 +718,8 @@ TEST(a_moving_annulus_has_its_velocities) {
   }
 }
 
-/* With a fixed triangulation, the triangles' motion across the leaflet agrees with the velocities. Along the leaflet, vertices
- * follow shares of lengths. */
+/* With a fixed triangulation, the triangles move across the leaflet with the velocities. Along the leaflet, vertices follow
+ * shares of lengths. */
 TEST(fixed_vertices_move_with_their_velocities) {
   for (int trial = 0; trial < 5; trial += trial_step()) {
     const int owned_before = n_owned();
@@ -748,13 +750,13 @@ TEST(fixed_vertices_move_with_their_velocities) {
     }
     printf("%s: triangles move across by %.2g %% of the largest speed otherwise\n", kinds[trial],
            100 * worst / largest);
-    /* The map bends mitral arcs differently from the warped valve. */
+    /* The map and the warped valve bend mitral arcs differently. */
     CHECK_AT_MOST(worst, (trial == 2 ? 0.06 : 0.02) * largest);
     free_owned_after(owned_before);
   }
 }
 
-/* The same targets give the same bits, regardless of earlier targets. */
+/* Equal targets give equal bits, whatever the earlier targets were. */
 TEST(a_restart_repeats_velocities) {
   for (int trial = 0; trial < trials_of(18); trial += trial_step()) {
     const int owned_before = n_owned();
@@ -776,8 +778,8 @@ TEST(a_restart_repeats_velocities) {
   }
 }
 
-/* A surface remembers the patches of its last state, which is often the earlier state of the next step. If the valve has
- * changed since then, the patches are made again. */
+/* A surface remembers the patches of its last state, because this is often the earlier state of the next step. If the valve has
+ * changed since then, the library makes the patches again. */
 TEST(a_changed_earlier_state_is_made_again) {
   for (int trial = 0; trial < trials_of(18); trial += trial_step()) {
     const int owned_before = n_owned();
@@ -809,7 +811,7 @@ TEST(a_changed_earlier_state_is_made_again) {
   }
 }
 
-/* A table of keys gives the bits of targets that are interpolated by hand, and repeats after a period. */
+/* A table of keys gives the bits of targets that the test interpolates by itself. The table repeats after a period. */
 TEST(keys_in_time_give_targets) {
   double from[3 * 12], frames[3][3 * 12], by_hand[3 * 12], a[3], b[3];
   const double time[3] = {0, 0.25, 1}, probe[3] = {0.3, -0.2, 0.4};
@@ -877,12 +879,13 @@ TEST(folds_are_found_and_named) {
   assert_memory_equal(mapped[0], mapped[1], sizeof mapped[0]); /* a refusal changes nothing */
 }
 
-/* If a warp turns over a part of a patch, or folds at a patch but not at landmarks, it is refused with the patch's name. */
+/* A warp may turn over a part of a patch, or fold at a patch but not at landmarks. Such a warp is refused, and the message names
+ * the patch. */
 TEST(folds_at_patches_are_named) {
   riis_valve *valve = new_valve("trileaflet");
   riis_surface *surface = new_surface(valve, NULL);
-  /* Landmarks lie at the corners of two cubes around the valve. The inner landmarks move inwards until the space between them
-   * folds. */
+  /* Landmarks lie at the corners of two cubes around the valve. The landmarks of the inner cube move inwards until the space
+   * between the cubes folds. */
   int n_refused = 0;
   for (int trial = 0; trial < 100 && n_refused == 0; trial += trial_step()) {
     const int owned_before = n_owned();
@@ -907,8 +910,8 @@ TEST(folds_at_patches_are_named) {
   assert_int_equal(n_refused, 1);
 }
 
-/* The attachment of a random patient, from a point of the coapting valve's own attachment. Its sectors, heights and ellipse agree
- * with examples/patient/make_patient.py. */
+/* The attachment of a random patient, made from a point of the coapting valve's attachment. The patient's sectors, heights and
+ * ellipse agree with examples/patient/make_patient.py. */
 typedef struct {
   double commissure_height, sectors[3], commissure_rise[3], nadir_rise[3], ratio, direction;
 } random_root;
@@ -940,14 +943,14 @@ static void in_root(const random_root *root, const double *x, double *y) {
   y[2] = x[2] + height * commissure + (1 - height) * root->nadir_rise[cusp];
 }
 
-/* Returns a number with the normal distribution. */
+/* Returns a normally distributed random number. */
 static double normal(double deviation) {
   return deviation * sqrt(-2 * log(between(1e-300, 1))) * cos(between(0, 2 * acos(-1)));
 }
 
-/* Landmarks of random patients with a clinician's noise, which smooths the warp, turn over no part of a leaflet at any opening.
- * Nor do exact landmarks. Five times that noise, without smoothing, folds nearly every valve. RIIS_TEST_LONG=1 takes 100 patients
- * of each sort. */
+/* The landmarks of random patients have a clinician's noise, which smooths the warp. No part of a leaflet turns over at any
+ * opening. With exact landmarks, no part turns over either. Five times this noise without smoothing folds nearly every valve.
+ * RIIS_TEST_LONG=1 takes 100 patients of each sort. */
 TEST(warps_of_patients_do_not_fold) {
   const int n_patients = trials(25, 100), n_openings = is_short_test() ? 5 : 50;
   const struct { double noise, smoothing; } sorts[3] = {{0.03, 0.03}, {0, 0}, {0.15, 0}};
@@ -956,7 +959,7 @@ TEST(warps_of_patients_do_not_fold) {
     const int owned_before = n_owned(), sort = trial % 3;
     riis_valve *valve = new_valve("coapting");
     const double radius = between(1.15, 1.35), wanted = between(1.5, 1.8), commissures = radius * between(1, 1.12);
-    /* With heights below 1.05 times the commissures' radius, the valve itself is refused, without a warp. */
+    /* If the heights are below 1.05 times the commissures' radius, even the valve without a warp is refused. */
     const double height = fmax(wanted, 1.1 * commissures);
     CHECK_OK(riis_valve_set_scalar(valve, "root_radius", radius));
     CHECK_OK(riis_valve_set_scalar(valve, "commissure_radius", commissures));
@@ -995,7 +998,7 @@ static int compare_edges(const void *a, const void *b) {
   return p->upper != q->upper ? (p->upper < q->upper ? -1 : 1) : 0;
 }
 
-/* Returns the least cosine between the normals of triangles of one patch that share an edge. */
+/* Returns the least cosine between the normals of two triangles of one patch that share an edge. */
 static double least_cosine(const riis_surface *surface) {
   const riis_triangles all = triangles_of(surface);
   edge *edges = malloc(3 * (size_t)all.n_triangles * sizeof *edges);
@@ -1025,8 +1028,8 @@ static double least_cosine(const riis_surface *surface) {
   return least;
 }
 
-/* In patches of the half open coapting valve, some cells of the grid are hardly wider than a line. Rough landmarks, off by up to
- * half a millimetre, turn over such cells, but no triangle. */
+/* Some grid cells of the half open coapting valve are hardly wider than a line. Rough landmarks, with errors of up to half a
+ * millimetre, turn over such cells. Such landmarks turn over no triangle. */
 TEST(slivers_of_rough_warps_are_no_folds) {
   static const struct {
     int roughness;
@@ -1116,7 +1119,7 @@ TEST(bad_arguments_are_named) {
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "patches is NULL", riis_valve_get_patches(valve, NULL, 96));
   riis_valve_patches patches;
   CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "patches is 8", riis_valve_get_patches(valve, &patches, 8));
-  /* An earlier state with a warp, and one without. */
+  /* The earlier state has a warp, or has none. */
   riis_valve *warped = new_valve("trileaflet");
   CHECK_OK(riis_valve_set_warp(warped, warp, NULL));
   riis_surface *surface = new_surface(valve, NULL);
@@ -1130,7 +1133,7 @@ TEST(bad_arguments_are_named) {
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "the valve has a warp|none", riis_surface_update(surface, warped, NULL));
 }
 
-/* Stated bileaflet patches: pieces of arcs, and each side is read out. */
+/* Bileaflet patches are given: the sides are spans of arcs, and each side is read out. */
 TEST(bileaflet_patches_are_read_out) {
   riis_valve *valve = new_valve("bileaflet");
   const riis_valve_patches got = patches_of(valve);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // planted_race loop|openmp|walk race|order: runs the library's parallel loop on its own threads or on OpenMP's, or its walk. With
-// `race`, the thread sanitizer has to report a race between the bodies. With `order`, the loop or walk orders the accesses, and
-// the sanitizer has to be silent. Exit status 3 means that only one thread took part, so nothing was shown.
+// `race`, the thread sanitizer must report a race between the bodies. With `order`, the loop or walk orders the accesses, and the
+// sanitizer must be silent. Exit status 3 means that only one thread took part, so the run shows nothing.
 #include <atomic>
 #include <chrono>
 #include <cstdio>
@@ -13,14 +13,14 @@
 
 namespace {
 
-// The report has to name this variable. It has its own cache line, away from the often-used flags, because the sanitizer
-// remembers few accesses to each eight bytes.
+// The report must name this variable. The variable has a separate cache line, away from the often-used flags, because the
+// sanitizer remembers few accesses to each eight bytes.
 alignas(64) int planted = 0;
 alignas(64) std::atomic<int> n_come{0};
 std::atomic<bool> is_written{false}, is_written_again{false};
 
-// Waits by relaxed loads, which order nothing. It makes few loads, because a long wait would push the other access out of the
-// thread's history. If the other thread never comes, it gives up after a while.
+// Waits by relaxed loads, which order nothing. The function makes few loads, because many loads would push the other access out
+// of the thread's history. If the other thread never comes, the function returns after a while.
 template <class Happened>
 bool wait_until(const Happened &happened) {
   const auto start = std::chrono::steady_clock::now();
@@ -31,8 +31,8 @@ bool wait_until(const Happened &happened) {
   return true;
 }
 
-// This function is called four times, twice on each of two threads. Both threads reach their first call, and one of them writes
-// in this call. The other thread writes in its second call, long after the first thread's call has returned. So the writes
+// This function is called four times, twice on each of two threads. Both threads reach their first call, and one thread writes in
+// this call. The other thread writes in its second call, long after the first thread's call has returned. The writes therefore
 // never overlap. Only an order between bodies, which the library does not promise, could hide the race.
 void write_late() {
   thread_local int n_calls = 0, place = 0;
@@ -89,8 +89,8 @@ bool order_in_openmp() {
   return order_in([](const auto &body) { return riis::openmp_for(1000, 2, body); });
 }
 
-// If a body adds another body, that body runs after its adder's earlier writes, on either thread. The first body waits until the
-// other thread continues.
+// If a body adds another body, the added body runs after its adder's earlier writes, on either thread. The first body waits until
+// the other thread goes on.
 bool order_in_walk() {
   static int written[1000];
   std::atomic<int> n_on_thread[2] = {};

@@ -30,7 +30,7 @@ using Edges = std::set<std::pair<int, int>>;
 
 struct Kind {
   int type, n_nodes, n_corners,
-      order;  // 0 if there are nodes only in the middles of sides, and perhaps of faces, without a complete lattice
+      order;  // 0 if no complete lattice exists, because nodes are only in the middles of sides, and perhaps of faces
 };
 constexpr Kind kinds[] = {{VTK_QUADRATIC_TETRA, 10, 4, 0},         {VTK_QUADRATIC_HEXAHEDRON, 20, 8, 0},
                           {VTK_QUADRATIC_WEDGE, 15, 6, 0},         {VTK_QUADRATIC_PYRAMID, 13, 5, 0},
@@ -49,7 +49,7 @@ const Kind *kind_of(int type, int n_nodes) {
   return nullptr;
 }
 
-// Joins nodes that are one step of the lattice apart. In a tetrahedron or a triangle, a step may go along any side.
+// Joins nodes that are one step of the lattice apart. In a tetrahedron or a triangle, a step may go along any side of the cell.
 bool is_step(int n_corners, int order, const Place &a, const Place &b) {
   int d[3];
   for (std::size_t c = 0; c < 3; ++c) d[c] = static_cast<int>(std::lround(order * (a[c] - b[c])));
@@ -69,8 +69,8 @@ int node_at(const std::vector<Place> &places, const Place &wanted) {
   return -1;
 }
 
-// Joins the corner and the middle along each side. Around each corner of a face, it also joins the middles of the two sides
-// that meet there. If the face has a node in its middle, each side's middle is joined to that node instead.
+// Joins each corner to the middles of its sides. Around each corner of a face, also joins the middles of the two sides that meet
+// there. If the face has a node in its middle, joins each side's middle to this node instead.
 Edges edges_by_middles(int n_corners, const std::vector<Place> &places) {
   const auto place = [&](int i) { return places[static_cast<std::size_t>(i)]; };
   const auto middle = [&](int a, int b) {
@@ -96,7 +96,7 @@ Edges edges_by_middles(int n_corners, const std::vector<Place> &places) {
         const int centre = is_quad ? middle(a, b) : -1;
         if (m >= 0 && n >= 0 && centre < 0) add(m, n);
         if (m >= 0 && n >= 0 && centre >= 0) add(m, centre), add(n, centre);
-        // If only two opposite sides of the quad have a node in the middle, these nodes are joined.
+        // If only two opposite sides of the quad have a node in the middle, joins these two nodes.
         if (is_quad && m >= 0 && n < 0) add(m, middle(b, d));
         if (is_quad && m < 0 && n >= 0) add(n, middle(a, d));
       }

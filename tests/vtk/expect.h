@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Checks a refusal: its status, and a message of one line that names the fault. */
+ * Checks the status of a refusal, and that its message is one line that names the fault. */
 #ifndef RIIS_TESTS_EXPECT_H
 #define RIIS_TESTS_EXPECT_H
 

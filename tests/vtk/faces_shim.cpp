@@ -38,7 +38,7 @@ Polygon polygon_of(vtkPolyData *faces, vtkIdType face) {
   return polygon;
 }
 
-// Sorts corners and polygons, so that their order does not depend on their source.
+// Sorts corners and polygons, so that riis and VTK give one order.
 std::vector<Polygon> sorted(std::vector<Polygon> polygons) {
   for (Polygon &polygon : polygons) std::sort(polygon.begin(), polygon.end());
   std::sort(polygons.begin(), polygons.end());
@@ -75,8 +75,7 @@ std::vector<Polygon> outside_by_vtk(vtkUnstructuredGrid *grid) {
   return polygons;
 }
 
-// Returns whether the middle of the cell lies in front of the face. The front is the side from which the face's corners run
-// anticlockwise.
+// Returns whether the middle of the cell lies in front of the face. Seen from the front, the face's corners run anticlockwise.
 bool looks_inwards(const Polygon &face, vtkCell *cell) {
   double normal[3] = {0, 0, 0}, middle[3] = {0, 0, 0}, to_middle[3];
   for (std::size_t i = 1; i + 1 < face.size(); ++i) {

@@ -56,7 +56,7 @@ std::string bytes_of(vtkUnstructuredGrid *grid, vtkIdType node, int how) {
   double point[3];
   grid->GetPoint(node, point);
   for (double &x : point) {
-    // gcc 12 leaves out the conversion to float and back in a loop that it vectorises, unless the float is volatile.
+    // In a loop that it vectorises, gcc 12 omits the conversion to float and back. A volatile float prevents this.
     const volatile auto rounded = static_cast<float>(x);
     x = how == SHIM_FLOATS ? static_cast<double>(rounded) : x + 0.0;  // -0 is 0
   }
@@ -83,7 +83,7 @@ int64_t n_different(std::vector<std::string> a, std::vector<std::string> b) {
   return static_cast<int64_t>(only.size());
 }
 
-// Interpolates the corners of the linear cell of the same shape.
+// Interpolates between the corners of the linear cell of this shape.
 bool linear_place(vtkUnstructuredGrid *grid, vtkIdType cell, int type, const double *at, double place[3]) {
   double weights[8];
   int n = 0;

@@ -40,8 +40,8 @@ plain_mesh plain_hexahedra(int n, const double lower[3], const double upper[3]) 
   return mesh;
 }
 
-/* Returns the node in the middle of a and b, and makes it if necessary. `middles` lists the pairs that have a middle node
- * already. */
+/* Returns the node in the middle of a and b. Makes the middle node if it does not exist. `middles` lists the pairs that already
+ * have a middle node. */
 static int64_t middle_of(plain_mesh *mesh, int64_t (*middles)[2], int64_t first, int64_t a, int64_t b) {
   const int64_t low = a < b ? a : b, high = a < b ? b : a;
   for (int64_t i = first; i < mesh->n_nodes; ++i)
@@ -52,7 +52,7 @@ static int64_t middle_of(plain_mesh *mesh, int64_t (*middles)[2], int64_t first,
 }
 
 plain_mesh plain_quadratic_tetrahedra(const plain_mesh *hexahedra) {
-  /* The tetrahedra of a cube lie around the diagonal from corner 0 to corner 6. `ring` has the other corners of the tetrahedra,
+  /* The tetrahedra of a cube lie around the diagonal from corner 0 to corner 6. `ring` lists the other corners of the tetrahedra
    * in order. */
   static const int ring[7] = {1, 2, 3, 7, 4, 5, 1};
   static const int sides[6][2] = {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}};
@@ -90,8 +90,8 @@ static void write_numbers(FILE *file, const char *name, int64_t n, const int64_t
 
 static int is_polyhedron(int64_t cell, enum plain_layout layout) { return layout != PLAIN_CELLS && cell % 3 != 2; }
 
-/* Writes each cell's stream: the number of faces, then the size and the corners of each face. An offset is the end of a
- * stream, or -1 for a cell without a stream. */
+/* Writes a stream for each cell: the number of faces, then the size and the corners of each face. An offset is the end of a
+ * cell's stream, or -1 for a cell without a stream. */
 static void write_streams(FILE *file, const plain_mesh *mesh, int64_t first, int64_t n, int64_t *numbers,
                           int64_t *ends) {
   int64_t at = 0;
@@ -116,7 +116,7 @@ static int is_same_face(const int64_t *a, const int64_t *b) {
   return n == 4;
 }
 
-/* Neighbouring cells refer to the same face. */
+/* Neighbouring cells share a face in the list of faces. */
 static void write_lists(FILE *file, const plain_mesh *mesh, int64_t first, int64_t n, int64_t *numbers, int64_t *ends) {
   int64_t *corners = numbers, *of_cells = numbers + 24 * n, n_faces = 0, at = 0;
   for (int64_t i = 0; i < n; ++i) {

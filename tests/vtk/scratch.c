@@ -54,7 +54,7 @@ static void remove_folder(const char *path) {
 
 int scratch_teardown(void **state) {
   (void)state;
-  /* After a failed assertion the output is still in the file, with CMocka's report. scratch_end_watch prints it. */
+  /* After a failed assertion, the file still contains the output with CMocka's report. scratch_end_watch prints it. */
   scratch_end_watch();
   remove_folder(folder);
   return 0;

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Tests XML files of meshes and surfaces that claim more data than they contain. They are refused before memory is allocated
- * for the claimed data. Files with random damage are read or refused, each in a separate process with limited memory. */
+ * Tests XML files of meshes and surfaces that claim more data than they contain. The files are refused before memory is allocated
+ * for the claimed data. Files with random damage are read or refused. Each file is read in a separate process with limited
+ * memory. */
 #include <riis/riis_vtk.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -29,8 +30,8 @@ static riis_status read_any(const char *name) {
   return status;
 }
 
-/* Reads a file in another process. Fails the test unless the file is read, or refused with a message that names it, in little
- * memory. Returns 1 if it was read. */
+/* Reads a file in another process with little memory. The file must be read, or refused with a message that names it. Returns 1
+ * if the file was read. */
 static int read_apart(const char *name, const char *what) {
   fflush(NULL);
   const pid_t child = fork();
@@ -51,7 +52,7 @@ static int read_apart(const char *name, const char *what) {
   return WEXITSTATUS(ended) == 0;
 }
 
-/* Writes a copy of a file with a piece of its text replaced. */
+/* Copies a file, and replaces a part of the copy's text. */
 static void replace_text(const char *name, const char *from, const char *to, const char *as) {
   size_t size = 0;
   char *text = scratch_read(scratch_path(name), &size), *at = strstr(text, from);
@@ -113,7 +114,7 @@ static int base64_value(char c) {
   return found ? (int)(found - digits) : -1;
 }
 
-/* Returns the position at which the data of an array of the file begins. */
+/* Returns the position at which the data of one of the file's arrays begins. */
 static size_t place_of(const char *text, size_t size, const char *array) {
   char name[64], *end;
   snprintf(name, sizeof name, "Name=\"%s\"", array);
@@ -127,7 +128,7 @@ static size_t place_of(const char *text, size_t size, const char *array) {
   return place;
 }
 
-/* Writes a number of 4 or 8 bytes into base64 or raw data, n_bytes after its beginning. */
+/* Writes a number of 4 or 8 bytes into base64 or raw data, n_bytes after the data's beginning. */
 static void put_number(char *data, size_t n_bytes, int width, uint64_t number, int is_raw) {
   static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   for (int i = 0; i < width; ++i, ++n_bytes, number >>= 8) {
@@ -160,7 +161,8 @@ static void expect_number_refused(int encoding, int compressor, int bits, const 
   expect_refused(status, RIIS_FILE_ERROR, "damaged.vtu: ");
 }
 
-/* Changes the numbers that precede the data. Points have 125 * 24 bytes: two blocks of 1024 bytes, and one block of 952 bytes. */
+/* Changes the numbers that precede the data of an array. The points have 125 * 24 bytes: two blocks of 1024 bytes, and one block
+ * of 952 bytes. */
 TEST(test_sizes_of_blocks) {
   static const char *const arrays[3] = {"Points", "velocity", "time"};
   static const char *const texts[4] = {"claims 268435457 compressed blocks, and the file holds ",
@@ -188,7 +190,7 @@ TEST(test_sizes_of_blocks) {
                         "array Points claims 18446744073709551615 compressed");
 }
 
-/* The last offset is the number of values of another array. The file has 389 cells: 384 tetrahedra and 5 polyhedra. */
+/* The last offset must equal the number of values of another array. The file has 389 cells: 384 tetrahedra and 5 polyhedra. */
 TEST(test_last_offsets) {
   const uint64_t many = 1000000000000;
   expect_number_refused(SHIM_RAW, 0, 64, "offsets", 8 + 8 * 388, 8, many,
@@ -202,7 +204,7 @@ TEST(test_last_offsets) {
   assert_int_equal(shim_write_blocks(scratch_path("f.vtp"), SHIM_ASCII, 0, 64), 1);
   replace_text("f.vtp", "636\n", "1000000000000\n", "damaged.vtp");
   assert_int_equal(read_apart("damaged.vtp", "offsets of faces"), 0);
-  /* VTK 9.3 finds this fault itself, before the library compares the numbers. */
+  /* VTK 9.3 refuses this file before the library compares the numbers. */
   const riis_status status = read_any("damaged.vtp");
   const int by_vtk = strstr(riis_last_error(), "the \"offsets\" array is not long enough") != NULL;
   expect_refused(status, RIIS_FILE_ERROR,
@@ -210,7 +212,8 @@ TEST(test_last_offsets) {
                         : "array connectivity must have 1000000000000 values and has at most ");
 }
 
-/* Damages a file as a bad disk or a bad transfer does: some bytes get other values, mostly characters of base64 and digits. */
+/* Damages a file as a bad disk or a bad transfer would. Some bytes get other values, which are mostly characters of base64 and
+ * digits. */
 static void damage(random_source *random, char *bytes, size_t size) {
   const int n = 1 + (int)(random_bits(random) % 3);
   for (int i = 0; i < n; ++i) {

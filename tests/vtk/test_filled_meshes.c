@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Tests the demo's meshes, which gmsh makes and which valves fill. The valve's attachment lies on the wall, so a closed
- * valve separates inflow from outflow. A flood fill over unmarked nodes stands for the flow. In wider cylinders the
- * flow passes around the valve's outside. */
+ * Tests the demo's meshes, which gmsh makes and which valves fill. The valve's attachment lies on the wall, so a closed valve
+ * separates inflow from outflow. A flood fill over unmarked nodes stands for the flow. In a wider cylinder the flow passes around
+ * the outside of the valve. */
 #include <riis/riis_vtk.h>
 
 #include "../support/test_support.h"
@@ -139,7 +139,7 @@ static void range_of_z(const filled_mesh *in, double *lowest, double *highest) {
   }
 }
 
-/* Labels each unmarked node with the lowest id of its region, by a flood fill for each region. Marked nodes get -1. */
+/* Labels each unmarked node with the lowest id of its region. A flood fill finds each region. Marked nodes get -1. */
 static void flood_fill(const filled_mesh *in, const uint8_t *marks, int64_t *label) {
   int64_t *stack = own(malloc((size_t)in->n_nodes * sizeof *stack));
   for (int64_t i = 0; i < in->n_nodes; ++i) label[i] = -1;
@@ -157,7 +157,7 @@ static void flood_fill(const filled_mesh *in, const uint8_t *marks, int64_t *lab
   }
 }
 
-/* Finds the nodes at a height. */
+/* Finds the nodes at a given height. */
 static int64_t nodes_at(const filled_mesh *in, double z, int64_t *ids) {
   int64_t n = 0;
   for (int64_t i = 0; i < in->n_nodes; ++i)
@@ -166,8 +166,8 @@ static int64_t nodes_at(const filled_mesh *in, double z, int64_t *ids) {
   return n;
 }
 
-/* Returns whether unmarked nodes join the two ends of the mesh, and finds the half thickness that closes the valve. The
- * library's regions and passage must agree with the flood fill. */
+/* Returns whether unmarked nodes join the two ends of the mesh, and finds the half thickness that closes the valve. The library's
+ * regions and its passage must agree with the flood fill. */
 static int is_joined(const filled_mesh *in, const riis_surface *surface, const riis_mark_options *options,
                      const riis_marks *result, const uint8_t *marks, double *closing) {
   const size_t size = (size_t)in->n_nodes * sizeof(int64_t);
@@ -233,8 +233,8 @@ static flow flow_through(const filled_mesh *in, test_valve valve, const char *na
   return found;
 }
 
-/* Expects that the valve fills the mesh, and that edges are short enough for the half thickness to close the gap at the wall.
- * An edge in the gap is at most `to_wall` from the attachment. So one of its nodes is at most `to_wall` plus half an edge
+/* Checks that the valve fills the mesh, and that edges are short enough for the half thickness to close the gap at the wall. An
+ * edge in the gap is at most `to_wall` from the attachment. One of its nodes is therefore at most `to_wall` plus half an edge
  * away. */
 static void expect_filled(flow found) {
   CHECK_AT_MOST(found.to_wall, 0.5 * half_thickness);
@@ -276,8 +276,8 @@ TEST(closed_bileaflet_valve_seals_its_housing) {
   assert_int_equal(flow_through(&cylinder, bileaflet_valve(0.5), "opening bileaflet valve in its housing").passes, 1);
 }
 
-/* The paper's cusps end at different radii, 0.13 apart at a commissure. So no wall is within 0.05, half of the half thickness, of
- * all ends. Flow passes through the middle. */
+/* The paper's cusps end at different radii, 0.13 apart at a commissure. A wall can therefore not be within 0.05, half of the half
+ * thickness, of all ends. Flow passes through the middle. */
 TEST(the_papers_valve_leaks_in_its_root) {
   const filled_mesh root = mesh_by_gmsh(RIIS_DEMO "/aortic_root.geo", "-setnumber paper 1");
   flow found = flow_through(&root, paper_valve(), "the paper's aortic valve in its root");

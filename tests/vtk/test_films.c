@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Each frame of a film shows the present surface and mesh, and nothing of the previous frame. The camera does not move. */
+ * Each frame of a film shows the present surface and mesh, without anything from the frame before. The camera does not move. */
 #include <math.h>
 #include <riis/riis_vtk.h>
 #include <stdlib.h>
@@ -55,7 +55,7 @@ static void open_valve(double opening) {
 static riis_vtk_film *make_film(const riis_vtk_mesh *of) {
   riis_vtk_film *film = NULL;
   riis_vtk_picture_options options;
-  /* The film copies these names, so they may change. */
+  /* The film copies the names of views, so the caller may change the names later. */
   char names[2][16] = {"front", "back"};
   const char *pointers[2] = {names[0], names[1]};
   expect_fine(riis_vtk_picture_options_init(&options, sizeof options));
@@ -111,9 +111,9 @@ TEST(test_frames) {
   expect_drawn("open.png");
   assert_true(same_pixels("closed.png", "again.png", 0, 400));
   assert_false(same_pixels("closed.png", "open.png", 0, 400));
-  /* Axes, colour key and scale bar stay. */
+  /* The axes, the colour key and the scale bar stay. */
   assert_true(same_pixels("closed.png", "open.png", 0, 30));
-  /* A second film of the same state draws the same picture, without anything of the first film's frames. */
+  /* A second film of this state draws an equal picture, without anything from the first film. */
   film = make_film(mesh);
   open_valve(1);
   draw_frame(film, "Frame", "other.png");

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Meshes of other programs: gmsh, VTK's writers of Exodus and .vtm, and XDMF. Each mesh is compared with the same mesh that gmsh
- * or VTK wrote as .vtk or .vtu, in exact bits and in any order of nodes and cells. test_openfoam_files has the meshes of
- * OpenFOAM. */
+ * Tests meshes of other programs: gmsh, VTK's writers of Exodus and .vtm, and XDMF. gmsh or VTK also writes each mesh as .vtk or
+ * .vtu. The two files of a mesh are compared in exact bits and in any order of nodes and cells. test_openfoam_files tests the
+ * meshes of OpenFOAM. */
 #include <math.h>
 #include <riis/riis_vtk.h>
 #include <stdint.h>
@@ -15,7 +15,7 @@
 #include "scratch.h"
 #include "vtk_shim.h"
 
-/* Reads a mesh and writes it again. The reader must give these notes. */
+/* Reads a mesh and writes it again. The reader must report these notes. */
 static void rewrite(const char *from, const char *to, const char *notes) {
   riis_vtk_mesh *mesh = NULL;
   const char *text = NULL;
@@ -38,7 +38,7 @@ static void expect_same(const char *a, const char *b, int how, int64_t n_least) 
   expect_same_but(a, b, how, n_least, 0);
 }
 
-/* Boxes of hexahedra, prisms and tetrahedra, with pyramids between hexahedra and tetrahedra. */
+/* Boxes of hexahedra, prisms and tetrahedra. Pyramids stand between hexahedra and tetrahedra. */
 static const char geometry[] =
     "Point(1) = {-1.1, -1.2, -1.3}; Point(2) = {1.4, -1.2, -1.3}; Point(3) = {1.4, 1.5, -1.3}; Point(4) = {-1.1, 1.5, "
     "-1.3};\n"
@@ -70,7 +70,7 @@ TEST(test_gmsh) {
   scratch_write_text("mix.geo", geometry);
   const char *orders[] = {"-order 1", "-order 2", "-order 2 -setnumber Mesh.SecondOrderIncomplete 1"};
   const char *formats[] = {"msh22", "msh22 -bin", "msh41", "msh41 -bin"};
-  /* The volume cells of each order: tetrahedra, hexahedra, prisms, pyramids. */
+  /* The volume cells of each order are tetrahedra, hexahedra, prisms and pyramids. */
   const int types[3][4] = {{10, 12, 13, 14}, {24, 29, 32, 27}, {24, 25, 26, 27}};
   for (int order = 0; order < 3; ++order) {
     char options[256];
@@ -87,11 +87,10 @@ TEST(test_gmsh) {
         if (n_of_type[types[order][i]] < 2)
           fail_msg("%s, %s: %lld cells of type %d", orders[order], formats[format],
                    (long long)n_of_type[types[order][i]], types[order][i]);
-      /* gmsh writes text with 16 digits, so a text file is compared with a text file. */
+      /* gmsh writes text with 16 digits, so two text files are compared. */
       snprintf(options, sizeof options, "-save %s -format vtk%s", scratch_path("mix.msh"), format % 2 ? " -bin" : "");
       run_gmsh(options, "mix.vtk");
-      /* gmsh 4.8 writes linear pyramids instead of quadratic pyramids, and prisms of second order with a base that is seen
-       * from inside. */
+      /* gmsh 4.8 writes linear pyramids instead of quadratic pyramids. gmsh's prisms of second order have their base reversed. */
       if (order == 0) expect_same("mix.vtu", "mix.vtk", SHIM_BITS, 30);
       if (order == 2) expect_same_but("mix.vtu", "mix.vtk", SHIM_SETS, 30, 2 * n_of_type[27]);
       char type[32];
@@ -132,7 +131,7 @@ static const char vtm[] =
     "<VTKFile type=\"vtkMultiBlockDataSet\" version=\"1.0\"><vtkMultiBlockDataSet>\n"
     "<Block index=\"0\"><DataSet index=\"0\" file=\"plain.vtu\"/></Block>\n</vtkMultiBlockDataSet></VTKFile>\n";
 
-/* A block without points adds nothing to the mesh, but it keeps its number. */
+/* A block without points adds nothing to the mesh, but keeps its number. */
 TEST(test_vtm) {
   for (int kind = 0; kind < 4; ++kind) {
     write_plain("plain.vtu", kind / 2);
@@ -165,7 +164,7 @@ TEST(test_exodus) {
   }
 }
 
-/* Writes a mesh as XDMF and reads it again, with one type of cells and with several. */
+/* Writes a mesh as XDMF and reads it again. The mesh has one type of cells, or several. */
 TEST(test_xdmf) {
   write_plain("plain.vtu", 0);
   rewrite("plain.vtu", "plain.xdmf", "");
@@ -195,9 +194,9 @@ static const char xdmf[] =
     "</Geometry>\n<Attribute Name=\"p\" Center=\"Node\"><DataItem Dimensions=\"4\" Format=\"XML\">1 2 3 4</DataItem>\n"
     "</Attribute>\n</Grid>\n</Domain>\n</Xdmf>\n";
 
-/* dolfinx 0.9 and ParaView were seen to open files of this form. dolfinx looks for a grid of the name "mesh", reads the
- * topology's DataItem as rows of nodes, and compares its dimensions with the dataset. Numbers are in the HDF5 file beside
- * the text, or in the text if riis has no HDF5. */
+/* dolfinx 0.9 and ParaView were seen to open files of this form. dolfinx looks for a grid of the name "mesh". dolfinx reads the
+ * topology's DataItem as rows of nodes, and compares its dimensions with the dataset. Numbers are in the HDF5 file beside the
+ * text. If riis has no HDF5, the numbers are in the text. */
 TEST(test_xdmf_for_others) {
   scratch_write_text("tet.xdmf", xdmf);
   rewrite("tet.xdmf", "out.xdmf", "");
@@ -258,7 +257,7 @@ TEST(test_xdmf_of_series) {
   expect_same("checkpoint.vtu", "tet.vtu", SHIM_BITS, 1);
 }
 
-/* dolfinx's cells of order 3, which have VTK's order of nodes. A mixed list of XDMF has no number for them. */
+/* dolfinx's cells of order 3, which have VTK's order of nodes. XDMF has no number for these types in a mixed list of cells. */
 TEST(test_xdmf_of_order_3) {
   static const struct {
     const char *name;
@@ -309,7 +308,7 @@ static void run_python(const char *script) {
   if (system(command) != 0) fail_msg("%s\n%s", command, scratch_read(scratch_path("log.txt"), NULL));
 }
 
-/* Lets meshio write every format, and read what riis writes. */
+/* Lets meshio write every format and read the files of riis. */
 TEST(test_meshio) {
   write_plain("plain.vtu", 0);
   scratch_write_text("convert.py",
@@ -340,7 +339,7 @@ TEST(test_meshio) {
   }
   rewrite("single.xdmf", "again.vtu", "its points have single precision");
   expect_same("again.vtu", "plain.vtu", SHIM_FLOATS, 27);
-  /* A slash separates HDF5's groups, so these three names need datasets with other names. */
+  /* A slash separates HDF5's groups, so the datasets of these three arrays need other names. */
   scratch_write_text("named.py",
                      "import os, sys, meshio, numpy\n"
                      "os.chdir(sys.argv[1])\n"
@@ -356,8 +355,8 @@ TEST(test_meshio) { skip(); }
 
 /* ---- Files that cannot be read ---- */
 
-/* With Mesh.SaveParametric, nodes of version 2 have their entity, and their parameters on curves and surfaces. When gmsh
- * appends a view, it writes the mesh once more. */
+/* With Mesh.SaveParametric, nodes of version 2 also have their entity, and their parameters on curves and surfaces. When gmsh
+ * appends a view, it writes the mesh a second time. */
 TEST(test_gmsh_sections) {
   static const char *const format = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
   static const char *const mesh =
@@ -385,15 +384,15 @@ TEST(test_gmsh_sections) {
                  "has a second section $ParametricNodes, which differs from the first");
 }
 
-/* Version 2 has the cells of two physical groups twice, with separate numbers. */
+/* Version 2 writes the cells of two physical groups twice, with separate numbers. */
 TEST(test_gmsh_groups) {
   char text[2048] =
       "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n5\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 1 1 1\n"
       "$EndNodes\n$Elements\n6\n";
   const char *once = "1 4 2 1 1 1 2 3 4\n2 4 2 1 1 2 3 4 5\n";
   char *const end = text + strlen(text);
-  /* The third group has the first cell turned over, as gmsh writes a group with a negative number. The last cell occurs
-   * twice in one group, where both stay. */
+  /* In the third group the first cell is reversed, as gmsh writes a group with a negative number. The last cell occurs twice in
+   * one group, and both copies stay. */
   sprintf(end, "%s3 4 2 2 1 1 2 3 4\n4 4 2 2 1 2 3 4 5\n5 4 2 3 1 2 1 3 4\n6 4 2 1 1 2 3 4 5\n$EndElements\n", once);
   scratch_write_text("twice.msh", text);
   rewrite("twice.msh", "twice.vtu",
@@ -407,7 +406,8 @@ TEST(test_gmsh_groups) {
   assert_int_equal(shim_read_corners(scratch_path("twice.vtu"), NULL), 12);
   shim_read_corners(scratch_path("twice.vtu"), found);
   assert_memory_equal(found, corners, sizeof corners);
-  /* In a partitioned mesh of version 4.1, the elements belong to parts of the volumes. The parts state the groups. */
+  /* In a partitioned mesh of version 4.1, the elements belong to parts of the volumes. The parts state which groups they belong
+   * to. */
   scratch_write_text(
       "parts.msh",
       "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n1 0 0 1\n1 0 0 0 0\n1 0 0 0 1 1 1 2 5 6 0\n$EndEntities\n"
@@ -452,7 +452,7 @@ static const char msh41[] =
     "$Nodes\n1 4 1 4\n3 1 0 4\n1\n2\n3\n4\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n$EndNodes\n"
     "$Elements\n1 1 1 1\n3 1 4 1\n1 1 2 3 4\n$EndElements\n";
 
-/* A file that is broken in one place: the first `from` becomes `to`. */
+/* A file with one fault: `to` replaces the first `from`. */
 typedef struct broken {
   const char *name, *whole, *from, *to, *text;
 } broken;
@@ -537,7 +537,7 @@ TEST(test_broken) {
   }
 }
 
-/* Every truncated file is refused. A file with a wrong byte is refused or read. */
+/* Every truncated file is refused. A file with a wrong byte may be read or refused, but must not crash the reader. */
 TEST(test_cut_and_changed) {
   const char *wholes[] = {msh22, msh41, xdmf, vtm}, *names[] = {"a.msh", "a.msh", "a.xdmf", "a.vtm"};
   const char *seed_text = getenv("RIIS_TEST_SEED");
@@ -580,7 +580,7 @@ static int64_t number_at(const void *numbers, int32_t n_bits, int64_t i) {
   return n_bits == 32 ? ((const int32_t *)numbers)[i] : ((const int64_t *)numbers)[i];
 }
 
-/* Centres are the means of corners of boxes. Cells that share a face are neighbours, and arrays are arrays of cells. */
+/* The centres are the means of the corners of boxes. Cells that share a face are neighbours, and arrays belong to cells. */
 TEST(test_centers) {
   riis_vtk_mesh *mesh = NULL;
   int64_t n = 0, n_cells = 0;
@@ -599,7 +599,7 @@ TEST(test_centers) {
         for (int i = 0; i < 8; ++i) mean += hexahedra.xyz[3 * hexahedra.ids[8 * cell + i] + c] / 8;
         assert_true(fabs(xyz[3 * cell + c] - mean) < 1e-14);
       }
-    /* Cells that share a face are neighbours: a box of 3 x 3 x 3 cells has 3 x 2 x 9 faces inside. */
+    /* Cells that share a face are neighbours. A box of 3 x 3 x 3 cells has 3 x 2 x 9 faces inside. */
     riis_adjacency *adjacency = NULL;
     riis_csr rows;
     expect_fine(riis_vtk_mesh_create_adjacency(mesh, 1, &adjacency));

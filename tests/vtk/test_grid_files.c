@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Structured grids from files. An image and a rectilinear grid are read as axes, and a turned or curvilinear grid is read as
- * points. Both give what the same nodes and cells in a .vtu give. */
+ * Tests structured grids from files. An image and a rectilinear grid are read as axes. A turned or curvilinear grid is read as
+ * points. All results equal those of a .vtu with these nodes and cells. */
 #include <math.h>
 #include <riis/riis_vtk.h>
 
@@ -22,7 +22,7 @@ static int64_t any_of(int64_t n) { return (int64_t)(random_bits(&rng) % (uint64_
 
 static double axis_values[3][most_along];
 
-/* Makes a random image, or a rectilinear grid with steps that differ. */
+/* Makes a random image, or a rectilinear grid with unequal steps. */
 static shim_grid random_grid(int is_image) {
   shim_grid grid = {.spacing = {1, 1, 1}, .n_zones = (int)any_of(20)};
   for (int c = 0; c < 3; ++c) {
@@ -74,7 +74,7 @@ static void check_boundaries(const riis_vtk_mesh *a, const riis_vtk_mesh *b) {
   for (int i = 0; i < 2; ++i) riis_vtk_surface_destroy(&surfaces[i]);
 }
 
-/* Compares all that does not need the cells, and then all that does. */
+/* Compares the results that do not need the cells, and then the results that do. */
 static void check_meshes(riis_vtk_mesh *got, riis_vtk_mesh *expected, int has_axes) {
   int64_t n_cells[2], n_volumes[2], n_left_out[2];
   const double *xyz[2];
@@ -163,7 +163,7 @@ static void check_arrays(const char *a, const char *b) {
   }
 }
 
-/* Compares a file of the grid with the .vtu of the same grid. */
+/* Compares a file of the grid with the .vtu of this grid. */
 static void check_file(const char *name, int encoding, const shim_grid *grid, int has_axes) {
   assert_int_equal(shim_write_grid(scratch_path(name), encoding, grid), 1);
   assert_int_equal(shim_write_grid_as_cells(scratch_path("cells.vtu"), grid), 1);
@@ -196,7 +196,7 @@ TEST(test_axes) {
       grid = random_grid(0);
       grid.is_single = any_of(3) == 0;
       check_file("grid.vtr", encoding, &grid, 1);
-      /* Legacy files of text have fewer digits of the origin, and start at the first point. */
+      /* Legacy files of text have fewer digits of the origin. The first index of such a file is 0. */
       grid = random_grid(any_of(2) == 0);
       for (int c = 0; c < 3; ++c) grid.first[c] = 0, grid.origin[c] = 0.125 * c, grid.spacing[c] = 0.25;
       check_file("grid.vtk", grid.x[0] ? SHIM_LEGACY_BINARY : SHIM_LEGACY_ASCII + trial % 2, &grid, 1);
@@ -204,7 +204,7 @@ TEST(test_axes) {
   CHECK_MET(n_with_regions > 5);
 }
 
-/* Nodes that are not those of three ascending axes become points. */
+/* If nodes do not lie on three ascending axes, they become points. */
 TEST(test_points) {
   for (int trial = 0; trial < trials(4, 40); ++trial)
     for (int encoding = SHIM_ASCII; encoding <= SHIM_RAW; ++encoding) {
@@ -220,7 +220,7 @@ TEST(test_points) {
     }
 }
 
-/* A layer, a row and a single node have no cells of volume. Their edges are unknown, as in a .vtu. */
+/* A layer, a row or a single node has no volume cells. The edges are unknown, as in a .vtu. */
 TEST(test_thin_grids) {
   for (int thin = 1; thin < 8; ++thin) {
     shim_grid grid = random_grid(1);
@@ -235,7 +235,7 @@ TEST(test_thin_grids) {
   }
 }
 
-/* If axes descend, the cells are not turned over, and the boundary points outwards. */
+/* If axes descend, the cells keep their orientation, and the boundary points outwards. */
 TEST(test_descending_axes) {
   for (int which = 1; which < 8; ++which) {
     shim_grid grid = random_grid(1);
@@ -271,7 +271,7 @@ TEST(test_descending_axes) {
   }
 }
 
-/* Arrays that are set on axes come back from a .vti and a .vtr, whose axes have the same bits. */
+/* Arrays that are set on axes return from a .vti and a .vtr, whose axes have the same bits. */
 TEST(test_written_axes) {
   for (int trial = 0; trial < trials(10, 100); ++trial) {
     const int is_image = trial % 2;

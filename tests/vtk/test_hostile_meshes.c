@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Tests files of meshes that cannot be read. Each such file gives an error whose message names it. Nothing is
- * printed or returned. No truncated file is read as a smaller mesh. */
+ * Tests files of meshes that cannot be read. Each such file causes an error, and the message names the file. The call prints and
+ * returns nothing. A truncated file is never read as a smaller mesh. */
 #include <riis/riis_vtk.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -30,7 +30,7 @@ static void expect_file_error(const char *name, const char *part_of_text) {
   assert_int_equal(n_printed, 0);
 }
 
-/* If `error` is NULL, checks that the file is read. Otherwise checks that the file is refused with this message. */
+/* If `error` is NULL, the file must be read. Otherwise the file must be refused with the message `error`. */
 static void expect_file(const char *name, const char *error) {
   if (error) {
     expect_file_error(name, error);
@@ -85,7 +85,7 @@ TEST(test_other_content) {
                      "# vtk DataFile Version 3.0\npoly\nASCII\nDATASET POLYDATA\nPOINTS 3 double\n0 0 0 1 0 0 0 1 0\n"
                      "POLYGONS 1 4\n3 0 1 2\n");
   expect_file_error("polydata.vtk", "holds polydata, not unstructured_grid");
-  /* VTK takes a version that it cannot read for an old one. */
+  /* If VTK cannot read the version, VTK assumes an old version. */
   static const char *const versions[] = {"4294967300.1",       "6.0", "-5.1", "0.9", "5", "5.1x", "5.100",
                                          "00000000000000005.1"};
   for (size_t i = 0; i < sizeof versions / sizeof *versions; ++i) {
@@ -102,7 +102,7 @@ TEST(test_other_content) {
   expect_file_error("not_closed.vtu", "mismatched tag");
 }
 
-/* A grid of one tetrahedron, in pieces that a test can damage. */
+/* A grid of one tetrahedron, in parts that a test can damage. */
 static void write_tetrahedron(const char *name, const char *counts, const char *points, const char *corners,
                               const char *offsets, const char *types, const char *point_data) {
   char text[2048];
@@ -179,7 +179,7 @@ TEST(test_broken_cells) {
   expect_file_error("types.vtk", "holds no cells (is it truncated?)");
 }
 
-/* The reader accepts coordinates that are not numbers. The core checks coordinates. */
+/* The reader accepts NaN and infinite coordinates, because the core checks coordinates. */
 TEST(test_not_a_number_passes) {
   write_tetrahedron("nan.vtu", counts, "0 0 0  nan 0 0  0 1 0  0 0 1", "0 1 2 3", "4", "10", "");
   riis_vtk_mesh *mesh = NULL;
@@ -193,8 +193,8 @@ TEST(test_not_a_number_passes) {
   riis_vtk_mesh_destroy(&mesh);
 }
 
-/* Returns whether a file may be read without its last n bytes. The bytes may be blanks. A legacy file has no end mark.
- * Digits of its last number may therefore also be missing, or whole sections after the cells. */
+/* Returns whether a file may be read without its last n bytes. These bytes may be blanks. A legacy file has no end mark, so
+ * digits of its last number or whole sections after the cells may also be missing. */
 static int may_be_missing(const char *bytes, size_t n, int encoding) {
   size_t i = 0;
   if (encoding == SHIM_LEGACY_ASCII) i += strspn(bytes, "0123456789.e+-");
@@ -205,7 +205,7 @@ static int may_be_missing(const char *bytes, size_t n, int encoding) {
   return i == n || section;
 }
 
-/* Truncates a valid file after each of its bytes. The truncated file must be refused, or give the whole mesh. */
+/* Cuts off a valid file after each of its bytes. The cut file must be refused, or give the whole mesh. */
 static void cut_everywhere(const char *whole, const char *cut, int encoding) {
   assert_int_equal(shim_write_box(scratch_path(whole), encoding, 2, lower, upper, 0), 1);
   size_t size = 0;
@@ -235,8 +235,8 @@ static void cut_everywhere(const char *whole, const char *cut, int encoding) {
   assert_true(n_refused > (int)(size / 2));
 }
 
-/* Writes the whole numbers of a text to a file: either as text, or as four bytes each with the high byte first. Returns the
- * number of bytes. */
+/* Writes the whole numbers of a text to a file: as text, or as four bytes each with the high byte first. Returns the number of
+ * bytes. */
 static size_t put_numbers(unsigned char *to, const char *numbers, int is_binary) {
   if (!is_binary) return (size_t)sprintf((char *)to, "%s\n", numbers);
   size_t n = 0;
@@ -257,8 +257,8 @@ TEST(test_truncated) {
   cut_everywhere("binary.vtk", "cut.vtk", SHIM_LEGACY_BINARY);
 }
 
-/* VTK searches for as many keys as INFORMATION announces. A word that is not a number does not stop this search. VTK reads only
- * the beginning of a keyword. */
+/* VTK searches for as many keys as INFORMATION announces. VTK does not stop this search at a word that is not a number. VTK
+ * compares only the beginning of a keyword. */
 TEST(test_endless_information) {
   const struct {
     const char *keys, *data, *text;
@@ -291,7 +291,7 @@ TEST(test_endless_information) {
   }
 }
 
-/* Names are read as VTK reads them. NULL_ARRAY, in capitals, stands for a missing array. A name of more than 255 characters
+/* The library reads names as VTK does. NULL_ARRAY, in capitals, stands for a missing array. A name of more than 255 characters
  * counts as two words. */
 TEST(test_names_of_arrays) {
   char longest[256], too_long[257];
@@ -316,9 +316,9 @@ TEST(test_names_of_arrays) {
   }
 }
 
-/* VTK follows the faces of polyhedra without checks while it reads them. The files are text
- * of version 3, binary of version 3, or text of version 5, which has offsets in place of counts. 42 is the type of a polyhedron.
- * The type 298 also becomes 42 if it is stored in a byte. */
+/* VTK reads the faces of polyhedra without checks of their numbers. The files are text of version 3, binary of version 3, or text
+ * of version 5, which has offsets instead of counts. The type of a polyhedron is 42. The type 298 becomes 42 if only its low byte
+ * is kept. */
 TEST(test_polyhedra) {
   const char tetrahedron[] = "4 3 0 1 2 3 0 1 3 3 0 2 3 3 1 2 3";
   const struct {
@@ -383,7 +383,7 @@ TEST(test_cells_of_polyhedra) {
   }
 }
 
-/* If VTK meets a word that is not a number of the array's type, it closes the file and continues. */
+/* If VTK meets a word that is not a number of the array's type, it closes the file and goes on. */
 TEST(test_words_for_numbers) {
   const struct {
     const char *point, *cell, *text;
@@ -407,7 +407,7 @@ TEST(test_words_for_numbers) {
   }
 }
 
-/* Two polyhedra, each a tetrahedron, share a face. Their faces are in one list, as VTK writes since 9.4. */
+/* Two polyhedra are tetrahedra that share a face. The faces of both are in one list, as VTK writes since 9.4. */
 TEST(test_lists_of_faces) {
   static const char *const corners = "0 1 2 0 1 3 0 2 3 1 2 3 1 2 4 1 3 4 2 3 4";
   const struct {
@@ -452,7 +452,7 @@ TEST(test_lists_of_faces) {
   }
 }
 
-/* Structured grids in legacy files. %s stands for the sections after the encoding. */
+/* Structured grids in legacy files. The sections after the encoding replace %s. */
 TEST(test_structured_legacy) {
   static const struct {
     const char *sections, *error;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Tests leaflets of surface files from connected pieces and from arrays, marks with other names, and the length of a mesh's
- * edges. Slow and simple computations check the pieces and the edges. */
+ * Tests leaflets of surface files from connected pieces and from arrays. Also tests marks with other names, and the length of a
+ * mesh's edges. Slow and simple computations check the pieces and the edges. */
 #include <math.h>
 #include <riis/riis_vtk.h>
 #include <stdio.h>
@@ -22,8 +22,8 @@ static int random_below(int n) {
 
 enum { most_faces = 60 };
 
-/* Random triangles on few points, so that some triangles touch. Each z is 0 or -0, which are the same position. To find the
- * expected pieces, the lowest face's number spreads to touching faces until nothing changes. */
+/* Random triangles on few points, so that some triangles touch. Each z is 0 or -0, which are equal positions. The expected pieces
+ * come from a loop: the lowest face's number spreads to touching faces until nothing changes. */
 static int write_random_faces(const char *name, int n_faces, int n_lattice, int pieces[most_faces]) {
   static char text[most_faces * 200 + 100];
   int corners[most_faces][3];
@@ -83,7 +83,7 @@ TEST(test_pieces) {
   assert_true(most_pieces > 5);
 }
 
-/* The quads share vertices by their ids. Leaflets from pieces replace the array's leaflets. */
+/* The quads share the ids of vertices. Leaflets from pieces replace the array's leaflets. */
 static const char *const quads =
     "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\"><UnstructuredGrid>\n"
     "<Piece NumberOfPoints=\"10\" NumberOfCells=\"3\"><CellData>\n"
@@ -163,7 +163,7 @@ TEST(test_median_edge) {
   expect_refused(riis_vtk_mesh_get_median_edge(NULL, &length), RIIS_INVALID_ARGUMENT, "mesh is NULL");
   expect_refused(riis_vtk_mesh_get_median_edge(mesh, NULL), RIIS_INVALID_ARGUMENT, "length is NULL");
   riis_vtk_mesh_destroy(&mesh);
-  /* Tests a uniform box with more cells than the median uses, then cells without edges. */
+  /* Tests a uniform box with more cells than the median uses, and then cells without edges. */
   assert_int_equal(shim_write_box(scratch_path("large.vtu"), SHIM_RAW, 22, lower, upper, 0), 1);
   expect_fine(riis_vtk_mesh_read(scratch_path("large.vtu"), &mesh));
   expect_fine(riis_vtk_mesh_get_median_edge(mesh, &length));

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Compares the adjacency of meshes from files with the edges of VTK's own cells, and with the edges of other cells on the same
- * nodes. */
+ * Compares the adjacency of meshes from files with the edges of VTK's cells. Also compares it with the edges of other cells on
+ * the same nodes. */
 #include <math.h>
 #include <riis/riis_vtk.h>
 #include <stdint.h>
@@ -47,7 +47,7 @@ static int64_t join_by_vtk(const char *path, int64_t n_nodes, uint8_t *are_joine
   return n_pairs;
 }
 
-/* Checks the rows and returns the number of columns. */
+/* Checks the rows. Returns the number of columns. */
 static int64_t expect_rows(const riis_adjacency *adjacency, int64_t n_nodes, const uint8_t *are_joined) {
   riis_csr csr;
   expect_fine(riis_adjacency_get_csr(adjacency, &csr, sizeof csr));
@@ -118,7 +118,7 @@ static void expect_same_rows(const char *name, const riis_csr *expected) {
   riis_vtk_mesh_destroy(&mesh);
 }
 
-/* Makes a triangle whose bounding box is the given box. */
+/* Makes a triangle with the given bounding box. */
 static riis_surface *surface_in(const double lower[3], const double upper[3]) {
   const double xyz[9] = {lower[0], lower[1], lower[2], upper[0], upper[1], lower[2], upper[0], lower[1], upper[2]};
   const int32_t ids[3] = {0, 1, 2};
@@ -131,7 +131,8 @@ static riis_surface *surface_in(const double lower[3], const double upper[3]) {
   return surface;
 }
 
-/* Expects each pair that VTK joins, if the pair is long enough and its bounding box meets the given box. */
+/* Checks the pairs that VTK joins. The rows must contain each pair that is long enough and whose bounding box meets the given
+ * box. */
 static void expect_long_edges(const char *name, int64_t n_nodes, const double lower[3], const double upper[3],
                               double longer_than, int64_t n_left_out) {
   uint8_t *are_joined = malloc((size_t)(n_nodes * n_nodes));
@@ -164,7 +165,7 @@ static void expect_long_edges(const char *name, int64_t n_nodes, const double lo
   free(are_joined);
 }
 
-/* A quad's diagonals are not edges, and a voxel orders its nodes differently from a hexahedron. */
+/* A quad's diagonals are not edges. A voxel and a hexahedron order their nodes differently. */
 TEST(test_voxel) {
   scratch_write_text("voxel.vtk",
                      "# vtk DataFile Version 3.0\nvoxel\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 9 double\n"
@@ -182,7 +183,7 @@ TEST(test_voxel) {
   riis_vtk_mesh_destroy(&mesh);
 }
 
-/* Meshes without volume cells, or with cells whose edges are unknown, have empty rows. The neighbour search still finds all
+/* The rows are empty in a mesh without volume cells, or with cells whose edges are unknown. The neighbour search still finds all
  * nodes. */
 TEST(test_no_volume) {
   const char *cells[] = {"CELLS 0 0\nCELL_TYPES 0\n", "CELLS 2 8\n3 0 1 2\n3 1 2 3\nCELL_TYPES 2\n5\n5\n",
@@ -264,7 +265,7 @@ TEST(test_long_edges) {
   assert_int_equal(shim_write_box(scratch_path("box.vtu"), SHIM_RAW, n_side, lower, upper, 0), 1);
   expect_long_edges("box.vtu", n_box, inner, outer, 0, 0);
   expect_long_edges("box.vtu", n_box, lower, upper, 0.126, 0);
-  /* The limit equals the length of the cubes' diagonals, up to a billionth. */
+  /* The limit of the length equals the length of the cubes' diagonals, up to a billionth. */
   expect_long_edges("box.vtu", n_box, lower, upper, 0.125 * sqrt(3), 0);
   assert_int_equal(shim_write_zoo(scratch_path("zoo.vtu")), 1);
   expect_long_edges("zoo.vtu", n_shim_zoo, inner, outer, 2, 0);
@@ -317,8 +318,8 @@ TEST(test_triquadratic_pyramid) {
   for (int k = 0; k < 19; ++k) sprintf(text + strlen(text), " %d", k);
   strcat(text, "\nCELL_TYPES 1\n37\n");
   scratch_write_text("pyramid.vtk", text);
-  /* The numbers of neighbours are tested at two corners and five middles. The corners are a corner of the base and the apex.
-   * The middles are those of a side of the base, of a side to the apex, of the base, of a triangle, and of the cell. */
+  /* The numbers of neighbours are tested at two corners and five middles. The corners are a corner of the base, and the apex. The
+   * middles are those of a side of the base, a side to the apex, the base, a triangle and the cell. */
   static const int nodes[7] = {1, 4, 5, 10, 13, 14, 18}, n_neighbors[7] = {5, 8, 4, 4, 5, 7, 5};
   riis_vtk_mesh *mesh = read_mesh("pyramid.vtk");
   riis_adjacency *adjacency = NULL;
@@ -332,7 +333,7 @@ TEST(test_triquadratic_pyramid) {
   riis_vtk_mesh_destroy(&mesh);
 }
 
-/* Hexahedra have the same edges as polyhedra with the same faces, in both layouts of the file and in several pieces. */
+/* Hexahedra have the edges of polyhedra with equal faces. The edges agree in both layouts of the file and in several pieces. */
 TEST(test_polyhedra) {
   const double lower[3] = {0, 0, 0}, upper[3] = {1, 2, 3};
   plain_mesh hexahedra = plain_hexahedra(5, lower, upper);
@@ -351,7 +352,7 @@ TEST(test_polyhedra) {
     expect_same_rows("lists.vtu", &csr);
     riis_adjacency_destroy(&adjacency);
     riis_vtk_mesh_destroy(&mesh);
-    /* If riis writes the mesh again, the file still has the faces. */
+    /* If riis writes the mesh again, the file keeps the faces. */
     mesh = read_mesh("lists.vtu");
     expect_fine(riis_vtk_mesh_write(mesh, scratch_path("again.vtu")));
     expect_fine(riis_vtk_mesh_create_adjacency(mesh, 1, &adjacency));
@@ -363,7 +364,7 @@ TEST(test_polyhedra) {
   plain_free(&hexahedra);
 }
 
-/* The edges of a quadratic tetrahedron are exactly the edges of the four tetrahedra at its corners. */
+/* A quadratic tetrahedron has exactly the edges of the four tetrahedra at its corners. */
 TEST(test_quadratic_tetrahedra) {
   const double lower[3] = {0, 0, 0}, upper[3] = {1, 1, 1};
   plain_mesh hexahedra = plain_hexahedra(4, lower, upper), quadratic = plain_quadratic_tetrahedra(&hexahedra),
@@ -384,8 +385,8 @@ TEST(test_quadratic_tetrahedra) {
   plain_free(&corners);
 }
 
-/* Cells whose edges riis does not know are counted: a convex point set, a Lagrange tetrahedron with nodes beyond its lattice,
- * and a Lagrange wedge of 21 nodes. Faces and points do not count as volume cells. */
+/* riis counts cells whose edges it does not know. Such cells are a convex point set, a Lagrange tetrahedron with nodes beyond its
+ * lattice, and a Lagrange wedge of 21 nodes. Faces and points do not count as volume cells. */
 TEST(test_unknown_cells) {
   const struct {
     const char *cells;

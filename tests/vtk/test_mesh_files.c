@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Tests meshes that are read from files and written again. Nodes keep the file's order, points are doubles, every array is
- * kept, and marks equal those of the core. */
+ * Tests meshes that are read from files and written again. Nodes keep the file's order, and points are doubles. Every array
+ * stays, and marks equal those of the core. */
 #include <riis/riis_vtk.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -91,7 +91,7 @@ TEST(test_round_trips) {
   }
 }
 
-/* The box's nodes are shuffled, so only a reader that keeps their order passes the test. */
+/* The box's nodes are shuffled, so a reader that reorders nodes fails this test. */
 TEST(test_nodes_are_shuffled) {
   static double xyz[3 * n_nodes];
   assert_int_equal(shim_write_box(scratch_path("in.vtu"), SHIM_RAW, n_side, lower, upper, 0), 1);
@@ -101,7 +101,7 @@ TEST(test_nodes_are_shuffled) {
   assert_true(n_descents > n_nodes / 4);
 }
 
-/* The file has every keyword that an unstructured grid in the legacy format may have, as older versions spell them. */
+/* The file has every keyword that an unstructured grid in the legacy format may have, in the spelling of older versions. */
 TEST(test_legacy_keywords) {
   scratch_write_text(
       "old.vtk",
@@ -157,7 +157,7 @@ TEST(test_legacy_metadata) {
 
 #define LEGACY(version) "# vtk DataFile Version " version "\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n"
 
-/* Lines end with a carriage return, a mesh has no cells, or METADATA stands in a place where VTK never puts it. */
+/* The cases are lines that end with a carriage return, a mesh without cells, and METADATA at a place where VTK never puts it. */
 TEST(test_legacy_layouts) {
   const char *texts[] = {
       LEGACY("2.0") "0 0 0 1 0 0 0 1 0 0 0 1\r\nMETADATA\r\nINFORMATION 0\r\n\r\nCELLS 1 5\r\n4 0 1 2 3\r\n"
@@ -176,7 +176,7 @@ TEST(test_legacy_layouts) {
   }
 }
 
-/* The word "Array" in a name or a comment does not begin an array. */
+/* An array does not begin at a word "Array" in a name or a comment. */
 TEST(test_word_array) {
   scratch_write_text(
       "word.vtu",
@@ -253,7 +253,7 @@ TEST(test_marks) {
   expect_same_mesh(scratch_path("in.vtu"), scratch_path("marked.vtu"));
   expect_same_array(scratch_path("in.vtu"), scratch_path("marked.vtu"), 'p', "pressure", 1);
 
-  /* New marks replace earlier ones, both of the same mesh and of a mesh that was read with marks. */
+  /* New marks replace earlier marks of this mesh, and marks that were read with the mesh. */
   riis_marks *wider = mark(mesh, 0.25, 0.4);
   expect_fine(riis_vtk_mesh_set_marks(mesh, wider, -7, NULL));
   expect_fine(riis_vtk_mesh_write(mesh, scratch_path("again.vtu")));

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Tests parts of a mesh, fields as arrays, and the size of a file. VTK reads the written files back. */
+ * Tests parts of a mesh, fields as arrays, and the size of a file. VTK reads the written files. */
 #include <riis/riis_vtk.h>
 #include <stdlib.h>
 #include <string.h>
@@ -22,7 +22,7 @@ static int make_files(void **state) {
              : -1;
 }
 
-/* Extracts the wanted nodes, writes this part, and returns its path. */
+/* Writes the part of a mesh with the wanted nodes. Returns the path of the file. */
 static const char *part_of(const char *name, int64_t n_ids, const int64_t *ids) {
   riis_vtk_mesh *mesh = NULL, *part = NULL;
   const char *path = scratch_path("part.vtu");
@@ -43,8 +43,7 @@ static int64_t read_ids(const char *path, char where, const char *name, double *
   return n;
 }
 
-/* Each cell of the part has the same points as the whole mesh's cell with the same id. Corners are compared by their
- * coordinates. */
+/* Each cell of the part has the points of the whole mesh's cell with this id. The coordinates of corners are compared. */
 static void expect_cells(const char *whole, const char *part, int corners_per_cell) {
   static double xyz[2][3 * n_box], node_ids[n_box], cell_ids[most_values];
   static int64_t corners[2][most_values];
@@ -107,8 +106,8 @@ TEST(test_kinds) {
   assert_int_equal(shim_compare_outside(scratch_path("zoo.vtu"), &n_faces[0], &n_inwards), 0);
   assert_int_equal(shim_compare_outside(part, &n_faces[1], &n_inwards), 0);
   assert_true(n_faces[0] > 10 && n_faces[0] == n_faces[1]);
-  /* The part has fewer nodes, so the node ids in its faces have changed. The reader of riis checks the faces of every
-   * polyhedron. */
+  /* The part has fewer nodes, so the ids of nodes in its faces have changed. riis checks the faces of every polyhedron when it
+   * reads the file. */
   riis_vtk_mesh *read = NULL;
   part = part_of("zoo.vtu", 2, ids);
   expect_fine(riis_vtk_mesh_read(part, &read));
@@ -259,7 +258,7 @@ TEST(test_fields) {
   forget(&m);
 }
 
-/* Only fields that the marking computed are available. If the mesh is far from the valve, all arrays exist but contain no
+/* Only fields that the marking computed are available. If the mesh is far from the valve, all arrays exist, but they contain no
  * values. */
 TEST(test_fields_that_lack) {
   marking m = marked_box("mitral", -0.6, RIIS_FIELD_SIDE);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * On unstructured meshes from files, the neighbour search gives the same result as the exhaustive search, to the last bit.
- * VTK's Delaunay filter and gmsh make the meshes. */
+ * Compares the neighbour search with the exhaustive search, to the last bit. The unstructured meshes come from files of VTK's
+ * Delaunay filter and of gmsh. */
 #include <riis/riis_vtk.h>
 
 #include "../support/test_support.h"
@@ -29,8 +29,8 @@ static riis_surface *surface_of(const char *kind, double opening, double half_th
   return surface;
 }
 
-/* Marks with both searches, with new and used results, several limits and numbers of threads. Returns the number of nodes
- * that the first marking marks. */
+/* Marks with both searches, with new and used results, with several limits, and with several numbers of threads. Returns the
+ * number of nodes that the first run marks. */
 static int64_t expect_same(const riis_surface *surface, const riis_mesh *mesh, riis_marks *warm) {
   const int owned_before = n_owned();
   riis_marks *expected = new_result(), *cold = new_result();
@@ -66,7 +66,7 @@ static void destroy_file(void *object) {
   riis_vtk_mesh_destroy(&file);
 }
 
-/* In the mesh of the file, tests a kind of valve at every opening, with a thin and with the default half thickness. */
+/* Tests a kind of valve in the mesh of a file, at every opening, with a thin half thickness and with the default. */
 static void expect_same_in_file(const char *path, const char *kind, int64_t least_nodes) {
   riis_vtk_mesh *file = NULL;
   riis_adjacency *adjacency = NULL;
@@ -129,7 +129,7 @@ TEST(aortic_in_a_delaunay_mesh) { delaunay("aortic"); }
 TEST(mitral_in_a_delaunay_mesh) { delaunay("mitral"); }
 
 #ifdef RIIS_GMSH
-/* Makes a cylinder around the valve. Its mesh is fine near one point and coarser away from it. */
+/* Makes a cylinder around the valve. The mesh is fine near one point, and coarser elsewhere. */
 static void graded_by_gmsh(const char *kind) {
   double lower[3], upper[3], fine[3];
   char text[2048], command[2048];

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Tests motions that are read from files. In every format, the frames move as the closed form says. */
+ * Tests motions that are read from files. In every format, the frames move by the closed form. */
 #include <math.h>
 #include <riis/riis_vtk.h>
 #include <stdint.h>
@@ -18,7 +18,7 @@
 enum { n_keys = 4 };
 static const double key_times[n_keys] = {0, 0.25, 0.5, 1};
 
-/* Makes the keyframes of a motion and destroys the motion. */
+/* Makes the keyframes of a motion. Destroys the motion. */
 static riis_keyframes *keyframes_of(riis_vtk_motion *motion, double period, int32_t interpolation) {
   riis_surface_arrays faces;
   riis_keyframe_arrays frames;
@@ -59,7 +59,8 @@ static void expect_sheet(const riis_surface *surface, double time, double speed,
   }
 }
 
-/* Moves a surface by the frames. Compares it with the closed form at, between, before and after the keys. */
+/* Moves a surface by the frames. Compares the surface with the closed form at, between, before and after the times of the
+ * frames. */
 static void expect_motion(riis_vtk_motion *motion, int32_t one_leaflet) {
   static const double times[] = {0, 0.25, 0.5, 1, 0.1, 0.3, 0.7, 0.99};
   riis_keyframes *keyframes = keyframes_of(motion, 0, RIIS_INTERPOLATION_LINEAR);
@@ -78,7 +79,7 @@ static void expect_motion(riis_vtk_motion *motion, int32_t one_leaflet) {
   riis_keyframes_destroy(&keyframes);
 }
 
-/* Writes a collection of the sheet's frames. `place` is a folder put before each file's name. */
+/* Writes a collection of the sheet's frames. `place` is a folder before the name of each file. */
 static void write_collection(const char *name, const char *place, const char *ending) {
   char text[4096] =
       "<?xml version=\"1.0\"?>\n<!-- <DataSet file=\"no\"/> -->\n<VTKFile type=\"Collection\" version=\"0.1\">"
@@ -134,7 +135,7 @@ TEST(test_collections) {
   free(here);
 }
 
-/* Reads a collection in the working directory by its bare name. */
+/* Reads a collection in the working directory by its name without a folder. */
 TEST(test_collection_in_working_directory) {
   char *here = getcwd(NULL, 0);
   riis_vtk_motion *motion = NULL;
@@ -175,7 +176,7 @@ TEST(test_lists) {
   expect_motion(motion, 0);
 }
 
-/* For every interpolation and period, frames from files and from arrays give the same bits. */
+/* Frames from files and from arrays give the same bits, for every interpolation and period. */
 TEST(test_same_as_arrays) {
   const char *const endings[n_keys] = {".vtp", ".vtp", ".vtp", ".vtp"};
   static double xyz[n_keys][sheet_n_vertices][3];
@@ -224,7 +225,7 @@ TEST(test_same_as_arrays) {
 static void write_displaced(const char *name, const char *const arrays[n_keys], const char *field) {
   static char text[65536];
   char *end = text;
-  /* The file has the displacements in reverse order, among other arrays. */
+  /* The file has the displacements in reverse order, mixed with other arrays. */
   for (int i = n_keys; i-- > 0;) end = sheet_displacement(end, arrays[i], key_times[i]);
   end = sheet_displacement(end, "displacement_mean", 7);
   sheet_displacement(end, "displacement_-1", 7);
@@ -253,8 +254,8 @@ TEST(test_displacements) {
   expect_motion(motion, -1);
 }
 
-/* A quad lies beside a triangle. During the motion the quad's shorter diagonal changes, but the quad stays cut as in the
- * first file. */
+/* A quad lies beside a triangle. During the motion, one diagonal of the quad becomes shorter than the other diagonal. The quad
+ * must nevertheless stay cut as in the first file. */
 TEST(test_quads_are_cut_once) {
   const char *const fourth[2] = {"1 1 0", "0.2 0.2 0"}, *const names[2] = {"convex.vtp", "concave.vtp"};
   const char *paths[2];
@@ -300,7 +301,7 @@ static void write_dat(const char *name, int n_frames) {
   scratch_write_text(name, text);
 }
 
-/* svMultiPhysics's frames are in a text file, and their faces in a file beside it. Several motions become one. */
+/* svMultiPhysics has frames in a text file, and their faces in a second file. Several motions become one. */
 TEST(test_frames) {
   const char *const names[] = {"flap.vtu", "flap_mesh.vtu", "flap_motion.vtu", "flap_motion_open.vtp"};
   write_dat("flap_motion_open.dat", 3);
@@ -381,7 +382,7 @@ TEST(test_frames_are_refused) {
                  "frames of svMultiPhysics must be in a .dat file");
 }
 
-/* Corners in .stl files may come together during the motion, but must not separate. */
+/* In .stl files, corners may come together during the motion, but may not separate. */
 TEST(test_corners_of_stl) {
   const char *facets =
       "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Tests files of motions that cannot be read. Each refusal names the file or argument and the value. Nothing is printed or
- * returned. Damaged collections never end the process. */
+ * Tests files of motions that cannot be read. Each refusal names the file or argument and the value. The call prints and returns
+ * nothing. Damaged collections never crash the process. */
 #include <math.h>
 #include <riis/riis_vtk.h>
 #include <stdint.h>
@@ -100,7 +100,7 @@ TEST(test_too_many_data_sets) {
   expect_collection("many.pvd", NULL, "many.pvd: ", "names 1000001 files, more than 1000000");
 }
 
-/* Writes one quad or two triangles. Each value that a test changes is an argument. */
+/* Writes one quad or two triangles. The values that tests change are arguments. */
 static void write_square(const char *name, const char *points, const char *corners, const char *offsets, int n_points,
                          int n_polys) {
   char text[2048];
@@ -219,7 +219,7 @@ TEST(test_bad_displacements) {
   snprintf(text, sizeof text, "<Array type=\"String\" Name=\"d_0\" format=\"ascii\">%s</Array>", words);
   expect_displacements(text, NULL, 1, RIIS_FILE_ERROR, "point array d_0 holds no numbers");
   expect_displacements(two, NULL, 1, RIIS_INVALID_ARGUMENT, "n_times is 1; the file has 2 point arrays d_*");
-  /* One component of the last displacement becomes inf. */
+  /* One component of the last displacement becomes infinite. */
   char *last = sheet_displacement(sheet_displacement(text, "d_0", 0), "d_1", 1);
   last -= strlen("</DataArray>\n") + 1;
   while (last[-1] != ' ') --last;
@@ -286,7 +286,7 @@ TEST(test_arguments_of_arrays) {
   riis_vtk_motion_destroy(NULL);
 }
 
-/* Returns true if the collection was read completely, or refused by its name. */
+/* Returns true if the collection was read completely. Otherwise the message of the refusal must name the collection. */
 static int is_read_or_refused(const char *name) {
   riis_vtk_motion *motion = NULL;
   const riis_status status = riis_vtk_motion_read_pvd(scratch_path(name), NULL, &motion);
@@ -295,7 +295,7 @@ static int is_read_or_refused(const char *name) {
   return read || (status == RIIS_FILE_ERROR && strstr(riis_last_error(), ": "));
 }
 
-/* A collection is truncated after each of its bytes, and each byte is replaced by others. */
+/* A collection is cut off after each of its bytes. Other bytes also replace each byte. */
 TEST(test_damaged_collections) {
   static const unsigned char others[] = {0, '<', '"', '&', 0xff};
   char text[] = "<?xml version=\"1.0\"?>\n" COLLECTION("\n" DATA_SET("0", "a.vtp") "\n" DATA_SET("0.5", "a.vtp"));
@@ -322,8 +322,8 @@ TEST(test_damaged_collections) {
   assert_int_equal(scratch_end_watch(), 0);
 }
 
-/* Elements nested a million deep would overflow the stack of a reader that recurses. XML entities that refer to other entities
- * would fill the memory of a reader that expands them. */
+/* A million nested elements would overflow the stack of a recursive reader. XML entities that refer to other entities would fill
+ * the memory of a reader that expands them. */
 TEST(test_hostile_collections) {
   const size_t n = 1000000;
   char *text = malloc(200 + 7 * n), *end = text;

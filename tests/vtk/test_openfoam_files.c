@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Meshes of OpenFOAM. OpenFOAM's own programs make them: blockMesh as text, binary and compressed, gmshToFoam with all linear
- * cells, polyDualMesh with polyhedra, and decomposePar. foamToVTK and gmsh give the same meshes independently. */
+ * Tests meshes of OpenFOAM. OpenFOAM's programs make them: blockMesh as text, binary and compressed, gmshToFoam with all linear
+ * cells, polyDualMesh with polyhedra, and decomposePar. foamToVTK and gmsh write these meshes independently. */
 #include <math.h>
 #include <riis/riis_vtk.h>
 #include <stdint.h>
@@ -198,7 +198,7 @@ static void expect_same(const char *a, const char *b, int how, int64_t n_least) 
              (long long)counts[1], (long long)counts[2], (long long)counts[3]);
 }
 
-/* Nodes have the same bits in the same order, and cells the same centres. */
+/* The nodes have the same bits and order, and the cells have the same centres. */
 static void expect_same_order(const char *a, const char *b) {
   riis_vtk_mesh *meshes[2] = {NULL, NULL};
   const double *xyz[2];
@@ -239,7 +239,7 @@ TEST(test_block_mesh) {
   expect_same("text.vtu", "parts.vtu", SHIM_SETS, 200);
   expect_same_order("text", "parts");
   rewrite("parts/processor1", "part.vtu");
-  /* Points that moved come from the latest time that is not later. */
+  /* Moved points come from the latest folder of points that is not later than the requested time. */
   run("mkdir -p text/0.5/polyMesh text/2 && sed 's/^(\\(.*\\) \\(.*\\) \\(.*\\))$/(\\1 \\2 9)/' "
       "text/constant/polyMesh/points > text/0.5/polyMesh/points");
   rewrite("text/0.5", "moved.vtu");
@@ -254,8 +254,8 @@ TEST(test_block_mesh) {
   riis_vtk_mesh_destroy(&mesh);
 }
 
-/* The commands of refusals give the same mesh: for parts without their places in the whole mesh, for collated parts, and for a
- * mesh of Fluent, which the program refuses. */
+/* A refusal suggests commands, and these commands give the same mesh. The refused cases are parts without their places in the
+ * whole mesh, collated parts, and a mesh of Fluent. */
 TEST(test_advised_commands) {
   write_case("whole", "ascii", "off");
   run("cd whole && %s", RIIS_BLOCKMESH);
@@ -289,7 +289,7 @@ TEST(test_advised_commands) {
   assert_true(fabs(sum[0] - sum[1]) < 1e-6 * sum[0]);
 }
 
-/* Returns the numbers of a field's internal values, n of them. */
+/* Returns the n internal values of a field. */
 static double *field(const char *name, int64_t n) {
   char *text = scratch_read(scratch_path(name), NULL);
   const char *at = strstr(text, "nonuniform List<");
@@ -307,7 +307,7 @@ static double *field(const char *name, int64_t n) {
   return values;
 }
 
-/* The centres equal the centres that OpenFOAM writes, and OpenFOAM reads the fields that riis writes. */
+/* The centres equal those that OpenFOAM writes. OpenFOAM reads the fields that riis writes. */
 static void test_centers(const char *name) {
   char path[128];
   riis_vtk_mesh *mesh = NULL;
@@ -359,7 +359,7 @@ static void test_centers(const char *name) {
 TEST(test_block_centers) { test_centers("text"); }
 
 #ifdef RIIS_GMSH
-/* The cases of OpenFOAM have gmsh's tetrahedra, the same with a layer of prisms and hexahedra, and their dual polyhedra. */
+/* The cases of OpenFOAM have gmsh's tetrahedra, these tetrahedra with a layer of prisms and hexahedra, and the dual polyhedra. */
 TEST(test_other_cells) {
   scratch_write_text("mix.geo",
                      "SetFactory(\"OpenCASCADE\");\nBox(1) = {-1, -1.1, -1.2, 2, 2.2, 2.4};\nMesh.MeshSizeMax = 0.9;\n"

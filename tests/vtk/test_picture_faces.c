@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The outside of a mesh in pictures has the same faces that VTK's own filter finds. All faces point outwards. The flat ends of
- * a wall are those that it was made with. */
+ * In pictures, the outside of a mesh has the faces that VTK's filter finds. All faces point outwards. The flat ends of a wall are
+ * the ends with which the test made it. */
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -45,7 +45,7 @@ enum { n_around = 40, n_rings = 30, n_tube = n_around * n_rings + 2, n_sides = 2
 enum { n_tube_triangles = n_sides + 2 * n_around };
 
 /* Makes a tube of any size, place and direction. `noise` moves the vertices between the ends, and the rims in the planes of the
- * ends, as a share of the radius. The second end's plane has an angle of its own. `open` leaves that end without a cap. Returns
+ * ends, as a share of the radius. The second end's plane has a separate angle. If `open` is not 0, this end has no cap. Returns
  * the number of triangles. */
 static int64_t make_tube(random_source *random, double noise, int open, double *xyz, int64_t *corners) {
   const double size = random_power_of_ten(random, -3, 3), tilt = random_between(random, 0, 0.6);
@@ -93,7 +93,7 @@ static int64_t make_tube(random_source *random, double noise, int open, double *
   return n;
 }
 
-/* The ends of tubes of any size and direction are found, also with noise, with oblique ends, and with one end open. */
+/* The library finds the ends of tubes of any size and direction. Some tubes have noise, oblique ends or one open end. */
 TEST(test_ends_of_tubes) {
   static double xyz[3 * n_tube];
   static int64_t corners[3 * n_tube_triangles];
@@ -109,7 +109,7 @@ TEST(test_ends_of_tubes) {
   }
 }
 
-/* A ball has no flat end, and a box has no other part. */
+/* A ball has no flat end, and a box has only flat ends. */
 TEST(test_ball_and_box) {
   enum { n = 16, n_points = 6 * (n + 1) * (n + 1), n_triangles = 12 * n * n };
   static double xyz[3 * n_points];
@@ -131,7 +131,7 @@ TEST(test_ball_and_box) {
           for (int k = 0; k < 6; ++k) corners[3 * n_made + k] = two[k];
           n_made += 2;
         }
-    /* Vertices at the same position become one, as in a wall that shares its points. */
+    /* Vertices at one position become one vertex, as in a wall whose triangles share points. */
     for (int64_t i = 0; i < 3 * n_made; ++i)
       for (int64_t j = 0; j < corners[i]; ++j)
         if (fabs(xyz[3 * j] - xyz[3 * corners[i]]) + fabs(xyz[3 * j + 1] - xyz[3 * corners[i] + 1]) +

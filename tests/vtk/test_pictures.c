@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Under a virtual display, pictures have the requested size, are not blank, have one panel or two, and differ for each view. */
+ * Draws pictures under a virtual display. The pictures must have the requested size and one or two panels. Blank pictures are a
+ * fault, and each view must differ. */
 #include <riis/riis_vtk.h>
 #include <signal.h>
 #include <stdint.h>
@@ -78,7 +79,7 @@ static void draw(const char *name, const riis_vtk_mesh *drawn, int32_t view, int
   draw_by(&options, name, drawn);
 }
 
-/* Checks that the picture has this size and many colours, and that a large part of both halves is coloured. */
+/* Checks that the picture has this size and many colours. A large part of each half must be coloured. */
 static void expect_picture(const char *name, int expected_width, int expected_height) {
   int width = 0, height = 0, n_colours = 0, n_coloured[2] = {0, 0};
   assert_int_equal(shim_read_png(scratch_path(name), &width, &height, &n_colours, n_coloured), 1);
@@ -97,7 +98,7 @@ static void draw_texts(const char *name, const char *title, const char *const *n
   draw_by(&options, name, mesh);
 }
 
-/* The texts are visible. Characters outside ASCII are drawn as ?, and no text is rendered as a formula. */
+/* The texts are visible. Characters outside ASCII are drawn as ?, and formulas stay plain text. */
 TEST(test_texts) {
   const char *names[3] = {"right", "left", "leaflet 2"};
   draw_texts("plain.png", NULL, NULL, 0);
@@ -164,7 +165,7 @@ static const unsigned char *pixel_at(const pixels *picture, int x, int y) {
   return picture->rgb + 3 * ((size_t)y * (size_t)picture->width + (size_t)x);
 }
 
-/* The heights of the bands of text, in pixels of a picture 800 high: two lines of text above the panels, axes and colour keys
+/* The heights of the bands of text, for a picture of 800 pixels. Two lines of text stand above the panels, axes and colour keys
  * below. */
 enum { upper_band = 85, lower_band = 83 };
 
@@ -172,7 +173,7 @@ static int is_red(const unsigned char *rgb) { return rgb[0] > 110 && rgb[1] < 40
 static int is_skin(const unsigned char *rgb) {
   return rgb[0] == rgb[1] && rgb[1] == rgb[2] && rgb[0] > 200 && rgb[0] < 250;
 }
-/* is_full and is_pale distinguish full colours from pale ones. */
+/* is_full is true for strong colours, and is_pale for pale colours. */
 static int is_full(const unsigned char *rgb) {
   const int most = rgb[0] > rgb[1] ? (rgb[0] > rgb[2] ? rgb[0] : rgb[2]) : (rgb[1] > rgb[2] ? rgb[1] : rgb[2]);
   const int least = rgb[0] < rgb[1] ? (rgb[0] < rgb[2] ? rgb[0] : rgb[2]) : (rgb[1] < rgb[2] ? rgb[1] : rgb[2]);
@@ -183,7 +184,7 @@ static int is_pale(const unsigned char *rgb) {
   return most > 100 && most - least > 20 && !is_full(rgb);
 }
 
-/* Returns the number of pixels of one kind in a panel. The panels have the numbers 0 and 1. */
+/* Returns the number of pixels of one kind in a panel. The panels are 0 and 1. */
 static int count_pixels(const char *name, int panel, int (*is_kind)(const unsigned char *)) {
   pixels picture = read_pixels(name);
   int n = 0;
@@ -193,7 +194,7 @@ static int count_pixels(const char *name, int panel, int (*is_kind)(const unsign
   return n;
 }
 
-/* Finds the numbers of the edge's two nodes by their positions. No two nodes of the mesh coincide. */
+/* Finds the numbers of the edge's two nodes by their positions. All nodes of the mesh have different positions. */
 static void two_nodes(int64_t edge[2]) {
   const double *xyz = NULL;
   int64_t n = 0;
@@ -214,7 +215,7 @@ static void two_nodes(int64_t edge[2]) {
   assert_true(edge[0] != edge[1]);
 }
 
-/* Returns the longest run of dark pixels in the rows from..to of the right panel. */
+/* Returns the longest run of dark pixels in a row of the right panel, for the rows `from` to `to`. */
 static int longest_dark_run(const pixels *picture, int from, int to) {
   int longest = 0;
   for (int y = from; y < to; ++y) {
@@ -242,7 +243,7 @@ static int most_changes_in_a_row(const pixels *picture, int *row) {
   return most;
 }
 
-/* Returns how many columns or rows of a picture with one panel contain a pixel in a full colour, outside the bands of text. */
+/* Returns how many columns or rows of a one-panel picture contain a pixel in a full colour. The bands of text do not count. */
 static int count_coloured(const char *name, int by_rows) {
   pixels picture = read_pixels(name);
   const int y_end = picture.height - upper_band, n_lines = by_rows ? y_end : picture.width;
@@ -268,7 +269,7 @@ static void draw_unit(const char *name, const char *unit, const riis_vtk_mesh *d
   expect_fine(riis_vtk_draw(surface, drawn, &options, scratch_path(name)));
 }
 
-/* If a file may have only n_bytes, as on a full disk, neither a picture nor a temporary file remains. */
+/* If a file may have only n_bytes, as on a full disk, the picture and the temporary file are removed. */
 TEST(test_full_disk) {
   struct rlimit limit, small;
   getrlimit(RLIMIT_FSIZE, &limit);
@@ -296,7 +297,7 @@ TEST(test_refusals) {
   assert_int_equal(scratch_n_files(), n_before);
 }
 
-/* If one scene draws several views, each view equals the picture of a separate call. */
+/* One scene may draw several views. Each view equals the picture of a separate call. */
 TEST(test_one_scene) {
   const int32_t views[4] = {RIIS_VTK_VIEW_TOP, RIIS_VTK_VIEW_THREE, RIIS_VTK_VIEW_VALVE_OBLIQUE, RIIS_VTK_VIEW_TOP};
   const char *paths[4] = {scratch_path("s0.png"), scratch_path("s1.png"), scratch_path("s2.png"),
@@ -344,8 +345,8 @@ TEST(test_leaks) {
   }
 }
 
-/* If a mesh is so coarse that no whole cell is marked, the marked nodes are still shown. In a fine mesh, whole marked cells
- * are shown. */
+/* In a coarse mesh without a wholly marked cell, the picture shows the marked nodes. In a fine mesh, the picture shows the wholly
+ * marked cells. */
 TEST(test_partly_marked) {
   const double lower[3] = {-1.7, -1.7, -1.3}, upper[3] = {1.7, 1.7, 0.4};
   riis_vtk_mesh *coarse = marked_box("coarse.vtu", 5, lower, upper);
@@ -362,8 +363,8 @@ TEST(test_partly_marked) {
   riis_vtk_mesh_destroy(&coarse);
 }
 
-/* In a tube 20 times as long as wide, the region around the valve is drawn as large as in a short tube. Dashes show where the
- * tube is cut off. */
+/* In a picture of a tube that is 20 times as long as wide, the region around the valve is as large as in a short tube. Dashes
+ * show where the tube is cut off. */
 TEST(test_long_mesh) {
   const double lower[3] = {-1.7, -1.7, -30}, upper[3] = {1.7, 1.7, 38};
   riis_vtk_mesh *tube = marked_box("tube.vtu", 21, lower, upper);
@@ -374,7 +375,7 @@ TEST(test_long_mesh) {
   pixels picture = read_pixels("long.png");
   int row = 0;
   assert_true(most_changes_in_a_row(&picture, &row) > 40);
-  /* No part of the mesh is between the dashes and the panel's edge. */
+  /* The space between the dashes and the panel's edge is empty. */
   const int end = row < picture.height / 2 ? lower_band + 4 : picture.height - upper_band - 5;
   for (int x = picture.width / 2; x < picture.width; ++x) assert_true(pixel_at(&picture, x, end)[0] > 250);
   free(picture.rgb);
@@ -384,8 +385,8 @@ TEST(test_long_mesh) {
   riis_vtk_mesh_destroy(&tube);
 }
 
-/* Seen from above, the mesh is 3.4 wide. So the scale bar's length, 1, should have a known number of pixels. No part of the
- * mesh is behind the texts. */
+/* Seen from above, the mesh is 3.4 wide. The scale bar's length, 1, should therefore have a known number of pixels. The mesh must
+ * not reach behind the texts. */
 TEST(test_scale_and_bands) {
   draw("bands.png", mesh, RIIS_VTK_VIEW_TOP, 1600, 800);
   pixels picture = read_pixels("bands.png");
@@ -408,8 +409,8 @@ TEST(test_scale_and_bands) {
   free(picture.rgb);
 }
 
-/* Flat leaflets are seen edge on: closed ones from the side, and open ones from above. They appear as lines that fill 1/1.08
- * of the panel, because the camera fits the leaflets with this margin. */
+/* Flat leaflets are seen edge on: closed leaflets from the side, and open leaflets from above. Such leaflets appear as lines that
+ * fill 1/1.08 of the panel, because the camera leaves this margin. */
 TEST(test_edge_on) {
   const int32_t views[2] = {RIIS_VTK_VIEW_SIDE, RIIS_VTK_VIEW_TOP};
   const double expected[2] = {800 / 1.08, (800 - upper_band - lower_band) / 1.08};
@@ -430,7 +431,7 @@ TEST(test_edge_on) {
   riis_valve_destroy(&valve);
 }
 
-/* A unit follows the number at the scale bar without changes. The unit replaces the default words. */
+/* The unit follows the number at the scale bar without changes. The unit replaces the default words. */
 TEST(test_unit) {
   for (int with_mesh = 0; with_mesh < 2; ++with_mesh) {
     const riis_vtk_mesh *const drawn = with_mesh ? mesh : NULL;
@@ -449,14 +450,14 @@ TEST(test_unit) {
 
 enum { wide = 900, high = 300, n_pictures = 4 };
 
-/* A valve in a mesh, turned and moved together. */
+/* A valve in a mesh, after a common turn and shift of both. */
 typedef struct {
   riis_surface *surface;
   riis_vtk_mesh *mesh;
   double axis[3], angle;
 } placed;
 
-/* Places a valve and a mesh of n random nodes, xyz(3, n), whose tetrahedra do not depend on the placement. */
+/* Places a valve and a mesh of n random nodes, xyz(3, n). The tetrahedra do not depend on the placement. */
 static placed place(const char *kind, const double axis[3], double angle, const double shift[3], int n,
                     const double *xyz) {
   placed made = {NULL, NULL, {axis[0], axis[1], axis[2]}, angle};
@@ -489,7 +490,7 @@ static placed place(const char *kind, const double axis[3], double angle, const 
   return made;
 }
 
-/* Draws the four views from `first` on, with or without the mesh. */
+/* Draws four views, starting with `first`, with or without the mesh. */
 static void draw_four(const placed *what, int with_mesh, int32_t first, const char *const names[n_pictures]) {
   riis_vtk_picture_options options;
   int32_t views[n_pictures];
@@ -508,8 +509,8 @@ static void draw_four(const placed *what, int with_mesh, int32_t first, const ch
   expect_fine(riis_vtk_draw_views(what->surface, with_mesh ? what->mesh : NULL, &options, n_pictures, views, list));
 }
 
-/* Returns the share of pixels that differ by more than the noise of rendering at edges. Leaves out the arrows of the mesh's axes
- * and the line that names the views. */
+/* Returns the share of pixels that differ by more than the noise of rendering at edges. Omits the arrows of the mesh's axes and
+ * the line that names the views. */
 static double share_of_changes(const char *a, const char *b) {
   const pixels pictures[2] = {read_pixels(a), read_pixels(b)};
   assert_true(pictures[0].width == wide && pictures[0].height == high && pictures[1].width == wide);
@@ -528,8 +529,8 @@ static double share_of_changes(const char *a, const char *b) {
   return n / (double)n_all;
 }
 
-/* If a valve and its mesh are turned and moved together, views by the valve's axes stay the same, and views by the mesh's axes do
- * not. */
+/* If a valve and its mesh are turned and moved together, views by the valve's axes stay the same. Views by the mesh's axes
+ * change. */
 TEST(test_valve_axes) {
   enum { n = 1500 };
   static const char *const kinds[5] = {"aortic", "trileaflet", "coapting", "mitral", "bileaflet"};
@@ -570,9 +571,8 @@ TEST(test_valve_axes) {
   free(xyz);
 }
 
-/* A picture of three views has one column for each. All columns have the same scale: the surface is as wide from the side as from
- * above. Each column has panels for the surface and the marks. If the width is not a multiple of three, the rest is filled with
- * white. */
+/* A picture of three views has one column for each. All columns have one scale, so the surface is as wide from the side as from
+ * above. Each column has panels for the surface and the marks. If the width is not a multiple of three, white fills the rest. */
 TEST(test_three_views) {
   static const int widths[3] = {1200, 1201, 1202};
   for (int i = 0; i < 3; ++i) {
@@ -624,8 +624,8 @@ static void expect_corners(const char *name, int red, int green, int blue) {
   free(picture.rgb);
 }
 
-/* The background has the colour of the options. A transparent picture, laid on white and on black, equals the pictures that are
- * drawn on these colours, up to the rounding of each layer. */
+/* The background has the colour of the options. A transparent picture can be laid on white and on black. The transparent picture
+ * then equals the pictures drawn on these colours, up to the rounding of each layer. */
 TEST(test_backgrounds) {
   static const char *const on[2] = {"white.png", "black.png"};
   riis_vtk_picture_options options = looks(0.2, 0.4, 0.6, 1, RIIS_VTK_CAPTIONS_ALL);
@@ -639,7 +639,8 @@ TEST(test_backgrounds) {
   expect_corners(on[1], 0, 0, 0);
   int width = 0, height = 0;
   assert_null(shim_read_clear_pixels(scratch_path(on[0]), &width, &height));
-  /* The lines of the wall have the brightness that fits the colour of the options, so that a clear picture has two kinds. */
+  /* The brightness of the wall's lines follows from the options' colour. Transparent pictures for light pages therefore differ
+   * from those for dark pages. */
   for (int i = 0; i < 2; ++i) {
     options = looks(1 - i, 1 - i, 1 - i, 0, RIIS_VTK_CAPTIONS_NONE);
     draw_by(&options, "clear.png", mesh);
@@ -674,7 +675,7 @@ static int count_drawn(const char *name) {
   return n;
 }
 
-/* Without captions, the title has no effect. Without the scale bar, the unit has none either. The panels take the place of the
+/* Without captions, the title has no effect. Without a scale bar, the unit has no effect. The panels then use the space of the
  * texts. */
 TEST(test_captions) {
   int n_drawn[3];
@@ -692,7 +693,7 @@ TEST(test_captions) {
   assert_true(n_drawn[1] > 1.1 * n_drawn[0] && n_drawn[2] > 1.02 * n_drawn[1]);
 }
 
-/* One panel fills the picture. Without a mesh, a wall surrounds the surface as the boundary of a mesh does. */
+/* One panel fills the picture. Without a mesh, a wall takes the place of the mesh's boundary around the surface. */
 TEST(test_panels_and_wall) {
   riis_vtk_picture_options options = looks(1, 1, 1, 1, RIIS_VTK_CAPTIONS_NONE);
   riis_vtk_surface *boundary = NULL;
@@ -723,8 +724,8 @@ TEST(test_panels_and_wall) {
   riis_vtk_surface_destroy(&boundary);
 }
 
-/* A picture of twice the size looks the same: letters, lines and panels grow with it. Each pixel of the small picture is near the
- * mean of four pixels of the large one. */
+/* A picture of twice the size looks equal, because letters, lines and panels grow with it. Each pixel of the small picture is
+ * near the mean of four pixels of the large picture. */
 TEST(test_sizes) {
   riis_vtk_picture_options options = looks(1, 1, 1, 1, RIIS_VTK_CAPTIONS_ALL);
   options.width = 1920;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Tests surfaces that are read from files and written. Written files contain the surface that queries use. Surfaces
- * that are read keep their winding, order and leaflets. */
+ * Tests surface files that are read and written. Written files contain the surface that queries use. A surface that is read keeps
+ * its winding, order and leaflets. */
 #include <locale.h>
 #include <math.h>
 #include <riis/riis_vtk.h>
@@ -37,7 +37,7 @@ static double *numbers(int64_t n) {
   return values;
 }
 
-/* Checks that a cell array of the file has the expected type and values, one per triangle. */
+/* Checks that a cell array of the file has the expected type and values. The array has one value per triangle. */
 static void expect_cell_array(const char *path, const char *name, const char *expected_type, int64_t n,
                               const int32_t *narrow, const int64_t *wide) {
   char type[32];
@@ -112,7 +112,7 @@ static riis_surface *surface_of_file(const char *name, const riis_surface_option
   return surface;
 }
 
-/* A valve's surface that is written and read back is the same surface: closest points have the same bits. */
+/* Writing and reading does not change a valve's surface: closest points have the same bits. */
 TEST(test_round_trip) {
   riis_surface *valve = make_valve();
   expect_fine(riis_vtk_surface_write(valve, scratch_path("valve.vtp")));
@@ -130,12 +130,12 @@ TEST(test_round_trip) {
   riis_surface_destroy(&valve);
 }
 
-/* Points in the plane z = 0: the square's corners anticlockwise, then points outside the square. */
+/* Points in the plane z = 0: first the square's corners anticlockwise, then points outside the square. */
 static const char *const plane_points = "0 0 0  1 0 0  1 1 0  0 1 0  2 0 0  2 1 0  0.5 1.5 0";
 
 static void write_polydata(const char *name, const char *verts, const char *polys, const char *strips,
                            const char *cell_data) {
-  /* The caller passes the piece's other attributes, and the content of CellData, Polys and Strips. */
+  /* The caller passes further attributes of the piece, and the content of CellData, Polys and Strips. */
   char text[4096];
   snprintf(text, sizeof text,
            "<VTKFile type=\"PolyData\" version=\"0.1\" byte_order=\"LittleEndian\"><PolyData>\n"
@@ -174,7 +174,7 @@ TEST(test_quads_stay_quads) {
   riis_vtk_surface_destroy(&file);
 }
 
-/* Checks areas and normals through the core: every triangle faces +z, the areas add up, and faces keep their leaflets. */
+/* Checks areas and normals through the core. Every triangle faces +z, the areas add up, and faces keep their leaflets. */
 static void expect_faces(const char *name, int64_t n_triangles, double area, const int32_t *leaflets) {
   riis_surface_arrays arrays;
   riis_surface_info info;
@@ -202,8 +202,9 @@ TEST(test_mixed_polygons) {
   expect_faces("mixed.vtp", 8, 0.5 + 1 + 1.25 + 1, leaflets);
 }
 
-/* Quads with an inward corner at 1 or 3, as the only cell and beside a triangle, are cut along the diagonal that lies inside.
- * They have an area of 0.2 each and keep their winding. A quad with the inward corner at 0 or 2 keeps its order. */
+/* Quads with an inward corner at 1 or 3 are cut along the diagonal that lies inside. This holds for a single quad and for a quad
+ * beside a triangle. The quads have an area of 0.2 each and keep their winding. A quad with the inward corner at 0 or 2 keeps its
+ * order. */
 TEST(test_concave_quads) {
   const int32_t leaflets[3] = {0, 0, 0};
   const char *orders[4] = {"0 1 2 3", "1 2 3 0", "2 3 0 1", "3 0 1 2"};
@@ -244,10 +245,11 @@ TEST(test_unstructured_grid) {
   expect_faces("grid.vtu", 3, 1.5, leaflets);
 }
 
-/* Quadratic faces are cut at their nodes, and keep their area, winding and leaflet. The nodes lie on a plane, at the middles
- * of sides and faces. */
+/* Quadratic faces are cut at their nodes, and keep their area, winding and leaflet. The nodes lie on a plane, in the middles of
+ * sides and faces. */
 TEST(test_quadratic_faces) {
-  /* The corners of a square, the middles of its sides, its middle, the middle of its diagonal, and the middle of half of it. */
+  /* The corners of a square, the middles of its sides, and its middle. The middle of the square's diagonal and the middle of half
+   * the diagonal follow. */
   const char *points = "0 0 0  2 0 0  2 2 0  0 2 0  1 0 0  2 1 0  1 2 0  0 1 0  1 1 0  0.6 0.6 0";
   static const struct {
     int type, n_triangles;
@@ -275,7 +277,7 @@ TEST(test_quadratic_faces) {
   }
 }
 
-/* Each of several surfaces becomes a leaflet, whatever its own leaflets are. Quads are cut beside triangles. */
+/* Each of several surfaces becomes a leaflet, and the leaflets in its file do not matter. Quads are cut beside triangles. */
 TEST(test_append) {
   riis_vtk_surface *all = NULL, *other = NULL;
   riis_surface_arrays arrays;
@@ -408,7 +410,7 @@ TEST(test_stl) {
   riis_vtk_surface_destroy(&file);
 }
 
-/* Upper and lower case, blanks and line breaks are as other programs write them. Keywords count only at the beginning of a
+/* Upper and lower case, blanks and line breaks vary as in files of other programs. Keywords count only at the beginning of a
  * line. */
 TEST(test_ascii_stl_layouts) {
   const char *const facet =
@@ -420,7 +422,7 @@ TEST(test_ascii_stl_layouts) {
   expect_faces("upper.stl", 1, 0.75, leaflets);
 }
 
-/* The calling program may have set a locale whose decimal separator is a comma. That locale must stay. */
+/* The caller may have set a locale with a comma as decimal separator. The call must not change this locale. */
 TEST(test_decimal_comma) {
   static const char *const names[] = {"de_DE.UTF-8", "de_DE.utf8", "fr_FR.UTF-8", "it_IT.UTF-8", "es_ES.UTF-8"};
   size_t i = 0;
@@ -442,7 +444,7 @@ TEST(test_decimal_comma) {
   setlocale(LC_ALL, "C");
 }
 
-/* A surface from arrays with skipped triangles is written without uv. Its triangles have the ids that queries return. */
+/* A surface from arrays with skipped triangles is written without uv. The triangles in the file have the ids that queries use. */
 TEST(test_user_surface_is_written) {
   riis_surface_options options;
   riis_surface_arrays arrays;

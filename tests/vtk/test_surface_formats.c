@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Tests surfaces of other programs: .obj, .ply and legacy .vtk. This test writes one surface in each format, and reads the
- * same vertices and faces to the last bit. Damaged files are refused with their names. */
+ * Tests surfaces of other programs: .obj, .ply and legacy .vtk. This test writes one surface in each format. The reader must
+ * return its vertices and faces to the last bit. Refusals of damaged files name the files. */
 #include <math.h>
 #include <riis/riis_vtk.h>
 #include <stdarg.h>
@@ -13,11 +13,11 @@
 #include "scratch.h"
 #include "test_support.h"
 
-/* The kinds of files. The first four are text. */
+/* The kinds of files. The first four kinds are text. */
 enum { OBJ, PLY_TEXT, VTK_OLD_TEXT, VTK_NEW_TEXT, PLY_LITTLE, PLY_BIG, VTK_OLD_BINARY, VTK_NEW_BINARY, n_kinds };
 static const char *const endings[n_kinds] = {"obj", "ply", "vtk", "vtk", "ply", "ply", "vtk", "vtk"};
 
-/* A triangle, a quad, a pentagon and a concave quad, over vertices on a slope. No coordinate fits single precision. */
+/* A triangle, a quad, a pentagon and a concave quad, over vertices on a slope. No coordinate is exact in single precision. */
 enum { n_vertices = 11, n_faces = 4, n_corners = 16 };
 static const int sizes[n_faces] = {3, 4, 5, 4}, corners[n_corners] = {0, 1, 2, 1, 3, 4, 2, 3, 5, 6, 7, 4, 8, 9, 2, 10};
 static const double plane[n_vertices][2] = {{0, 0}, {1, 0}, {0, 1},  {2, 0},     {1, 1},   {3, 0},
@@ -62,8 +62,8 @@ static void add_points(int is_binary, int is_big) {
   }
 }
 
-/* As in a textured model, vertices have several texture coordinates and normals. Corners count from the start or the end. The
- * file begins with a byte order mark, and a face has its old keyword fo. */
+/* Vertices have several texture coordinates and normals, as in a textured model. The numbers of corners count from the start or
+ * from the end. The file begins with a byte order mark, and a face has its old keyword fo. */
 static void write_obj(void) {
   add_text("\xef\xbb\xbf# a model in C:\\models\\\nmtllib model.mtl\no valve\nvt 0 0\nvt 0.5 1\nvn 0 0 1\n");
   for (int i = 0; i < n_vertices; ++i)
@@ -83,7 +83,7 @@ static void write_ply(int is_binary, int is_big) {
   add_text("property double z\nelement face %d\nproperty uchar part\nproperty list uchar int vertex_indices\n",
            n_faces);
   add_text("property list ushort float texture\nelement edge 1\nproperty int64 a\nproperty uint b\nend_header\n");
-  /* The lines of old files end in a carriage return alone. */
+  /* In old files, a carriage return alone ends a line. */
   for (size_t i = 0; i < n_bytes && is_big; ++i)
     if (bytes[i] == '\n') bytes[i] = '\r';
   add_points(is_binary, is_big);
@@ -153,7 +153,8 @@ static const char *name_of(int kind) {
 
 /* ---- Tests ---- */
 
-/* Each triangle's corners are corners of its face, the triangles of a face have its area, and all point upwards. */
+/* Each triangle's corners are corners of its face. The triangles of a face have the face's area, and all triangles point
+ * upwards. */
 TEST(test_formats_agree) {
   for (int kind = 0; kind < n_kinds; ++kind) {
     riis_vtk_surface *file = NULL;
@@ -194,7 +195,8 @@ TEST(test_formats_agree) {
   }
 }
 
-/* Reads `bytes` as a file of a kind. Nothing is printed, and a refusal names the file. Returns whether it is read. */
+/* Reads `bytes` as a file of a kind. The call must print nothing, and a refusal must name the file. Returns whether it is
+ * read. */
 static int is_read(int kind) {
   riis_vtk_surface *file = NULL;
   scratch_write(name_of(kind), bytes, n_bytes);
@@ -222,7 +224,7 @@ static void insert_text(size_t at, const char *text) {
 
 static size_t random_below(random_source *random, size_t n) { return (size_t)(random_bits(random) % n); }
 
-/* Chooses a number in the text after `from`. Returns where it begins, and its length. */
+/* Chooses a number in the text after `from`. Returns the number's position and length. */
 static size_t random_number(random_source *random, size_t from, size_t *length) {
   for (;;) {
     size_t at = from + random_below(random, n_bytes - from);
@@ -249,8 +251,8 @@ static size_t write_for_damage(int kind) {
   return (size_t)(strchr(begin, '\n') + 1 - bytes);
 }
 
-/* Faults that no reader may overlook: a letter in a number, a missing number, a missing vertex, a truncated file, a line of
- * other content. */
+/* No reader may overlook these faults: a letter in a number, a missing number, a missing vertex, a cut file, and a line of other
+ * content. */
 TEST(test_damaged_texts) {
   random_source random = random_start("damaged texts");
   for (int kind = OBJ; kind <= VTK_NEW_TEXT; ++kind) {
@@ -286,7 +288,7 @@ TEST(test_damaged_texts) {
   }
 }
 
-/* Changes random bytes of any file. It is read or refused, and never crashes. */
+/* Changes random bytes of any file. The file must be read or refused, without a crash. */
 TEST(test_random_bytes) {
   random_source random = random_start("random bytes");
   for (int kind = 0; kind < n_kinds; ++kind) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Closest distances of random points are compared with the results of VTK's searches on the same triangles. VTK's
- * searches are another implementation in double precision. RIIS_TEST_SEED repeats a run. */
+ * Compares closest distances of random points with the results of VTK's searches on the same triangles. VTK's searches are a
+ * separate implementation in double precision. RIIS_TEST_SEED repeats a run. */
 #include <math.h>
 #include <riis/riis.h>
 #include <stdint.h>
@@ -62,7 +62,7 @@ static void compare(double scale, double shift, int method, const char *name) {
   const int64_t n_triangles = triangles_of(surface).n_triangles;
   const int64_t *corners = triangles_of(surface).vertex_id;
   shim_distances(method, n_vertices, vertices, n_triangles, corners, n_points, points, by_vtk);
-  /* The tolerance is relative to the coordinates' size, since this size limits the resolution of doubles. */
+  /* The tolerance is relative to the size of the coordinates, because this size limits the resolution of doubles. */
   const double size = fabs(shift) + 20 * scale;
   double worst = 0;
   for (int i = 0; i < n_points; ++i) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * NULL pointers, structs that no init function filled, and options out of range are refused. The caller's floating-point
- * environment does not change. */
+ * Tests refusals of NULL pointers, of structs that no init function filled, and of options out of range. The caller's
+ * floating-point environment does not change. */
 #include <fenv.h>
 #include <math.h>
 #include <riis/riis_vtk.h>
@@ -72,7 +72,7 @@ TEST(test_null) {
   riis_vtk_surface_destroy(&file);
 }
 
-/* Refusals of a list of pieces, and the roles of nodes in a mesh without neighbours. */
+/* Tests refusals of a list of pieces, and the roles of nodes in a mesh without neighbours. */
 TEST(test_pieces) {
   riis_vtk_pieces *pieces = NULL;
   riis_vtk_mesh *piece = NULL;
@@ -229,7 +229,7 @@ TEST(test_picture_options) {
                  "leaflet_names[1] is NULL");
 }
 
-/* The looks of a picture: the defaults, and values out of range. */
+/* Tests the looks of a picture: their defaults, and values out of range. */
 TEST(test_looks) {
   riis_vtk_picture_options defaults, options;
   expect_fine(riis_vtk_picture_options_init(&defaults, sizeof defaults));
@@ -253,7 +253,7 @@ TEST(test_looks) {
     options.panels = bad[i].panels;
     expect_refused(riis_vtk_draw(surface, NULL, &options, scratch_path("a.png")), RIIS_INVALID_ARGUMENT, bad[i].text);
   }
-  /* A caller of an older release, whose struct has no looks, gets the defaults: the next refusal is for another field. */
+  /* The struct of an older caller has no looks, so the defaults apply. The refusal below is therefore only for the width. */
   memset(&options, 0xff, sizeof options);
   expect_fine(riis_vtk_picture_options_init(&options, 104));
   options.width = 1;
@@ -270,7 +270,8 @@ static void expect_bad_axes(const char *part_of_text, double x, double y, double
   expect_refused(riis_vtk_draw(surface, NULL, &options, scratch_path("a.png")), RIIS_INVALID_ARGUMENT, part_of_text);
 }
 
-/* The axes of the valve have the ranges of a placement. An older caller, whose struct lacks them, gets the mesh's axes. */
+/* The axes of the valve have the ranges of a placement. The struct of an older caller lacks these axes, so the mesh's axes
+ * apply. */
 TEST(test_axes_of_valve) {
   riis_vtk_picture_options options;
   expect_fine(riis_vtk_picture_options_init(&options, sizeof options));
@@ -287,7 +288,7 @@ TEST(test_axes_of_valve) {
   expect_refused(riis_vtk_draw(surface, NULL, &options, scratch_path("a.png")), RIIS_INVALID_ARGUMENT, "width is 1");
 }
 
-/* If a name contains a line break, the message still has one line. The message for a very long name keeps the reason. */
+/* A message has one line even if a name contains a line break. With a very long name, the message keeps the reason. */
 TEST(test_odd_names) {
   riis_vtk_mesh *other = NULL;
   expect_refused(riis_vtk_mesh_read(scratch_path("a\nb.vtu"), &other), RIIS_FILE_ERROR,

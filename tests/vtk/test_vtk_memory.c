@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
  * Every allocation by riis_vtk's own code fails once. The call must then return RIIS_OUT_OF_MEMORY, leave no half-written file
- * and leak no memory. The same call must succeed afterwards. Failures of VTK's own allocations are not tested. */
+ * and leak no memory. If the call is repeated, the call must succeed. Allocations by VTK do not fail here. */
 #include <riis/riis_vtk.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -13,12 +13,13 @@
 #include "scratch.h"
 #include "vtk_shim.h"
 
-/* The objects of the scenarios. One of them exists at a time. The tested call makes the object, or it is made before the call. */
+/* The objects of the scenarios. Only one of these objects exists at a time. The tested call makes this object, or the object is
+ * made before the call. */
 static riis_vtk_mesh *mesh;
 static riis_vtk_surface *read_surface;
 static riis_adjacency *adjacency;
 static riis_vtk_motion *motion;
-/* The surface exists for all scenarios. */
+/* The surface is made once for all scenarios. */
 static riis_surface *surface;
 static riis_marks *result;
 
@@ -62,7 +63,7 @@ static const struct {
   const char *name;
   void (*make)(void);
   riis_status (*call)(void);
-  const char *file; /* the file that the message must name; "" if none */
+  const char *file; /* the file that the message must name; "" if there is none */
 } scenarios[] = {
     {"read .vtu", nothing, read_vtu, "box.vtu"},
     {"read .vtk", nothing, read_vtk, "box.vtk"},

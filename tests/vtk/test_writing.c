@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * A written file is complete or does not exist. A write that fails leaves the old file as it was, and leaves no other file. */
+ * A written file is complete or does not exist. A failed write leaves the old file as it was, and leaves no other file. */
 #include <errno.h>
 #include <riis/riis_vtk.h>
 #include <signal.h>
@@ -109,7 +109,8 @@ TEST(test_full_disk) {
   assert_int_equal(n_points, 12 * 12 * 12);
 }
 
-/* If the file's name is a link, the file behind it is replaced, and the link stays. A file may be written over its own source. */
+/* If a link has the file's name, the write replaces the link's target and keeps the link. A file may also replace the file from
+ * which it was read. */
 TEST(test_links_and_sources) {
   scratch_write_text("target.vtu", "old");
   assert_int_equal(symlink("target.vtu", scratch_path("link.vtu")), 0);
@@ -125,7 +126,7 @@ TEST(test_links_and_sources) {
   assert_int_equal(n_points, 12 * 12 * 12);
 }
 
-/* A link to a missing file stays a link, and its target is made. Links that form a circle are an error. */
+/* If the link's target is missing, the write makes the target and keeps the link. Links that form a circle are an error. */
 TEST(test_dangling_links) {
   struct stat status;
   assert_int_equal(mkdir(scratch_path("deep"), 0700), 0);
@@ -159,7 +160,7 @@ TEST(test_permissions) {
   assert_int_equal(status.st_mode & 0777, 0606);
 }
 
-/* VTK's output window and its warnings are silent during each call. After the call, the caller's settings are restored. */
+/* During each call, VTK's output window and its warnings are silent. After the call, the caller's settings apply again. */
 TEST(test_output_window) {
   riis_vtk_mesh *other = NULL;
   shim_watch_window();

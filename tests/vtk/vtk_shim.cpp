@@ -51,7 +51,7 @@ bool ends_with(const std::string &text, const std::string &ending) {
   return text.size() >= ending.size() && text.compare(text.size() - ending.size(), ending.size(), ending) == 0;
 }
 
-// Returns each node's position in the lattice, in random order.
+// Returns the position of each node in the lattice. The order of the nodes is random.
 std::vector<int> shuffled(int n) {
   std::vector<int> order(static_cast<std::size_t>(n));
   std::iota(order.begin(), order.end(), 0);
@@ -148,7 +148,7 @@ vtkSmartPointer<vtkPointSet> read(const std::string &path) {
   return data && data->GetPoints() ? data : nullptr;
 }
 
-// Returns n different nodes, drawn from the first n_nodes.
+// Returns n different nodes, chosen at random from the first n_nodes.
 std::vector<vtkIdType> drawn(int n_nodes, int n, std::mt19937 &random) {
   std::vector<vtkIdType> nodes(static_cast<std::size_t>(n_nodes));
   std::iota(nodes.begin(), nodes.end(), 0);
@@ -438,7 +438,7 @@ int shim_read_png(const char *path, int *width, int *height, int *n_colours, int
 
 namespace {
 
-// Reads the first channels of a picture. Returns NULL if it has fewer.
+// Reads the first channels of a picture. Returns NULL if the picture has fewer channels.
 unsigned char *read_channels(const char *path, int n_channels, int *width, int *height) {
   vtkNew<vtkPNGReader> reader;
   if (!reader->CanReadFile(path)) return nullptr;

@@ -20,14 +20,14 @@ def section(p):
 
 
 def power_of(curve):
-    """Returns the exponent for which the power profile has the curve's tangent at its end. It is the tangent's slope divided by
-    the chord's slope."""
+    """Returns the exponent with which the power profile has the curve's tangent at its end. The exponent is the tangent's slope
+    divided by the chord's slope."""
     first, _, before, last = curve[0]
     return ((last[0] - before[0]) / (last[1] - before[1])) / ((last[0] - first[0]) / (last[1] - first[1]))
 
 
 def profile(curve, power):
-    """Returns points of x = first + (last - first) (y / y of last)^power, between a curve's ends."""
+    """Returns points of the profile x = first + (last - first) (y / y of last)^power, between a curve's ends."""
     first, last = curve[0][0], curve[0][-1]
     return [(first[0] + (last[0] - first[0]) * (i / 64) ** power, last[1] * i / 64) for i in range(65)]
 
@@ -55,7 +55,8 @@ def draw_plan(sheet, cusp):
 
 
 def half(panel, kind, curve, color, up):
-    """Draws the parameters of the free edge (upper half, up = 1) or of the bending curve (lower, mirrored half, up = -1)."""
+    """Draws the parameters of the free edge or of the bending curve. The free edge is the upper half, up = 1. The bending curve
+    is the lower, mirrored half, up = -1."""
     sheet, (first, after, before, last) = panel.sheet, [plan(p) for p in curve[0]]
     # The frame's y axis points up in the upper half and down in the lower half.
     panel.line(first, after, color=color, width=1.1, style=":")
@@ -66,7 +67,7 @@ def half(panel, kind, curve, color, up):
     panel.length(f"{kind}_radius_in", axis_point, first, at, shift=shift, color=color, ha="right", share=0.2)
     panel.length(f"{kind}_radius_out", axis_point, last, (-0.24, 0.92 * up), color=color, ha="right", share=0.42)
     panel.angle(f"{kind}_angle", axis_point, (1, 0), last, 0.3, (-0.24, 0.56 * up), color=color, ha="right", sense=up, share=0.8)
-    # t0 and t3 only give the y of the inner control points, as a fraction of the way between the ends.
+    # t0 and t3 only determine the y of the inner control points, as a fraction of the way between the ends.
     level = (first[0], after[1])
     panel.length(f"t0_{kind}", first, level, T0_PLACE[kind], shift=(0.1, 0), color=color)
     level = (last[0], before[1])

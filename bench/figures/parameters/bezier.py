@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Evaluates Bézier curves from riis-figures --curves. A piece is the list of its control points, and a curve the list of its
-pieces."""
+"""Evaluates Bézier curves from riis-figures --curves. A span is the list of its control points, and a curve the list of its
+spans."""
 
 import math
 
@@ -20,7 +20,7 @@ def samples(pieces, n=64):
 
 
 def length_until(piece, end):
-    """Returns the arc length up to a parameter, extrapolated from chords."""
+    """Returns the arc length up to a parameter, extrapolated from the lengths of chords."""
 
     def chords(n):
         points = [point(piece, end * i / n) for i in range(n + 1)]
@@ -31,7 +31,7 @@ def length_until(piece, end):
 
 
 def length(pieces, until=None):
-    """Returns the arc length of the curve, or its length up to the point `until`."""
+    """Returns the arc length of the curve. If `until` is given, returns the length up to this point."""
     total = 0.0
     for piece in pieces:
         if until is not None:
@@ -61,7 +61,7 @@ def at_share(pieces, share):
 
 
 def parameter(piece, where):
-    """Returns the parameter of the piece's point nearest to `where`. The search starts from the best of many samples, and
+    """Returns the parameter of the span's point that is nearest to `where`. The search starts from the best of many samples, and
     narrows the interval around it."""
     n = 64
     best = min(range(n + 1), key=lambda i: math.dist(point(piece, i / n), where))

@@ -28,7 +28,7 @@ def symmetry_line(state, leaflet):
 
 
 def crossing(a, b, c, d):
-    """Returns the point where the lines a b and c d meet."""
+    """Returns the point at which the lines a b and c d meet."""
     (ax, ay), (bx, by), (cx, cy), (dx, dy) = a, b, c, d
     share = ((cx - ax) * (dy - cy) - (cy - ay) * (dx - cx)) / ((bx - ax) * (dy - cy) - (by - ay) * (dx - cx))
     return ax + share * (bx - ax), ay + share * (by - ay)
@@ -52,7 +52,7 @@ class Drawing:
         return f"{self.sheet.value_text(name)}; here {plain(self.example[name])} cm"
 
     def shown(self, name, p, q, at, **style):
-        """Draws a length whose default is 0. The drawing has the example's value."""
+        """Draws a length whose default is 0, with the value of an example."""
         self.sheet.check(name, 0)
         self.panel.length(name, p, q, at, value=self.value_text(name), example=self.example[name], **style)
 
@@ -85,7 +85,7 @@ class Drawing:
         self.draw_opening()
 
     def draw_opening(self):
-        """Draws the opening at the leaflet at x < 0. The opening is the fraction of the way from the closed to the open angle."""
+        """Draws the opening on the leaflet at x < 0. The opening is the fraction of the way from the closed to the open angle."""
         panel, sheet = self.panel, self.sheet
         lines = [symmetry_line(state, 1) for state in self.states]
         closed, half_open, opened = map(slope, lines)

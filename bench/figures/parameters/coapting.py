@@ -11,7 +11,8 @@ TO_COMMISSURE = (math.cos(math.radians(60)), math.sin(math.radians(60)))
 
 
 def beside(p):
-    """Projects a point onto the vertical plane through the axis and the commissure: distance from the axis, height."""
+    """Projects a point onto the vertical plane through the axis and the commissure. Returns the distance from the axis and the
+    height."""
     return (p[0] * TO_COMMISSURE[0] + p[1] * TO_COMMISSURE[1], p[2])
 
 

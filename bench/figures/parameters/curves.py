@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Finds the curves of valves in the images of patches that riis-figures writes."""
+"""Finds the curves of valves in the images of patches, which riis-figures writes."""
 
 import math
 
@@ -11,7 +11,7 @@ def mix(p, q, share):
 
 
 def split(piece, t):
-    """Returns the two parts of a piece, by de Casteljau's algorithm."""
+    """Returns the two parts of a span, by de Casteljau's algorithm."""
     left, right = [piece[0]], [piece[-1]]
     while len(piece) > 1:
         piece = [mix(p, q, t) for p, q in zip(piece, piece[1:])]
@@ -21,7 +21,7 @@ def split(piece, t):
 
 
 def join(a, b):
-    """Returns the piece with the parts a and b, by de Casteljau's algorithm in reverse, or None if there is none."""
+    """Returns the span whose parts are a and b, by de Casteljau's algorithm in reverse. Returns None if there is no such span."""
     before, after = math.dist(a[-2], a[-1]), math.dist(b[0], b[1])
     if len(a) != len(b) or not (before > 0 and after > 0):
         return None
@@ -33,7 +33,7 @@ def join(a, b):
 
 
 def joined(pieces):
-    """Rejoins the parts of curves that were cut. Pieces that were separate from the beginning stay separate."""
+    """Joins the parts of curves that were cut. Spans that were always separate stay separate."""
     made = []
     for piece in pieces:
         whole = join(made[-1], piece) if made else None
@@ -46,8 +46,8 @@ def reversed_curve(pieces):
 
 
 def cusp_curves(images, cusp, frame="placed"):
-    """Returns the curves that define half a cusp in the paper, and their mirror images. They are rejoined where the bending
-    curve cuts them."""
+    """Returns the curves that define half a cusp in the paper, and their mirror images. The curves are joined again where the
+    bending curve cuts them."""
     below, above = (
         [image[frame] for image in images if image["leaflet"] == cusp and (image["lengths"]["v0"] == 0) == is_below]
         for is_below in (True, False)
@@ -61,8 +61,8 @@ def cusp_curves(images, cusp, frame="placed"):
 
 
 def mitral_curves(images):
-    """Returns the annulus, once around from the posterior point, and the free edges from one commissure to the other. The
-    patches of one half of the valve are listed from the anterior point of the annulus to the posterior point."""
+    """Returns the annulus, once around from the posterior point. Also returns the free edges from one commissure to the other. In
+    each half of the valve, patches are listed from the anterior point of the annulus to the posterior point."""
     annulus, anterior, posterior = ([], []), ([], []), ([], [])  # each entry has a curve and its mirror image
     for i, image in enumerate(images):
         annulus[i % 2].extend(image["placed"]["v0"])
@@ -76,8 +76,8 @@ def mitral_curves(images):
 
 
 def mitral_arcs(images):
-    """Returns arcs from the annulus to the free edges on the half x >= 0, at fractions u of the annulus' length from its
-    posterior point. "lines" has the ends of many arcs. "arcs" has the arcs between two patches."""
+    """Returns arcs from the annulus to the free edges on the half x >= 0. The arcs begin at fractions u of the annulus' length
+    from its posterior point. "lines" has the ends of many arcs. "arcs" has the arcs between two patches."""
     half, lines, arcs, u = images[::2], [], [], 0.5  # patches go from the anterior to the posterior point
     whole = 2 * sum(image["lengths"]["v0"] for image in half)
     for image in half:

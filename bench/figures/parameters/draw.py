@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Draws the meaning of every parameter of a valve, from the library's own curves at the default parameters.
 
-draw.py CURVES.json FOLDER [KIND...]: CURVES.json comes from riis-figures --curves. For these kinds of valve, or for all, the
-script writes KIND_parameters as .png and .svg into the folder. It also writes parameters.json, by which draw_page.py puts the
-drawings on its page. It refuses a drawing that leaves a parameter out, shows a wrong value, or has labels that overlap."""
+draw.py CURVES.json FOLDER [KIND...]: CURVES.json comes from riis-figures --curves. The script writes KIND_parameters as .png and
+.svg into the folder, for these kinds of valve or for all. The script also writes parameters.json, from which draw_page.py puts
+the drawings on its page. A drawing is refused if it omits a parameter, shows a wrong value, or has labels that overlap."""
 
 import json
 import os

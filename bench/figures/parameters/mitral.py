@@ -14,7 +14,7 @@ def plan(p):
 
 
 def side(p):
-    """Projects to the view from the posteromedial side, with anterior on the right and the ventricle below."""
+    """Projects points to the view from the posteromedial side. Anterior is on the right, and the ventricle below."""
     return p[1], p[2]
 
 
@@ -30,7 +30,7 @@ class Valve:
         self.annulus, self.anterior, self.posterior = state["annulus"], state["anterior"], state["posterior"]
         self.lines, self.arcs = state["lines"], [arc["curve"] for arc in state["arcs"]]
         starts, ends = [arc[0][0] for arc in self.arcs], [arc[-1][-1] for arc in self.arcs]
-        # The sides of the commissure's triangle are two neighbouring arcs that end in one point.
+        # Two neighbouring arcs that end in one point are the sides of the commissure's triangle.
         (last,) = [i + 1 for i in range(len(ends) - 1) if ends[i] == ends[i + 1]]
         self.triangle, self.commissure, self.edge_end = starts[last - 1], starts[last], ends[last]
         self.cleft, self.cleft_end = starts[last + 1], ends[last + 1]
@@ -42,11 +42,12 @@ class Valve:
         return bezier.at_share(self.annulus, share % 1)
 
     def share(self, point):
-        """Returns the fraction of the annulus' length from the posterior point to another point, anticlockwise."""
+        """Returns the fraction of the annulus' length between the posterior point and another point, anticlockwise."""
         return bezier.length(self.annulus, point) / bezier.length(self.annulus)
 
     def part(self, begin, end, outwards):
-        """Returns points of the annulus between two fractions of its length, moved outwards in the plan view."""
+        """Returns points of the annulus between two fractions of its length. In the plan view, the points are shifted
+        outwards."""
         points, lengths = bezier.samples(self.annulus, 256), [0.0]
         for p, q in zip(points, points[1:]):
             lengths.append(lengths[-1] + math.dist(p, q))
@@ -110,7 +111,7 @@ def shares(panel, valve):
 
 
 def band(panel, valve, begin, end, outwards, color):
-    """Draws an arrow along a part of the annulus, with lines to the part's ends."""
+    """Draws an arrow along a part of the annulus, and lines to the part's ends."""
     points, ends = valve.part(begin, end, outwards), valve.part(begin, end, 0)
     panel.line(*points, color=color, width=1.4)
     panel.arrow(points[8], points[0], color=color, both=False)
@@ -181,13 +182,13 @@ def draw_section(sheet, closed, half_open, valve):
 
 
 def hang(panel, arc, name, at, color, inwards):
-    """Draws one leaflet in the symmetry plane: its arc from the annulus to the free edge, and the chord. inwards is 1 if the
+    """Draws one leaflet in the symmetry plane: its arc from the annulus to the free edge, and the chord. `inwards` is 1 if the
     valve's middle is on the left."""
     start, inner, end = (side(p) for p in arc[0])
     panel.curve(arc, side, color, 2.6)
     panel.points(start, end, color=color, size=5)
     panel.line(start, end, color=color, width=0.8, style="--")
-    # A line along the chord, moved outwards.
+    # Draws a line along the chord, shifted outwards.
     across = [0.5 * inwards * a / distance(start, end) for a in (start[1] - end[1], end[0] - start[0])]
     panel.length(name, start, end, at, shift=tuple(across), ha="left" if inwards > 0 else "right", color=color, share=0.7)
     panel.line(start, (start[0] - 1.0 * inwards, start[1]), color=GREY, width=0.6, style="--")
@@ -202,14 +203,13 @@ def hang(panel, arc, name, at, color, inwards):
 
 
 def draw_arc(sheet, valve):
-    """Draws the free edge before its ends and tip are moved to their places. This is the cubic in the frame where it
-    approximates an arc of a circle."""
+    """Draws the free edge in the frame in which its cubic is made. There the cubic approximates an arc of a circle."""
     panel = sheet.panel((12.45, 4.1), (2.45, 3.45), "e   A free edge", (-1.35, -1.6), 1.1)
     (edge,) = valve.anterior
     chord = [b - a for a, b in zip(edge[0], edge[3])]
     inner = [b - a for a, b in zip(edge[1], edge[2])]
-    # share: the distance of the inner control points from the chord's middle, divided by half the chord. It satisfies 1 - share =
-    # 2/3 (1 - tan(angle / 4)^2).
+    # `share` is the distance of the inner control points from the chord's middle, divided by half the chord. `share` satisfies 1
+    # - share = 2/3 (1 - tan(angle / 4)^2).
     share = sum(a * b for a, b in zip(inner, chord)) / sum(a * a for a in chord)
     height = math.sqrt(1 - 1.5 * (1 - share))  # the tip's height divided by half the chord, if the arc is part of a circle
     angle = 4 * math.atan(height)
@@ -237,7 +237,7 @@ def draw_unrolled(sheet, valve):
     begin = valve.share(valve.commissure)
     for turned in (1, -1):
         outline(panel, valve, whole, turned)
-    # Each line goes from the annulus, at a fraction of its length, to a point of a free edge.
+    # Each line leads from a fraction of the annulus' length to a point of a free edge.
     scallop, middle = valve.posterior[0], valve.posterior[1]
     anterior, pm = "anterior_length", "posteromedial_commissure_height"
     hanging = (
@@ -265,7 +265,7 @@ def draw_unrolled(sheet, valve):
 
 
 def outline(panel, valve, whole, turned):
-    """Draws the lengths of the straight lines from the annulus to the free edges. turned is 1, or -1 for the mirrored half."""
+    """Draws the lengths of the straight lines from the annulus to the free edges. `turned` is 1, or -1 for the mirrored half."""
     for leaflet, color in ((0, ANTERIOR), (1, POSTERIOR)):
         lines = [line for line in valve.lines if line["leaflet"] == leaflet]
         points = []

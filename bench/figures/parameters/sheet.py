@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Technical drawings with the names of parameters: dimension lines, angles, leaders, labels.
+"""Makes technical drawings with the names of parameters: dimension lines, angles, leaders, labels.
 
-Every named length or angle is measured between the drawn points, and compared with the parameter's value. A drawing is refused
-if a length or angle in it differs from the parameter. It is also refused if a parameter is missing or if labels overlap."""
+Every named length or angle is measured between the drawn points, and compared with the parameter's value. A drawing is refused if
+a length or angle in it differs from the parameter. A missing parameter or overlapping labels also lead to a refusal."""
 
 import io
 import math
@@ -44,7 +44,7 @@ class Sheet:
     """A drawing of several panels for one kind of valve. If the three cusps differ, the drawing shows `cusp`."""
 
     def __init__(self, title, parameters, size, cusp=None):
-        # The drawings show parameters up to the skirt's length. Later ones change single cusps, commissures and places.
+        # The drawings show parameters up to the skirt's length. Later parameters change single cusps, commissures and places.
         names = [each["name"] for each in parameters]
         n_drawn = names.index("skirt_length") + 1 if "skirt_length" in names else len(names)
         self.parameters = {each["name"]: each for each in parameters[:n_drawn]}
@@ -99,8 +99,8 @@ class Sheet:
     # ------------------------------------------------------------------------------------------------------------ texts
 
     def text(self, x, y, text, axis=None, **style):
-        """Adds a text, which is checked for overlaps with other texts. x and y are coordinates of the axis, otherwise
-        fractions of the figure."""
+        """Adds a text, which is checked for overlaps with other texts. If an axis is given, x and y are its coordinates.
+        Otherwise x and y are fractions of the figure."""
         made = (axis.text if axis else self.figure.text)(x, y, text, **{"fontsize": NORMAL, "color": DARK, **style})
         self.texts.append(made)
         return made
@@ -134,7 +134,7 @@ class Sheet:
         return found
 
     def check_whole(self):
-        """Refuses a drawing that leaves a parameter out or is unreadable."""
+        """Refuses a drawing that omits a parameter or is unreadable."""
         if self.missing():
             raise Refused(f"not drawn: {', '.join(self.missing())}")
         self.figure.canvas.draw()
@@ -142,8 +142,8 @@ class Sheet:
             raise Refused("; ".join(self.overlaps()))
 
     def save(self, path):
-        """Writes PATH.svg, with lines and texts, and PATH.png, with few colours to keep the file small. PATH.png has the names
-        and defaults as metadata."""
+        """Writes PATH.svg with lines and texts. Also writes PATH.png, with few colours to keep the file small. PATH.png has the
+        names and defaults as metadata."""
         self.check_whole()
         drawn, about = io.BytesIO(), PngImagePlugin.PngInfo()
         self.figure.savefig(drawn, dpi=100, format="png")
@@ -156,7 +156,7 @@ class Sheet:
 
 
 class Panel:
-    """A view with plane coordinates in centimetres. Its lower left corner is left_bottom. Both axes have the same number of
+    """A view with plane coordinates in centimetres. The view's lower left corner is left_bottom. Both axes have one scale, in
     centimetres per inch of the sheet."""
 
     def __init__(self, sheet, corner, size, title, left_bottom, centimetres):
@@ -194,8 +194,8 @@ class Panel:
     # ----------------------------------------------------------------------------------------------------------- labels
 
     def label(self, name, at, to=None, ha="left", color=DARK, shown=None, value=None):
-        """Adds a name and its value at a position. If `to` is given, a leader goes from the texts to this point. `shown` is the
-        name as shown, if it is inside a formula."""
+        """Adds a name and its value at a position. If `to` is given, a leader leads from the texts to this point. `shown` is the
+        text for a name that is inside a formula."""
         self.sheet.mark_named(name)
         if at is None:  # the name is elsewhere in the panel
             return
@@ -211,8 +211,8 @@ class Panel:
             self.points(to, color=color, size=2.2, zorder=6)
 
     def edge_towards(self, to, *texts):
-        """Returns the point from which a leader leaves texts: the point of their bounding box that is nearest to the leader's
-        end."""
+        """Returns the point at which a leader leaves texts. This is the point of the texts' bounding box that is nearest to the
+        leader's end."""
         renderer = self.sheet.figure.canvas.get_renderer()
         boxes = [text.get_window_extent(renderer) for text in texts]
         x, y = self.axis.transData.transform(to)
@@ -223,8 +223,9 @@ class Panel:
     def length(
         self, name, p, q, at, shift=(0, 0), ha="left", color=DARK, shown=None, value=None, factor=1.0, share=0.5, example=None
     ):
-        """Draws a length from p to q: a dimension line that is moved by `shift`, extension lines, and its name. The drawn length
-        is `factor` times the parameter, or an example of it. The leader ends at the fraction `share` of the dimension line."""
+        """Draws a length from p to q: a dimension line, extension lines, and the length's name. The dimension line is `shift`
+        away from the line p q. The drawn length is `factor` times the parameter, or an example. The leader ends at the fraction
+        `share` of the dimension line."""
         self.sheet.check(name, distance(p, q) / abs(factor), example)
         moved = [(a[0] + shift[0], a[1] + shift[1]) for a in (p, q)]
         if shift != (0, 0):
@@ -236,8 +237,8 @@ class Panel:
     def angle(
         self, name, centre, begin, end, radius, at, ha="left", color=DARK, share=0.5, shown=None, sense=1, value=None, text=None
     ):
-        """Draws an angle at `centre` as an arc from the direction of `begin` to the direction of `end`. It runs anticlockwise
-        if sense is 1."""
+        """Draws an angle at `centre` as an arc from the direction of `begin` to the direction of `end`. The arc runs
+        anticlockwise if sense is 1."""
         start, stop = (math.degrees(math.atan2(p[1] - centre[1], p[0] - centre[0])) for p in (begin, end))
         measured = (stop - start) * sense
         measured = (measured + 180) % 360 - 180

@@ -1,7 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_script.sh SOURCE WORK
-# The steps of ./run cans and patch.py on made-up trees: missing sources, another version, twice, undo.
+# Checks the steps of ./run cans and patch.py on made-up trees. The cases are missing sources, another version, a second call and
+# an undo.
 set -euo pipefail
 source=$1 work=$2
 # shellcheck source=tests/support/script_checks.sh
@@ -26,7 +27,7 @@ ends 1 "known is CaNS 245a233" "${patch[@]}" "$cans" --undo
 ends 1 "cannot read $work/none/src/main.f90" "${patch[@]}" "$work/none"
 [[ $before == "$(tree_of "$work/folder")" ]] || problem "a refusal changed the tree"
 
-# A file with the lines around the calls. A byte of it is no UTF-8.
+# The file contains the lines around the calls. One of its bytes is not valid UTF-8.
 cat >"$cans/src/main.f90" <<END
 program cans
   use mod_updatep        , only: updatep
@@ -52,12 +53,12 @@ ends 0 "has no call" "${patch[@]}" "$cans" --sha256 "$hash" --undo
 [[ $before == "$(tree_of "$work/folder")" ]] || problem "undo left another tree"
 keeps "$work/folder" "${patch[@]}" "$cans" --sha256 "$hash" --undo
 
-# A line that is missing, or there twice, is refused.
+# A tree is refused if an expected line is missing or occurs twice.
 sed -i '/dpdl/d' "$cans/src/main.f90"
 hash=$(sha256sum "$cans/src/main.f90") hash=${hash%% *}
 ends 1 "0 times, not once" "${patch[@]}" "$cans" --sha256 "$hash"
 
-# A copy is patched and made once, and the folder stays as it is.
+# The copy is patched and built once, and the folder of the sources stays as it is.
 python_of_packages() { command -v python3; }
 cans_work=$work/build
 ends 1 "known is CaNS 245a233" cans_copy "$work/folder"

@@ -1,11 +1,11 @@
 ! SPDX-License-Identifier: Apache-2.0
 ! Stand-ins for the modules of CaNS and MPI that examples/cans uses: one rank, a duct with an inflow of speed 1, an outflow, and
-! walls on which the flow slips. The procedures have CaNS's arguments, and are written anew.
+! walls on which the flow slips. The procedures have CaNS's arguments, and new code.
 module mpi
   implicit none
   integer, parameter :: MPI_COMM_WORLD = 0, MPI_IN_PLACE = 0, MPI_SUM = 0, MPI_INTEGER8 = 8, MPI_DOUBLE_PRECISION = 8
 contains
-  ! Adds up over the ranks. With one rank a sum in place stays as it is.
+  ! Adds up over the ranks. With one rank, a sum in place needs no work.
   subroutine MPI_ALLREDUCE(send, receive, n, kind_of, operation, communicator, error)
     type(*), dimension(..), intent(in) :: send
     type(*), dimension(..), intent(inout) :: receive

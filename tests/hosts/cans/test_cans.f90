@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: Apache-2.0
 ! test_cans SUBJECT
-! Tests the user files of examples/cans with stand-ins for CaNS: marks and K of the three grids against a loop over all triangles,
-! the drop of a closed plate with each way for the pressure, and the memory of riis.
+! Tests the user files of examples/cans with stand-ins for CaNS. Marks and K of the three grids are compared with a loop over all
+! triangles. The drop of a closed plate is tested with each way to compute the pressure. The memory of riis is also measured.
 program test_cans
   use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr
   use, intrinsic :: iso_fortran_env, only: error_unit, int64
@@ -59,7 +59,7 @@ contains
     close (unit)
   end subroutine write_input
 
-  ! A rank has the cells from 3 on in x, and other ranks lie below and above in x. The grid is stretched in z.
+  ! The rank has the cells from 3 on in x. Other ranks lie below and above in x. The grid is stretched in z.
   subroutine test_marks(valve, moves)
     character(len=*), intent(in) :: valve
     logical, intent(in) :: moves
@@ -89,7 +89,7 @@ contains
         z(:, :, l) = merge(zf(l), zc(l), c == 3)
       end do
       call brute_distances(surface%c_handle(), m, x, y, z, 1_int64, 2 * eps, distance)
-      ! Faces of this rank, and those of the rank below that its cells use; not the faces on walls.
+      ! Counts the faces of this rank, and the faces of the rank below that its cells use. Faces on walls do not count.
       wanted = .false.
       wanted(merge(0, 1, c == 1):19, 1:merge(11, 12, c == 2), 1:merge(11, 12, c == 3)) = .true.
       wanted = wanted .and. distance <= eps
@@ -110,8 +110,8 @@ contains
     call check(found > 500, 'too few faces are near the surface')
   end subroutine test_marks
 
-  ! A flow of speed 1 meets a closed plate that leans by 20 degrees. After the first step, the drop in parts of (R/eps) u cos 20
-  ! must lie in the range, and the flow must have no divergence.
+  ! A flow of speed 1 meets a closed plate that leans by 20 degrees. After the first step, the drop over (R/eps) u cos 20 must lie
+  ! in the range. The flow must have no divergence.
   subroutine test_drop(pressure, least, most)
     character(len=*), intent(in) :: pressure
     real(rp), intent(in) :: least, most
@@ -156,7 +156,8 @@ contains
     call check(maxval(abs(pp)) < 1e-9_rp, 'the flow has a divergence')
   end subroutine test_drop
 
-  ! riis may keep 20 MB, and for each listed face 100 bytes without fields, or 170 with K and four fields. There are 300^3 cells.
+  ! riis may keep 20 MB plus a number of bytes per listed face: 100 without fields, or 170 with K and four fields. There are 300^3
+  ! cells.
   subroutine test_memory
     integer, parameter :: n = 300
     real(rp) :: centres(n), faces(n), corners(3, 4)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tests examples/cans/check.py: it accepts recorded runs of ./run cans, and refuses copies with one fault each.
+"""Tests examples/cans/check.py: it must accept recorded runs of ./run cans, and refuse copies with one fault each.
 
-recorded.json has, for each run, columns of valve.csv up to the step from which they repeat, and what CaNS printed.
-test_check.py --record RUNS writes it."""
+For each run, recorded.json has columns of valve.csv up to the step from which they repeat, and the output of CaNS.
+test_check.py --record RUNS writes this file."""
 import json
 import pathlib
 import sys
@@ -18,7 +18,7 @@ VARYING = ["opening", "drop", "flow"]
 
 
 def record(runs):
-    """Writes recorded.json from the runs of ./run cans. Of the valve that opens it keeps each sixth step."""
+    """Writes recorded.json from the runs of ./run cans. The file keeps every sixth step of the valve that opens."""
     found = {}
     for folder in sorted(pathlib.Path(runs).iterdir()):
         run = check.read_run(str(folder.parent), folder.name)
@@ -61,7 +61,7 @@ class Checks(unittest.TestCase):
                            "--short")
 
     def planted(self, judge, said, run, column, value, rows=slice(-1, None), status=1):
-        """Checks that other values in some rows of a run are refused."""
+        """Checks that changed values in some rows of a run are refused."""
         lines = judge.tables[f"{run}/valve.csv"].splitlines()
         at = check.COLUMNS.index(column)
         changed = [line.split(",") for line in lines[1:]]

@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_script.sh SOURCE WORK
-# The steps of ./run nek5000 on made-up trees: missing sources, another version, a copy that is made once.
+# Checks the steps of ./run nek5000 on made-up trees: missing sources, another version, and a copy that is made once.
 set -euo pipefail
 source=$1 work=$2
 # shellcheck source=tests/support/script_checks.sh

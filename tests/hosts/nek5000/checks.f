@@ -11,8 +11,8 @@ c-----------------------------------------------------------------------
       end
 c-----------------------------------------------------------------------
       subroutine ensure_marks(least)
-c     K equals that of a loop over all triangles at every point, and at
-c     least so many points are marked.
+c     At every point, K must equal the K of a loop over all triangles.
+c     At least the given number of points must be marked.
       include 'SIZE'
       include 'TOTAL'
       include 'RIISV'
@@ -34,8 +34,9 @@ c     least so many points are marked.
       end
 c-----------------------------------------------------------------------
       subroutine ensure_implicit
-c     uservp adds K dt/bd(1) to rho, and K u_surface to the right-hand
-c     side of the velocity, after step 0. userchk leaves vtrans = rho.
+c     After step 0, uservp must add K dt/bd(1) to rho, and K u_surface
+c     to the right-hand side of the velocity. userchk must leave vtrans
+c     equal to rho.
       include 'SIZE'
       include 'TOTAL'
       include 'NEKUSE'

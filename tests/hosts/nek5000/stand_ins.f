@@ -1,6 +1,6 @@
 c     SPDX-License-Identifier: Apache-2.0
-c     Stands in for the routines of Nek5000 that the user files call, on
-c     one rank, with elements that are boxes along the axes.
+c     Stands for the routines of Nek5000 that the user files call. There
+c     is one rank, and the elements are boxes along the axes.
 c-----------------------------------------------------------------------
       subroutine mpi_abort(icomm,icode,ierr)
       write(6,*) 'mpi_abort'

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""check.py of examples/nek5000 passes lines of real runs, and refuses each planted fault."""
+"""check.py of examples/nek5000 must accept lines of real runs, and refuse each planted fault."""
 import os
 import sys
 import unittest

@@ -1,6 +1,6 @@
 c     SPDX-License-Identifier: Apache-2.0
-c     Runs plate.usr upright and leaning. With the words Pn-Pn-2,
-c     lowMach or moves, riis_served must stop.
+c     Runs plate.usr with an upright and with a leaning plate. With the
+c     words Pn-Pn-2, lowMach or moves, riis_served must stop.
       program test_plate
       include 'SIZE'
       include 'TOTAL'

@@ -67,9 +67,10 @@ c     (2x, 5y, 0), and th = K dt/1.5 / (rho + K dt/1.5) is 2/3.
       end
 c-----------------------------------------------------------------------
       subroutine ensure_ends(flow,point,most,to)
-c     With the mean velocity flow and point at each point of the outlet,
-c     K is most at the outlet's end, and holds the blood to the velocity
-c     to. At the inlet, where blood has the mean velocity 3, it is 600.
+c     The outlet has the mean velocity flow, and the velocity point at
+c     each of its points. K must be most at the outlet's end, and must
+c     slow the blood to the velocity to. At the inlet, where blood has
+c     the mean velocity 3, K must be 600.
       include 'SIZE'
       include 'TOTAL'
       include 'NEKUSE'
@@ -100,9 +101,9 @@ c     to. At the inlet, where blood has the mean velocity 3, it is 600.
       end
 c-----------------------------------------------------------------------
       subroutine ensure_drive
-c     Blood that follows the pressure without a loss, in a pipe of the
-c     area 2, has the flow of the wave, and rests while the leaflets
-c     move.
+c     In a pipe of the area 2, the pressure drives blood without a
+c     loss. The blood must have the flow of the wave, and must rest
+c     while the leaflets move.
       include 'SIZE'
       include 'TOTAL'
       real mean
@@ -120,7 +121,7 @@ c     move.
          total = total+2.*mean*dt
       enddo
       call ensure(abs(total-90.*.13).lt..1,'the volume of the beat')
-c     Blood that is too fast is held back.
+c     The drive must slow blood that is too fast.
       call valve_drive(.31,0.,p)
       call valve_drive(.31,1.,q)
       call close(p-q,1.06*(uparam(14)-uparam(11))/.02,'the drive')

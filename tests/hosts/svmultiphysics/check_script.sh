@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_script.sh SOURCE WORK
-# Checks what ./run svmultiphysics says without the solver, and what riis.cmake does to a made-up solver: it refuses unknown
-# sources, replaces two functions, changes no source, and can be undone.
+# Checks the messages of ./run svmultiphysics without the solver, and the effect of riis.cmake on a made-up solver. riis.cmake
+# refuses unknown sources, replaces two functions, changes no source, and can be undone.
 # shellcheck disable=SC2317 # ends calls the functions
 set -euo pipefail
 source=$1 work=$2
@@ -33,7 +33,7 @@ cat >"$work/Code/uris.cpp" <<'END_OF_FILE'
 void uris_calc_sdf() { std::puts("solver's distances"); }
 void eval_uris_ris_factors_quadrature() { std::puts("solver's K"); }
 END_OF_FILE
-# Our files beside a copy of riis.cmake, and a library for them.
+# Our files lie beside a copy of riis.cmake and a library.
 cp "$source/examples/svmultiphysics/riis.cmake" "$work/ours"
 cat >"$work/ours/uris_riis.cpp" <<'END_OF_FILE'
 #include <cstdio>
@@ -69,7 +69,7 @@ ends 0 "" compile
 plain=$(sha256sum "$work/build/svmultiphysics")
 [[ $("$work/build/svmultiphysics") == $'solver\'s distances\nsolver\'s K' ]] || problem "the made-up solver is wrong"
 
-# Another version of uris.cpp is refused, and the message has its number.
+# Another version of uris.cpp is refused, and the message states its version.
 version=$(sha256sum "$work/Code/uris.cpp" | cut -c -64)
 ends 1 "$version" configure "${with_riis[@]}"
 sed -i "s/^set(riis_known_versions/& $version/" "$work/ours/riis.cmake"
@@ -86,7 +86,7 @@ ends 0 "no work to do" compile
 ends 0 "" configure "${with_riis[@]}" -D RIIS_URIS_CHECK=ON
 ends 0 "uris_check.cpp" compile
 [[ $("$work/build/svmultiphysics") == compared$'\n'"$ours" ]] || problem "the engines are not compared"
-# Undone, the program is the same as before.
+# After the change is undone, the program is the same as before.
 ends 0 "" configure -U CMAKE_PROJECT_SV_INCLUDE
 ends 0 "" compile
 [[ $(sha256sum "$work/build/svmultiphysics") == "$plain" ]] || problem "the program differs after the undo"

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Steps of a made-up svMultiPhysics with valves, for examples/svmultiphysics/uris_riis.cpp and uris_check.cpp. The solver's own
-// functions that those files call are written anew here.
+// Makes steps of an invented svMultiPhysics with valves, for examples/svmultiphysics/uris_riis.cpp and uris_check.cpp. The
+// functions of the solver that these files call are rewritten here.
 //   model CASE   beat     a valve with a box, a scaffold, a ramp of the half thickness and a solid beside the fluid
 //                two      two valves, of which one is scaled and has no velocities
 //                remesh   a beat with other nodes from step 9 on
 //                vanish   a half thickness of 0 in the open valve
 //                quads    a face with four corners, which is refused
-// The tables of uris_check.cpp are its output.
+// The program's output is the tables of uris_check.cpp.
 #include "uris.h"
 
 #include <cmath>
@@ -71,7 +71,7 @@ double uris_compute_sdf_sign(const urisType &uris, const Vector<double> &place, 
   return above < 0 ? -1 : 1;
 }
 
-// The nearest middle of a triangle counts, and of several the first.
+// The nearest middle of a triangle counts. If several are equally near, the first counts.
 void sv_calc_sdf(ComMod &com_mod) {
   if (com_mod.urisFluidNodeMask.empty()) uris_build_fluid_node_mask(com_mod);
   for (urisType &uris : com_mod.uris) {
@@ -118,7 +118,8 @@ void sv_factors(const ComMod &, const mshType &, const fsType &space, const int,
 
 namespace {
 
-// A box from (-1, -1, -1) to (1.5, 1, 1.5) of tetrahedra, whose inner nodes are shaken. The part with x above 1 is a solid.
+// A box of tetrahedra from (-1, -1, -1) to (1.5, 1, 1.5), whose inner nodes are shifted at random. The part with x above 1 is a
+// solid.
 void make_mesh(ComMod &com_mod, int n, unsigned seed) {
   const int size[3] = {5 * n / 4, n, 5 * n / 4};
   auto node = [&](int i, int j, int k) { return i + (size[0] + 1) * (j + (size[1] + 1) * k); };
@@ -150,7 +151,7 @@ void make_mesh(ComMod &com_mod, int n, unsigned seed) {
     for (int k = 0; k < size[2]; ++k) {
       for (int j = 0; j < size[1]; ++j) {
         for (int i = first; i < last; ++i) {
-          for (const auto &order : orders) {  // a path along three edges of the cell for each tetrahedron
+          for (const auto &order : orders) {  // for each tetrahedron, a path along three edges of the cell
             int place[3] = {i, j, k};
             mesh.IEN(0, e) = node(i, j, k);
             for (int a = 0; a < 3; ++a) {
@@ -171,7 +172,7 @@ double rounded(double value) { return std::ldexp(std::nearbyint(std::ldexp(value
 const int n_quads = 8;
 const int n_vertices = (n_quads + 1) * (n_quads + 1);
 
-// The vertices of two flaps. They hang on the lines y = -1 and y = 1, and their ends touch in the closed valve.
+// The vertices of two flaps. The flaps hang on the lines y = -1 and y = 1, and touch at their ends in the closed valve.
 Array<double> flaps(double angle, bool box, double scale) {
   Array<double> x(3, 2 * n_vertices + (box ? 9 : 0));
   for (int flap = 0; flap < 2; ++flap) {
@@ -186,7 +187,7 @@ Array<double> flaps(double angle, bool box, double scale) {
       }
     }
   }
-  // Each triangle of the box has the middle of the first triangle of the first flap.
+  // The middle of each triangle of the box is that of the first triangle of the first flap.
   const int corners[3] = {0, n_quads + 2, n_quads + 1};
   const double wide[3] = {1.25, -1.25, 0}, thin[3] = {0.125, 0.125, -0.25};
   for (int axis = 0; box && axis < 3; ++axis) {
@@ -250,7 +251,7 @@ urisType make_valve(const std::string &name, bool box, double scale) {
   return uris;
 }
 
-// A frame around the flaps, which rests.
+// A frame at rest around the flaps.
 void add_scaffold(urisType &uris) {
   mshType &mesh = uris.scaffold_msh;
   mesh.name = "scaffold";
@@ -268,7 +269,7 @@ void add_scaffold(urisType &uris) {
   uris.scaffold_flag = true;
 }
 
-// As the solver does when it starts and when it meshes again.
+// Does the solver's work at its start and after it has made a new mesh.
 void initialize(ComMod &com_mod) {
   for (urisType &uris : com_mod.uris) {
     uris.sdf.resize(com_mod.tnNo);
@@ -308,7 +309,7 @@ void run(const std::string &name) {
   const fsType spaces[2] = {make_space(4), make_space(5)};
   for (com_mod.cTS = 1; com_mod.cTS <= 17; ++com_mod.cTS) {
     if (name == "remesh" && com_mod.cTS == 9) {
-      make_mesh(com_mod, 6, 2);  // as many nodes, so that no length shows the change
+      make_mesh(com_mod, 6, 2);  // equally many nodes, so that no length shows the change
       initialize(com_mod);
     }
     if (com_mod.cTS == 3 || com_mod.cTS == 11) {

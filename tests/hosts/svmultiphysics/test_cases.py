@@ -27,7 +27,7 @@ BLOCK = """<!-- a comment -->
 
 
 def duct():
-    """Returns the text of a tube and its wall: each layer has prisms, and each prism three tetrahedra."""
+    """Returns the text of a tube and its wall. Each layer consists of prisms, and each prism of three tetrahedra."""
     ring = [(radius * math.cos(2 * math.pi * i / SIDES), radius * math.sin(2 * math.pi * i / SIDES))
             for radius in (cases.RADIUS, cases.OUTER) for i in range(SIDES)]
     plane = [(0, 0), *ring]
@@ -39,7 +39,7 @@ def duct():
     cells = []
     for layer in range(LAYERS):
         for triangle in triangles:
-            # The sorted corners give a side of two prisms the same diagonal.
+            # With sorted corners, two prisms cut their common side along the same diagonal.
             a, b, c = (corner + layer * len(plane) for corner in sorted(triangle))
             up = len(plane)
             for cell in ((a, b, c, c + up), (a, b, b + up, c + up), (a, a + up, b + up, c + up)):
@@ -109,7 +109,7 @@ class Cases(unittest.TestCase):
         return path, root
 
     def assert_faces(self, folder, areas):
-        """The faces have these areas, enclose the mesh, and name its nodes and elements."""
+        """The faces must have these areas, enclose the mesh, and name its nodes and elements."""
         mesh = Part(folder / "mesh.vtu")
         total = [0, 0, 0]
         for name, area in areas.items():

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tests which runs examples/svmultiphysics/check.py refuses: it gets recorded runs, and the same with one fault each."""
+"""Tests which runs examples/svmultiphysics/check.py refuses: it gets recorded runs, and copies with one fault each."""
 import pathlib
 import sys
 import unittest
@@ -23,7 +23,7 @@ def judge(command, *words):
 
 
 def fault(judged, table, column, value, where=lambda row: True):
-    """Another value in the first row of the table that fits."""
+    """Changes a value in the first row of the table whose columns match."""
     head, *lines = judged.tables[table].splitlines()
     names = head.split(",")
     for line in lines:
@@ -82,7 +82,7 @@ class Checks(unittest.TestCase):
 
     def test_drop(self):
         tables = tables_of("closed")
-        # The other engine's run is made up: a smaller pressure at the inlet.
+        # The run of the other engine is invented: its pressure at the inlet is smaller.
         name = "closed/1-procs/B_NS_Pressure_average.txt"
         weaker = tables[name].replace("4.8765086955e+03", "3.7865086955e+03").replace("4.8763185608e+03", "3.7863185608e+03")
         self.assertNotEqual(weaker, tables[name])

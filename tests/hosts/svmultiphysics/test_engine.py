@@ -43,11 +43,11 @@ class Engine(unittest.TestCase):
         moving = {step for (step, _), frame in frames.items() if frame[0] > 1}
         self.assertEqual(moving, {4, 5, 6, 7, 12, 13, 14, 15})
         self.assertEqual({row["step"] for row in points if row["K_u"] > 0}, moving)
-        # The solid's mesh has no points, but the solver asks for them.
+        # The solid's mesh has no points, but the solver requests its points.
         self.assertEqual({row["points"] > 0 for row in points if row["mesh"] == "solid"}, {False})
         self.assertEqual({row["solid"] > 0 for row in points if row["mesh"] == "solid"}, {True})
         self.assertEqual({row["solid"] for row in points if row["mesh"] == "fluid"}, {0})
-        # The half thickness is the solver's ramp, and the scaffold adds to K of the closed valve.
+        # The half thickness is the solver's ramp. The scaffold adds to K of the closed valve.
         closed = {row["step"]: row["largest_K"] for row in points if row["gauss"] == 4 and row["mesh"] == "fluid"}
         self.assertGreater(closed[7], 1.2 * closed[1])
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Prints the nodes that the half-open mitral valve marks in a box, and the bits of their distances. Its twins in C++, Fortran and
- * Python print the same with every installation of riis. */
+ * Prints the nodes that the half-open mitral valve marks in a box, and the bits of their distances. The programs in C++, Fortran
+ * and Python print the same, with every installation of riis. */
 #include <inttypes.h>
 #include <riis/riis.h>
 #include <stdio.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Prints in C++17 the same as marks.c.
+// Prints in C++17 what marks.c prints.
 #include <cstdint>
 #include <cstdio>
 #include <cstring>

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: Apache-2.0
-! Prints in Fortran the same as marks.c.
+! Prints in Fortran what marks.c prints.
 program marks
   use, intrinsic :: iso_fortran_env, only: int64, real64
   use riis

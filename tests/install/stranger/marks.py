@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Prints in Python the same as marks.c."""
+"""Prints in Python what marks.c prints."""
 import numpy
 import riis
 

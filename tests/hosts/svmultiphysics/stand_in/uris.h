@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stands in for svMultiPhysics's uris.h and the classes behind it. It has only the members that examples/svmultiphysics uses,
-// with the solver's names. model.cpp defines the functions.
+// Stands for svMultiPhysics's uris.h and the classes behind it. This header only has the members that examples/svmultiphysics
+// uses, with the solver's names. model.cpp defines the functions.
 #pragma once
 
 #include <array>
