@@ -169,8 +169,8 @@ static void advance_law(void) {
   check(riis_opening_switch_advance(&law, &state, time, drop, flow, &state));
 }
 
-/* Refuses a valve that left the mesh. Outside the mesh no cell would be marked, and the flow would pass as if there were no
- * valve. The attachment of an open valve is up to a half thickness outside the wall. */
+/* Refuses a valve that has left the mesh. No cell would then be marked, and the flow would pass as if there were no valve. The
+ * attachment of an open valve is up to a half thickness outside the wall. */
 static void check_place(void) {
   riis_surface_info info;
   check(riis_surface_get_info(surface, &info, sizeof info));

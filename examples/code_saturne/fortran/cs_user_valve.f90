@@ -142,7 +142,7 @@ contains
     call check(status)
     call valve%copy(valve_before, status=status)
     call check(status)
-    ! The valve is in centimetres, the mesh in metres. Each processor has a rank of its own, so one thread is enough.
+    ! The valve is in centimetres, the mesh in metres. Each processor runs one rank, so one thread is enough.
     call surface%create(valve, half_thickness=setting('VALVE_HALF_THICKNESS'//c_null_char), scale=0.01d0, &
       translation=[0d0, 0d0, setting('VALVE_Z'//c_null_char)], n_threads=1, status=status)
     call check(status)
@@ -191,7 +191,7 @@ contains
     call check(status)
   end subroutine advance_law
 
-  ! Refuses a valve that left the mesh. Its cells would not be marked, and the flow would pass as if there were no valve. The
+  ! Refuses a valve that has left the mesh. No cells would then be marked, and the flow would pass as if there were no valve. The
   ! attachment of an open valve is up to a half thickness outside the wall.
   subroutine check_place()
     type(riis_surface_info) :: info
