@@ -36,7 +36,7 @@ def duct(comm, size):
 
 
 def flow(comm, law, dt, n_steps, size=2e-3, eps=2e-3, kind="bileaflet", speed=MEAN_SPEED, **parameters):
-    """Yields the state after each time step. The law gives the opening at a time, and the parameters belong to the valve.
+    """Yields the state after each time step. `law` gives the opening at a time, and `parameters` belong to the valve.
 
     Blood flows in with the mean speed `speed`. If it is None, no stress acts at the inlet, so both pressures are equal."""
     mesh, tags = duct(comm, size)

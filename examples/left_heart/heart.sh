@@ -15,13 +15,13 @@ heart_least_opening=1e-4 # of the flail valve, whose table then has an orifice i
 . "$heart_here/coupled/coupled.sh"
 
 # ./run heart [--resume] [--offset O] [--all | --coupled | --walls] [--short]
-#   Beats a left heart in OpenFOAM: a ventricle whose wall moves, with a mitral and an aortic valve, which a heart without space
-#   drives. It measures leaks, and checks the balance of blood, the pressures, 1 and 2 ranks and a restart. It leaves tables,
-#   pictures and a movie in out/heart. --all adds three hearts: a stenotic aortic valve, a flail mitral leaflet, a clip on it.
-#   --short has one beat in a coarse mesh. --offset 0 has bands around the leaflets with round rims, in place of bands that step
-#   aside by 0.75 half thicknesses, with cut rims. With --coupled, the pressures of the flow open the valves, and the wall moves
-#   by its elastance. --walls compares the open aortic valve with the same leaflets as walls. --resume continues a run that was
-#   cut off. It is left out like openfoam.
+#   Computes a beating left heart in OpenFOAM: a ventricle with a moving wall, and with a mitral and an aortic valve. A 0D model
+#   drives this heart. The command measures leaks, and checks the balance of blood, the pressures, 1 and 2 ranks and a restart. It
+#   leaves tables, pictures and a movie in out/heart. --all adds three hearts: with a stenotic aortic valve, with a flail mitral
+#   leaflet, and with a clip on this leaflet. --short computes one beat on a coarse mesh. --offset 0 has bands around the leaflets
+#   with round rims. By default, bands are shifted by 0.75 half thicknesses, and have cut rims. With --coupled, the pressures of
+#   the flow open the valves, and the wall moves by its elastance. --walls compares the open aortic valve with the same leaflets
+#   as walls. --resume continues a run that was cut off. Like openfoam, the command is left out if Debian's package is missing.
 run_heart() {
   local python name of_keep=
   heart_offset=0.75

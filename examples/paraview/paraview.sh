@@ -1,7 +1,7 @@
 # shellcheck shell=bash
 # SPDX-License-Identifier: Apache-2.0
 # The steps of ./run paraview, which reads this file: make a bare Debian, install ParaView there, build the wheel for its Python,
-# and check the plug-in. Debian's ParaView conflicts with the Python modules of libvtk9-dev, so it needs a system of its own. The
+# and check the plug-in. Debian's ParaView conflicts with the Python modules of libvtk9-dev, so it needs a separate system. The
 # steps use variables and functions of ./run and of python/python.sh.
 
 # Packages for the plug-in and its check, besides the packages that build the wheel.
@@ -30,7 +30,7 @@ paraview_check() {
 # under the virtual display.
 paraview_window() {
   local version home=$PWD/build-python/paraview-home
-  # ParaView greets a new user with a window that would cover the others.
+  # ParaView welcomes a new user with a window that would cover the other windows.
   version=$(dpkg-query -W -f '${Version}' paraview)
   mkdir -p "$home/.config/ParaView"
   printf '[General]\nGeneralSettings.ShowWelcomeDialog=false\n' >"$home/.config/ParaView/ParaView${version%%+*}.ini"

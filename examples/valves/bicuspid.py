@@ -4,7 +4,7 @@
 
 Two equal cusps without a raphe (type 0 of Sievers and Schmidtke, J. Thorac. Cardiovasc. Surg. 133, 2007) hang in a root of
 constant radius. Their free edges meet along the line between the commissures, and open like a fish's mouth. Lengths are in
-centimetres. After a change of the numbers below, run python3 bicuspid.py > bicuspid.json.
+centimetres. After you change the numbers below, run python3 bicuspid.py > bicuspid.json.
 """
 import json
 

@@ -5,7 +5,7 @@
 
 # ./run diseases
 #   Draws the diseases of `riis help diseases` on one sheet, out/diseases.png. Each valve is drawn from above, closed and open. A
-#   prolapse is drawn closed, from above and aside.
+#   prolapse is drawn closed, from above and from the side.
 run_diseases() {
   packages=("${demo_packages[@]}")
   install_missing
