@@ -51,7 +51,7 @@ struct Mesh : Handle<riis_mesh, riis_mesh_destroy> {
   nb::object adjacency;     // an Adjacency whose rows are used, kept alive
   std::int64_t places = new_places();
 
-  // Returns a number for the nodes' present positions. It differs for every mesh, and after every update.
+  // Returns a number for the nodes' present positions. This number differs for every mesh, and after every update.
   static std::int64_t new_places();
 
   ~Mesh() { riis_mesh_destroy(&handle); }  // destroys the handle before the borrowed arrays

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Marks equal a C program's marks to the last bit, for any layout of the arrays and any search."""
+"""Marks are equal to those of a C program, to the last bit, for any layout of the arrays and any search."""
 
 import subprocess
 

@@ -53,7 +53,7 @@ def test_least_squares(seed):
     # proportion to the residuals.
     numpy.testing.assert_allclose(list(found.standard_errors.values()), errors, rtol=1e-2)
     assert found.worst == found.residuals.max() and found.worst_landmark == NAMES[int(found.residuals.argmax())]
-    # The residuals belong to the placement: the landmarks' places are where the result puts them.
+    # The residuals belong to the placement, because the landmarks' places are where the result puts them.
     at = found.placement
     axis, degrees = numpy.array(at["rotation_axis"]), at["rotation_angle"]
     local = trileaflet(*got) + found.valve["translation"]
@@ -171,7 +171,7 @@ def test_warps(kind, tmp_path):
     surface = riis.Surface(exact.valve, **exact.placement)
     nearest = numpy.linalg.norm(surface.vertices[:, None] - points, axis=2).min(0)
     assert nearest.max() < 1e-9
-    # The places are on the valve before the warp, as far from the landmarks as the residuals say.
+    # The places are on the valve before the warp. Their distances from the landmarks are the residuals.
     numpy.testing.assert_allclose(numpy.linalg.norm(exact.places - points, axis=1), exact.residuals, atol=1e-9)
     smoothed = riis.place(named, kind, unit="mm", warp="smoothed", noise=0.3)
     assert 0.02 < numpy.sqrt((smoothed.warped_residuals**2).mean()) < 0.6 and smoothed.warp_noise == 0.3

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Threads mark at the same time. One thread writes an object while no other uses it. The log reaches Python."""
+"""Threads mark at the same time. One thread writes an object while no other thread uses it. The log reaches Python."""
 
 import threading
 import time
