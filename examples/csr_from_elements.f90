@@ -11,7 +11,7 @@ program csr_from_elements
   type(riis_surface) :: surface
   type(riis_mesh) :: mesh
   type(riis_adjacency) :: adjacency
-  ! These are kept from step to step, because the neighbour search starts from the previously marked nodes.
+  ! The marks are kept from step to step, because the neighbour search starts from the previously marked nodes.
   type(riis_marks) :: by_neighbors, by_all
   integer, allocatable :: node_num(:), node_num_of_all(:)
   double precision, allocatable :: distance(:), distance_of_all(:)

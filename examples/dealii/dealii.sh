@@ -9,10 +9,10 @@ dealii_packages=(gcc g++ cmake ninja-build mold libembree-dev libtbb-dev libdeal
 dealii_here=$PWD/examples/dealii
 
 # ./run dealii [--short]
-#   Runs valves in deal.II, a finite element library, on meshes that follow the leaflets. These are a closed plate with an exact
-#   drop, a moving plate, and a beating trileaflet valve. The command compares 1, 2 and 4 ranks, checks a restart and bad input,
-#   and leaves tables and pictures in out/dealii. --short leaves out 4 ranks, most plates and the beat. The command is skipped if
-#   the distribution lacks libdeal.ii-dev.
+#   Runs valves in deal.II, a finite element library, on meshes that follow the leaflets. The valves are a closed plate with an
+#   exact drop, a moving plate, and a beating trileaflet valve. The command compares 1, 2 and 4 ranks, checks a restart and bad
+#   input, and leaves tables and pictures in out/dealii. --short leaves out 4 ranks, most plates and the beat. The command is
+#   skipped if the distribution lacks libdeal.ii-dev.
 run_dealii() {
   local short='' python out=$PWD/out/dealii ranks=(1 2 4)
   case $* in
@@ -109,7 +109,7 @@ dealii_closed() {
   done
 }
 
-# dealii_ranks: runs the same steps on each of these numbers of ranks. Each run saves its state in the middle.
+# dealii_ranks: runs the same steps on several numbers of ranks. Each run saves its state in the middle.
 dealii_ranks() {
   local ranks
   for ranks; do

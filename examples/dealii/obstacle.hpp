@@ -101,7 +101,7 @@ class Obstacle {
     return result;
   }
 
-  // The area that resists. This is the area of the surface, or of the part of the plate in the duct.
+  // The area that resists. The area is that of the surface, or of the part of the plate in the duct.
   double area() const {
     if (is_plate()) return 4 * half_width * half_width;
     return riis::get<riis_surface_info>(riis_surface_get_info, surface).area;

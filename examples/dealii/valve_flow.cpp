@@ -4,7 +4,7 @@
 //
 //   rho (u - u_old) / dt + rho (u_old . grad) u - mu laplace(u) + grad(p) + K u = K u_valve,   div(u) = 0
 //
-// riis gives K and K u_valve at the quadrature points (obstacle.hpp). It also gives distances, by which the mesh follows the
+// riis gives K and K u_valve at the quadrature points (obstacle.hpp). riis also gives distances, by which the mesh follows the
 // valve.
 //
 //   mpirun -n 2 valve_flow beat.prm [MORE.prm...]          later files overwrite the entries of earlier ones
@@ -144,11 +144,12 @@ void Parameters::read(const std::vector<std::string> &files) {
 // ---- The preconditioner of the linear system --------------------------------------------------------------------------------
 
 // The system is (A B^T; B 0). A good preconditioner is (A B^T; 0 -S) with the Schur complement S = B A^-1 B^T. A is nearly a mass
-// matrix, because a velocity has the inertia rho/dt and the resistance K, and both are much larger than the viscosity. So S is
-// close to B D^-1 B^T, with the lumped mass matrix D. This matrix is a Laplacian of the pressure with the coefficient 1/(rho/dt +
-// K). B gives it the boundary conditions of the flow. D has a separate K for each velocity. With one K for a whole cell, a cell
-// partly in the band would also resist flow along the band. Where viscosity and grad-div dominate, S is close to the pressure's
-// mass matrix divided by their coefficients. The preconditioner uses the sum of both inverses (Cahouet, Chabard 1988).
+// matrix, because a velocity has the inertia rho/dt and the resistance K, and both are much larger than the viscosity. So the
+// Schur complement S is close to B D^-1 B^T, with the lumped mass matrix D. The matrix B D^-1 B^T is a Laplacian of the pressure
+// with the coefficient 1/(rho/dt + K). B gives it the boundary conditions of the flow. D has a separate K for each velocity. With
+// one K for a whole cell, a cell partly in the band would also resist flow along the band. Where viscosity and grad-div dominate,
+// S is close to the pressure's mass matrix divided by their coefficients. The preconditioner uses the sum of both inverses
+// (Cahouet, Chabard 1988).
 //
 // MUMPS factorises A. In the band the grad-div term is larger than all other terms of A, and it couples the components of the
 // velocity. An incomplete LU or SOR therefore does not converge there.
@@ -405,7 +406,7 @@ void Flow::assemble(double time) {
     double volume = 0, mean_K = 0;
     for (unsigned int q = 0; q < n_q; ++q) volume += fe_values.JxW(q), mean_K += K[point + q] * fe_values.JxW(q);
     mean_K /= volume;
-    // In the band the pressure is steep. There, a grad-div term limits the effect of the pressure's error on the velocity.
+    // In the band the pressure is steep. A grad-div term limits the effect of the pressure's error on the velocity.
     const double grad_div = parameters.grad_div * mean_K * std::pow(volume, 2. / 3);
 
     for (unsigned int q = 0; q < n_q; ++q, ++point) {
@@ -479,8 +480,8 @@ void Flow::assemble_open_boundary(const DoFHandler<3>::active_cell_iterator &cel
   }
 }
 
-// Solves the linear system by GMRES, and returns the number of iterations. The preconditioner acts from the left. It turns the
-// residual into an estimate of the error in velocity and pressure, which decides when to stop.
+// Solves the linear system by GMRES, and returns the number of iterations. The preconditioner acts from the left. The
+// preconditioner turns the residual into an estimate of the error in velocity and pressure, which decides when to stop.
 unsigned int Flow::solve() {
   const Preconditioner preconditioner(system_matrix, velocity_mass, mass_matrix.block(1, 1));
   PETSc::BlockVector unknown(owned, comm), scale(owned, comm);
@@ -600,7 +601,7 @@ void Flow::draw(unsigned int step) const {
   data_out.write_vtu_with_pvtu_record(parameters.folder + "/", "flow", step, comm, 5);
 }
 
-// Writes the data of each cell in the last step, so that runs can be compared. These are id, centre and edge, the integrals of
+// Writes the data of each cell in the last step, so that runs can be compared. The data are id, centre and edge, the integrals of
 // velocity, K and K u_valve, and the pressure in the middle.
 void Flow::write_cells() const {
   std::ofstream file(parameters.folder + "/cells-" + std::to_string(rank) + ".csv");

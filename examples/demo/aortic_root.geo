@@ -35,7 +35,7 @@ joint = 3;      // degrees on each side of a commissure, in which the wall chang
 
 Macro Section // makes a section at height z above the root
   // The point of the attachment at this height has the distance `radius` from the axis and the angle half_angle from the cusp's
-  // middle (docs/theory/aortic.md). There, t is the parameter of the attachment.
+  // middle (docs/theory/aortic.md). In these formulas, t is the parameter of the attachment.
   If (coapting)
     // The attachment is a cubic, whose height grows with t. Bisection finds t.
     low = 0; high = 1;
@@ -73,8 +73,8 @@ Macro Section // makes a section at height z above the root
   points[] = {};
   For i In {0 : n_points - 1}
     angle = 360 * i / n_points;
-    // The weighted mean of the cusps' radii. The sinus's bulge is added to it. The weight of a cusp is 1 in the cusp and falls to
-    // 0 towards the next cusp.
+    // The weighted mean of the cusps' radii. The bulge of the sinus is added to the mean radius. The weight of a cusp is 1 in the
+    // cusp and falls to 0 towards the next cusp.
     sum = 0;
     weights = 0;
     sinus = 0;

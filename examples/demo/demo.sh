@@ -39,7 +39,7 @@ demo_parts() {
 }
 
 # The valves of the demo, and the place of each valve. The valve that the demo calls aortic is the coapting valve in an aortic
-# root. The stenotic valve is this valve with a disease.
+# root. The stenotic valve is the aortic valve with a disease.
 demo_valves=(aortic stenotic mitral)
 declare -A demo_kind=([aortic]=coapting [stenotic]=aortic_stenosis_rheumatic [mitral]=mitral)
 declare -A demo_place=([aortic]=aortic [stenotic]=aortic [mitral]=mitral)
@@ -150,7 +150,7 @@ number_of() { sed -n -E 's/^ *"'"$2"'": ([^,]*),?$/\1/p' "$build/demo/$1.json" |
 # thousands: puts commas between the thousands of the number that it reads.
 thousands() { sed -E ':a; s/^([0-9]+)([0-9]{3})\b/\1,\2/; ta'; }
 
-# milliseconds_of KEY...: prints the sum of these keys' times in the stats of the timed marking.
+# milliseconds_of KEY...: prints the sum of the times of all KEYs in the stats of the timed marking.
 milliseconds_of() {
   local key
   for key in "$@"; do number_of mitral_steps "$key"; done | LC_ALL=C awk '{ sum += $1 } END { printf "%.1f ms", 1000 * sum }'
@@ -218,8 +218,8 @@ TEXT
 
 # ./run demo
 #   Builds the program, and meshes an aortic root and a mitral tube. The command marks a healthy and a stenotic aortic valve and a
-#   mitral valve in these meshes, at five openings and through a heartbeat for movies. It also times the steps of a moving valve.
-#   Meshes, pictures and movies are left in out/.
+#   mitral valve in these meshes, at five openings and through a heartbeat for movies. The command also times the steps of a
+#   moving valve. Meshes, pictures and movies are left in out/.
 run_demo() {
   packages=("${demo_packages[@]}")
   install_missing

@@ -6,8 +6,8 @@
 Surface Loop(1) = Surface{:};
 Volume(1) = {1};
 Physical Volume("fluid") = {1};
-// Here the algorithm HXT is several times faster than gmsh's default, Delaunay. -setnumber algorithm 1 chooses Delaunay, which
-// follows the edge lengths of a size field more closely.
+// In these meshes the algorithm HXT is several times faster than gmsh's default, Delaunay. -setnumber algorithm 1 chooses
+// Delaunay, which follows the edge lengths of a size field more closely.
 DefineConstant[ algorithm = 10 ];
 Mesh.Algorithm3D = algorithm;
 Mesh.Binary = 1;

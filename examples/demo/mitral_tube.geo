@@ -6,7 +6,7 @@ SetFactory("OpenCASCADE");
 h = 0.064;
 bottom = -1.4;
 top = 2.2;
-// Parameters of the valve, with the same names. These parameters define the curves of docs/theory/mitral.md.
+// Parameters of the valve, with the same names. The parameters define the curves of docs/theory/mitral.md.
 AP_diameter = 3;
 ALPM_diameter = 4;
 ALPM_position_ratio = 0.55;

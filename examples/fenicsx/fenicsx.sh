@@ -10,9 +10,9 @@ fenicsx_version=0.9 # the one of Debian 13
 
 # ./run fenicsx
 #   Opens a mechanical valve in a duct with dolfinx 0.9, in Python. The command compares marks on 1 and 2 ranks, compares the drop
-#   across the closed valve with the exact formula, and leaves a picture in out/fenicsx. It builds the Python package for the
-#   distribution's Python, with build tools from PyPI. The command is skipped if the distribution lacks dolfinx 0.9, as Debian 12
-#   does.
+#   across the closed valve with the exact formula, and leaves a picture in out/fenicsx. The command builds the Python package for
+#   the distribution's Python, with build tools from PyPI. The command is skipped if the distribution lacks dolfinx 0.9, as Debian
+#   12 does.
 run_fenicsx() {
   local here=$PWD/examples/fenicsx work=$PWD/build-python/fenicsx out=$PWD/out/fenicsx python fenicsx_log
   (($# == 0)) || { echo "./run fenicsx: '$*' is not an argument of this command" >&2; exit 2; }
@@ -64,7 +64,7 @@ fenicsx_settings() {
   export OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1
 }
 
-# fenicsx_in FOLDER COMMAND...: runs the command in the folder. Its output is also in $fenicsx_log.
+# fenicsx_in FOLDER COMMAND...: runs the command in the folder. The output of COMMAND is also in $fenicsx_log.
 fenicsx_in() {
   cd "$1" || return
   shift

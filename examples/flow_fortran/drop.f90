@@ -67,7 +67,7 @@ program drop_of_valve
 contains
 
   ! Computes the flow for a window of time, and its means. The drop is the difference between the pressure of blood at rest before
-  ! the valve and the lowest mean pressure of a layer of cells. This layer is in the jet.
+  ! the valve and the lowest mean pressure of a layer of cells. The layer with the lowest pressure is in the jet.
   subroutine advance(window)
     real(dp), intent(in) :: window
     real(dp) :: dt, span

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Computes the pressure drops of standing aortic valves with the program `drop`, and compares them with two formulas. The script
-keeps finished runs in FOLDER/runs.csv, so it can continue after a stop. It leaves the table in FOLDER/drops.md and a plot in
-FOLDER/drops.png.
+keeps finished runs in FOLDER/runs.csv, so it can continue after a stop. The script leaves the table in FOLDER/drops.md and a plot
+in FOLDER/drops.png.
 
 usage: drops.py PROGRAM FOLDER [--short]"""
 import csv
@@ -64,7 +64,7 @@ def read_rows(path):
 
 
 def compute(program, one):
-    """Runs the program. Returns its results as a dict of texts."""
+    """Runs the program. Returns the results of the run as a dict of texts."""
     done = subprocess.run([program, *words_of(one)], capture_output=True, text=True, check=False)
     if done.returncode != 0:
         stop(f"{program} {' '.join(words_of(one))} failed: {done.stderr.strip()}")

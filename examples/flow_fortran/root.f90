@@ -12,8 +12,8 @@ module flow_root
 
   real(dp), parameter :: radian = acos(-1._dp) / 180
   real(dp), parameter :: base_z = -1.2_dp         ! the free edges of the closed trileaflet valve lie at z = 0
-  ! These sizes are equal to the valve's parameters of the same names. Three numbers belong to the right, left and non-coronary
-  ! cusps. leaflet_height is the height of the commissures.
+  ! The sizes of the root are equal to the valve's parameters of the same names. Three numbers belong to the right, left and
+  ! non-coronary cusps. leaflet_height is the height of the commissures.
   real(dp) :: base_radius = 1.25_dp, leaflet_height = 1.2_dp, bending_height = 0.6_dp
   real(dp), dimension(3) :: leaflet_radius = 1.25_dp, leaflet_angle = 60, bending_radius = 1.275_dp, bending_angle = 35
   real(dp) :: middle_of_cusp(3) = [0, 120, 240]   ! [degrees]

@@ -2,9 +2,9 @@
 !> Solves for incompressible flow on a staggered grid of cubic cells, by a fractional step method. The resistance K of a valve is
 !! implicit in the momentum equation AND in the pressure equation. README.md has the equations.
 !!
-!! A cell has a number m. Its neighbour in direction d has the number m + stride(d). The lower face of cell m in direction c has
-!! the index (m, c), and velocity component c lies on it. Walls are closed faces between cells inside and outside the lumen. The
-!! flow enters at the lower end in z and leaves at the upper end.
+!! A cell has a number m. The neighbour of cell m in direction d has the number m + stride(d). The lower face of cell m in
+!! direction c has the index (m, c), and velocity component c lies on it. Walls are closed faces between cells inside and outside
+!! the lumen. The flow enters at the lower end in z and leaves at the upper end.
 module flow_solver
   use, intrinsic :: iso_fortran_env, only: dp => real64
   use flow_pressure, only: pressure_equation

@@ -3,7 +3,7 @@
 !!
 !! A face with a large K has the velocity of the leaflet, and the pressure hardly changes it. If a cell has only such faces and
 !! walls, its divergence is the divergence of u_surface. The source allows this divergence. Without the source the pressure grows
-!! until blood flows through these faces.
+!! until blood flows through the faces of the band.
 module flow_source
   use, intrinsic :: iso_fortran_env, only: dp => real64
   implicit none

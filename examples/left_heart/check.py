@@ -57,8 +57,8 @@ def amplitude(case, times):
 
 
 def volumes(case, times):
-    """Returns the volume of the mesh in ml, at the start and at the given times. It comes from the outer faces of the mesh, moved
-    as beatMotion.C does."""
+    """Returns the volume of the mesh in ml, at the start and at the given times. The volume is computed from the outer faces of
+    the mesh, moved as beatMotion.C does."""
     mesh = zero_d.Mesh(case)
     return np.array([mesh.volume(one) / ML for one in amplitude(case, (0.0, *times))])
 
@@ -113,7 +113,8 @@ def orifice(case, valve, least):
     """Prints opening, area and leak, and the volume that a change of the opening displaces.
 
     The pressure difference drives the leak and the jet. As long as there is no jet, the leak is the flow divided by the pressure
-    difference. If a valve does not close, its smallest opening is above 0. There it has an orifice, and no leak.
+    difference. If a valve does not close, its smallest opening is above 0. At its smallest opening, such a valve has an orifice,
+    and no leak.
     """
     openings = held(least)
     beat = Beat(pathlib.Path(case))

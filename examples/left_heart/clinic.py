@@ -23,7 +23,7 @@ MITRAL_AREA = "effective area of the open mitral valve, cm2"
 
 
 def name_of(case):
-    """Returns a readable name of the heart. This is the name of its case, except for the healthy heart."""
+    """Returns a readable name of the heart. The name is that of the heart's case, except for the healthy heart."""
     name = pathlib.Path(case).name
     return "healthy" if name == "beat" else name
 
@@ -52,7 +52,8 @@ def jet(points, velocity):
 def vortex(points, corners, velocity):
     """Returns the circulation of the strongest vortex in the ventricle, in m2/s, and its centre and radius in mm.
 
-    A vortex is a disc in this plane that lies in the blood below the base. Its circulation is the integral of the vorticity.
+    A vortex is a disc in this plane that lies in the blood below the base. The circulation of a vortex is the integral of the
+    vorticity.
     """
     a, b, c = (points[corners[:, k]] for k in range(3))
     first, second = b - a, c - a

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A 0D model of the left heart, without space. It writes the motion of the wall, both end pressures and the openings for the flow
-in space.
+"""A 0D model of the left heart, without space. The model writes the motion of the wall, both end pressures and the openings for
+the flow in space.
 
     python3 zero_d.py CASE MITRAL.csv AORTIC.csv [--beats N] [--dilated] [--out TABLE.csv]
 
@@ -47,7 +47,7 @@ class Body(typing.NamedTuple):
 
     v_0: float            # ml, of the ventricle without a pressure
     vein_pressure: float  # mmHg
-    # A valve begins to close when its flow falls below this number, in ml/s. A valve that closes at full backflow would stop the
+    # A valve begins to close when its flow falls below close_below, in ml/s. A valve that closes at full backflow would stop the
     # blood abruptly. If a valve begins to close late, both valves are open for a moment. For example, a mitral valve with a clip
     # still fills fast when the beat begins.
     close_below: float

@@ -99,8 +99,8 @@ nek_meshes() {
 nek_compile() {
   local case folder=$nek_work/$1
   mkdir -p "$folder" && cd "$folder" || return
-  # lgmres: GMRES restarts after this number of iterations, and then forgets earlier directions. The number 30 in the template is
-  # too small for a large K.
+  # lgmres: GMRES restarts after lgmres iterations, and then forgets earlier directions. The number 30 in the template is too
+  # small for a large K.
   sed -E "s/lx1=8/lx1=$1/; s/lxd=12/lxd=$2/; s/lelg=1000/lelg=400/; s/lx1m=1\)/lx1m=lx1)/; s/lgmres=30/lgmres=200/" \
     "$NEK_SOURCE_ROOT/core/SIZE.template" >SIZE.new &&
     { cmp -s SIZE.new SIZE || mv SIZE.new SIZE; } &&

@@ -54,7 +54,7 @@ def velocity(case, path):
     half = time[opening > 0.5]
     moving = time[opening > 0]
     full = time[opening > 0.999]
-    # At these times the valve is closed, half open, open, about to close, half closed, and closed again.
+    # At the six times the valve is closed, half open, open, about to close, half closed, and closed again.
     wanted = [moving[0] - 0.01, half[0], full.mean(), full[-1] - 0.01, half[-1], moving[-1] + 0.01]
     written = {float(folder.name): folder for folder in (case / "postProcessing/slice").iterdir()}
     chosen = [written[min(written, key=lambda t: abs(t - want))] for want in wanted]

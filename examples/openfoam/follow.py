@@ -42,8 +42,8 @@ def fields(case, time):
 
 
 def follow(cases):
-    """Checks a valve in a mesh that moves as a rigid body. Its marks and K equal those of the valve at rest, and its velocity
-    is that of the rigid body."""
+    """Checks a valve in a mesh that moves as a rigid body. The marks and K of this valve equal those of the valve at rest, and
+    its velocity is that of the rigid body."""
     cases = pathlib.Path(cases)
     rest = cases / "follow-rest"
     times, dt = foam.times(rest), 1e-3

@@ -55,8 +55,8 @@ END
 }
 
 # of_deforms NAME: deforms the mesh. The points of the inlet swing, and the points of the outlet do not move. Some landmarks of
-# the valve follow the wall: the nadirs, and a point near each attachment. They are in a file, because foamDictionary would keep
-# only six digits.
+# the valve follow the wall: the nadirs, and a point near each attachment. The landmarks are in a file, because foamDictionary
+# would keep only six digits.
 of_deforms() {
   local folder=$of_cases/$1 name
   of_moving "$1" hexahedra-28 "$(of_band 28)" riisSource 0.3 &&

@@ -19,8 +19,8 @@ openfoam_plugin=src/openfoam
 #   0.1 cm. --headers only compiles the plug-in, with the headers of another OpenFOAM. plugin only builds the plug-in, and
 #   installs it where the cases of riis patient look for it: in FOLDER, by default ~/.local/lib/riis/openfoam. After ./run demo
 #   the command uses the demo's library, and needs half a minute. Otherwise it also compiles a library, and needs a minute and a
-#   quarter. patient computes a beat of a synthetic patient, from landmarks to the table, in five minutes of an idle processor. It
-#   fails if a number is out of its bounds.
+#   quarter. patient computes a beat of a synthetic patient, from landmarks to the table, in five minutes of an idle processor.
+#   The command fails if a number is out of its bounds.
 run_openfoam() {
   of_size=0.16 of_time_step=1e-3 of_half_thickness=1.2e-3
   case $* in
@@ -90,8 +90,8 @@ run_openfoam() {
 }
 
 # openfoam_install_plugin FOLDER: builds the plug-in with the library inside or beside it, so that it can be moved anywhere, and
-# installs it. If the build folder has a library, as after ./run demo, the plug-in uses it. Otherwise the library is built, while
-# OpenFOAM's headers are fetched.
+# installs it. If the build folder has a library, as after ./run demo, the plug-in uses it. Without such a library, the library is
+# built while OpenFOAM's headers are fetched.
 openfoam_install_plugin() {
   local library=$PWD/$build/src/riis/libriis.so.1 made=static
   openfoam_has_package || exit
@@ -201,7 +201,7 @@ openfoam_headers() {
 }
 
 # openfoam_start CASES OUT [PACKAGE...]: builds the plug-in, and makes the empty folders build/openfoam/CASES, for cases, and
-# out/OUT, for results. With of_keep, it keeps the files in these folders. Returns 1 after a message if OpenFOAM is left out.
+# out/OUT, for results. With of_keep, the files in these folders are kept. Returns 1 after a message if OpenFOAM is left out.
 openfoam_start() {
   openfoam_has_package || return
   packages=("${openfoam_packages[@]}" "${@:3}")
@@ -243,8 +243,8 @@ openfoam_has_source() {
   fi
 }
 
-# openfoam_source FOLDER: gets the headers from the source package of the installed OpenFOAM. Its original archive contains all of
-# them.
+# openfoam_source FOLDER: gets the headers from the source package of the installed OpenFOAM. The original archive of this package
+# contains all of these headers.
 openfoam_source() {
   local folder=$1 part
   packaging/apt_fetch.sh source libopenfoam "$folder" \
@@ -260,7 +260,7 @@ openfoam_source() {
 }
 
 # install_library FOLDER [OPTION...]: compiles the library alone in FOLDER/library, and installs it to FOLDER/riis. The options
-# are those of CMake, such as -D RIIS_WITH_FORTRAN=ON. The commands of other solvers also use it.
+# are those of CMake, such as -D RIIS_WITH_FORTRAN=ON. The commands of other solvers also use this function.
 install_library() {
   local folder=$1
   shift
@@ -409,7 +409,8 @@ openfoam_drops() {
   done
 }
 
-# openfoam_duct NAME: makes a mesh of a duct of 8 x 8 x 24 mm. It has cubes of 1 mm, tetrahedra, or the dual polyhedra.
+# openfoam_duct NAME: makes a mesh of a duct of 8 x 8 x 24 mm. The mesh of the duct has cubes of 1 mm, tetrahedra, or the dual
+# polyhedra.
 openfoam_duct() {
   local folder=$of_work/duct-$1
   [[ ! -e $folder/complete ]] || return 0
@@ -457,8 +458,8 @@ of_duct() {
     echo 'pressure { $inflow; operation areaAverage; fields (p); }' >>"$of_cases/$name/system/functions" && of_run "$name" 1
 }
 
-# Twelve closed leaflets, each without calibration and with it: meshes, half thicknesses in mm, time steps in ms, and degrees.
-# One of them restarts with its factor, and runs on 2 and 4 ranks.
+# Twelve closed leaflets, each without calibration and with it: meshes, half thicknesses in mm, time steps in ms, and degrees. One
+# of the leaflets restarts with its factor, and runs on 2 and 4 ranks.
 openfoam_expected() {
   local mesh half_thickness step degrees calibrate ranks
   for mesh in cubes tetrahedra polyhedra; do openfoam_duct "$mesh" || return; done
@@ -585,7 +586,7 @@ of_sum() {
 }
 
 # of_jet NAME N SOLVER: runs a heartbeat until the valve is open, in a mesh of cubes. The pressure rises as in a heart, and not as
-# in the beat of the case. Otherwise the leaflets pull the blood faster than the pressure pushes it.
+# in the beat of the case. With the pressure of the case, the leaflets would pull the blood faster than the pressure pushes it.
 of_jet() {
   of_moving "$1" "hexahedra-$2" "$(of_band "$2")" "$3" 0 &&
     cp "$openfoam_here"/case/system/{fvOptions,functions} "$of_cases/$1/system" &&

@@ -68,7 +68,7 @@ paraview_inside() {
 # ./run paraview [12 | 13]
 #   Makes a bare Debian of this version (12) in build-paraview12/, or in the folder RIIS_ROOTS, with ParaView and the Python
 #   package. The command checks the plug-in for ParaView there, and leaves pictures of the marks and of ParaView's window in
-#   out/paraview. It needs root or sudo, and is skipped without both.
+#   out/paraview. The command needs root or sudo, and is skipped without both.
 run_paraview() {
   local version=${1:-12} suite folder status=0
   case $*/$version in

@@ -41,7 +41,8 @@ def smooth_step(x):
 
 
 class Root:
-    """A root, in millimetres. Its axis is z along the flow, from the annulus. The middle of the right cusp is near angle 0."""
+    """A root, in millimetres. The axis of the root is z along the flow, from the annulus. The middle of the right cusp is near
+    angle 0."""
 
     def __init__(self):
         self.commissures = [(65.0, 18.2), (165.0, 15.5), (295.0, 16.8)]  # angle and height, after each cusp

@@ -181,7 +181,8 @@ def write(kind, msh, folder, steps, pressure, period, *blocks):
         meshes = mesh("tube", "tube", [(face, face) for face in ("wall", "low", "high")])
         equations = fluid_equations(kind)
     valves = "".join(uris_case.valve_of(block) for block in blocks)
-    # A flow that starts suddenly oscillates if this number is not 0. With 0, the solver's equations for solids give no numbers.
+    # A flow that starts suddenly oscillates if the spectral radius is not 0. With 0, the solver's equations for solids give no
+    # numbers.
     damping = 0.5 if kind == "fsi" else 0
     count = 65
     shares = [i / (count - 1) for i in range(count)]

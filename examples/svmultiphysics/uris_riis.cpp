@@ -26,7 +26,7 @@
 
 namespace uris {
 
-// These functions are in the solver's uris.cpp, but not in its uris.h.
+// sv_calc_sdf and sv_factors are in the solver's uris.cpp, but not in its uris.h.
 void sv_calc_sdf(ComMod &com_mod);
 void sv_factors(const ComMod &com_mod, const mshType &mesh, const fsType &space, const int element, Vector<double> &K,
                 Array<double> &K_u);
@@ -137,7 +137,7 @@ void place(riis::Surface &surface, const Triangles &triangles, const std::vector
                       : riis_surface_create_from_arrays(&arrays, &options, surface.out()));
 }
 
-// Shrinks each triangle to 1e-9 of its size. The nearest of these small triangles is the triangle with the nearest middle.
+// Shrinks each triangle to 1e-9 of its size. The nearest small triangle is the triangle with the nearest middle.
 void place_middles(Triangles &triangles, const Array<double> &x, double half_thickness) {
   std::vector<double> small(3 * triangles.corners.size());
   std::vector<int32_t> corners(triangles.corners.size());
@@ -200,8 +200,8 @@ Closest closest_points(const ComMod &com_mod, const riis_surface *surface, const
   return closest;
 }
 
-// Sets the distances to the leaflets and the leaflets' velocity at the nodes. This sign decides when the valve opens. It
-// therefore follows the solver's rule: the triangle with the nearest middle decides.
+// Sets the distances to the leaflets and the leaflets' velocity at the nodes. The sign of the distances decides when the valve
+// opens. The sign therefore follows the solver's rule: the triangle with the nearest middle decides.
 void set_nodes(const ComMod &com_mod, urisType &uris, const Triangles &leaflets) {
   const auto nodes = nodes_in_box(com_mod, uris.x);
   const Closest exact = closest_points(com_mod, leaflets.surface, nodes);

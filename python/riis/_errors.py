@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The exceptions of riis, one class for each status of the C library. This module also replaces C names in messages by Python
-names."""
+"""The exceptions of riis, one class for each status of the C library. The module _errors also replaces C names in messages by
+Python names."""
 
 import re
 from collections.abc import Callable
@@ -69,8 +69,8 @@ class OutOfMemoryError(Error, MemoryError):
 
 
 class UnavailableError(Error, RuntimeError):
-    """The processor lacks the instructions, or the process must not make this call. Examples are a child of ``fork``, and a call
-    with another thread's object."""
+    """The processor lacks the instructions, or the process must not make this call. Examples are a call in a child of ``fork``,
+    and a call with another thread's object."""
 
     status = 9
     status_name = "RIIS_UNAVAILABLE"
@@ -119,7 +119,7 @@ _NAMES = {
     "riis_valve_get_parameter": "Valve.parameters",
     "riis_valve_set_open_state": "Valve.set_open_state",
 }
-# Fields of C structs that correspond to an argument with another name in Python. Other fields have the same name as their
+# Fields of C structs that correspond to an argument with another name in Python. All other fields have the same name as their
 # argument.
 _ARGUMENTS = {
     "arrays.vertex_ids": "faces",

@@ -28,7 +28,8 @@ _N_UNKNOWNS = {"rotation": 3, "translation": 3, "scale": 1}
 
 
 def matrix_of(vector: Reals) -> Reals:
-    """Returns the rotation for a vector. Its direction is the axis, and its length is the angle in radians (Rodrigues)."""
+    """Returns the rotation for a vector. The direction of the vector is the axis, and its length is the angle in radians
+    (Rodrigues)."""
     angle = float(numpy.linalg.norm(vector))
     if angle == 0.0:
         return numpy.eye(3)
@@ -110,8 +111,8 @@ class Seen(NamedTuple):
 
 
 class Loss(NamedTuple):
-    """The negative logarithm of the density of a residual. It is a concave function of the squared residual, so weighted least
-    squares never increase it."""
+    """The negative logarithm of the density of a residual. The negative logarithm is a concave function of the squared residual,
+    so weighted least squares never increase it."""
 
     value: Callable[[Reals], Reals]
     weight: Callable[[Reals], Reals]  # the derivative by half of the residual's square
@@ -145,8 +146,8 @@ class Mixture:
     def loss(self, whole: bool) -> Loss:
         # If points lie evenly over the whole valve, each point has the probability density 1 / area. The logarithm of their
         # likelihood therefore contains the term -n log(area). The rest of the likelihood is biased near an edge. Noise moves
-        # points beyond the edge, and these points pull the edge outwards by n noise^2 / (4 area) per length. A quarter of the
-        # area's term pulls the edge inwards by the same amount, so edges stay in place.
+        # points beyond the edge. Such points pull the edge outwards by n noise^2 / (4 area) per length. A quarter of the area's
+        # term pulls the edge inwards by the same amount, so edges stay in place.
         return Loss(self.value, lambda r: self.inlier(r) / self.noise**2, 0.25 * (1.0 - self.outliers) if whole else 0.0)
 
 
@@ -353,8 +354,8 @@ class Problem:
         jacobian, area = self.jacobian(x)
         weighted = (self.weights * loss.weight(seen.residual))[:, None] * jacobian
         n_area = loss.area * float(self.weights.sum())
-        # The Gauss-Newton matrix of the area's term. It is the matrix of a quarter of that term, because this gives
-        # the right uncertainty of edges.
+        # The Gauss-Newton matrix of the area's term. The matrix is that of a quarter of the area's term, because this gives the
+        # right uncertainty of edges.
         return weighted.T @ seen.residual + n_area * area, jacobian.T @ weighted + 0.125 * n_area * numpy.outer(area, area)
 
     def solve(self, x: Reals, loss: Loss, n_steps: int, change: float, held: int | None = None) -> Reals:

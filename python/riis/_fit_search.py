@@ -304,9 +304,9 @@ class Judge:
 
     def _of_fixed(self, precision: Reals, jacobian: Reals, free_area: Reals, inlier: Reals, factor: float,
                   variances: Reals) -> Reals:
-        """Returns the share of the squared errors that comes from fixed sizes. This share is 0 if other values of these sizes do
-        not fit better than chance allows. The share consists of two parts: the shift of the unknowns in a fit with all sizes, and
-        the variance that this fit adds.
+        """Returns the share of the squared errors that comes from fixed sizes. The share is 0 if other values of the fixed sizes
+        do not fit better than chance allows. The share consists of two parts: the shift of the unknowns in a fit with all sizes,
+        and the variance that this fit adds.
 
         variances  the other share of the squared errors
         """
@@ -323,8 +323,8 @@ class Judge:
         full[:n, :n] = precision
         shares = numpy.linalg.solve(precision, full[:n, n:])
         alone = full[n:, n:] - full[n:, :n] @ shares
-        # The free unknowns are at rest only up to the precision of the search. A size with almost the same effect would be
-        # sensitive to this.
+        # The free unknowns are at rest only up to the precision of the search. A size with almost the same effect as an unknown
+        # would be sensitive to this precision.
         apart, of_area = columns - jacobian @ shares, n_area * (area - free_area @ shares)
         pull = -apart.T @ (weights * seen.residual) - of_area
 

@@ -69,8 +69,8 @@ def round_length(limit: float) -> float:
 class _ScaleBar:
     """A line of a round length at the lower left of a picture, with its length beside it, as in the program's pictures.
 
-    The length is true in the plane through the camera's focal point at right angles to the line of sight. It is computed
-    anew before each picture, because the camera or the window may have changed.
+    The length is true in the plane through the camera's focal point at right angles to the line of sight. The length of the bar
+    is computed anew before each picture, because the camera or the window may have changed.
     """
 
     def __init__(self) -> None:

@@ -28,7 +28,7 @@ namespace program = riis::program;
 constexpr program::Reader reader = program::Reader::python;
 
 // Calls code of the program without the interpreter's lock, and throws its refusals as Python's exceptions. `subject` is the
-// beginning of most refusals. It may be a path, whose words must not be replaced.
+// beginning of most refusals. The subject may be a path, whose words must not be replaced.
 template <class Call>
 void call_program(const std::string &subject, const Call &call) {
   check_not_logging();

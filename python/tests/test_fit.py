@@ -302,7 +302,7 @@ def test_derivatives_by_fixed_sizes_are_those_of_new_closest_points():
 
 @pytest.mark.parametrize("thickness", [0.0, 0.2])
 def test_simulated_points_lie_on_the_surface_or_on_its_faces(thickness):
-    """Their residuals have the noise, and the problem keeps its own points."""
+    """The residuals of simulated points have the noise, and the problem keeps its own points."""
     points = numpy.random.default_rng(17).uniform(-1.5, 1.5, (50, 3))
     problem, x = problem_of("bileaflet", points, thickness=thickness)
     own = problem.look(x).residual
@@ -429,15 +429,15 @@ def test_random_patients_are_right_or_flagged():
 @pytest.mark.parametrize("seed", [7020, 7039, 7053, 7254, 50047, 50249])
 def test_whole_valves_whose_sizes_were_undetermined(seed):
     """Cases from past faults. Patient 7020 starts with far too large roots (see also test_starts_are_near_enough). In patient
-    7053, three of 26 parts determine a length. By chance, these parts have large residuals. In 7039 and 7254, a few points near
-    the edges of two closed disks pull as if the housing had other angles. In 50047, two root radii are equally likely. In 50249,
-    a profile looked too far."""
+    7053, three of 26 parts determine a length. By chance, the points of these three parts have large residuals. In 7039 and 7254,
+    a few points near the edges of two closed disks pull as if the housing had other angles. In 50047, two root radii are equally
+    likely. In 50249, a profile looked too far."""
     one = fit_study.examine(fit_study.patient(seed))
     assert one.found.doubts == () and one.found.undetermined == () and not one.wrong(), one.found.report()
 
 
 def test_a_pull_beyond_chance_leaves_a_size_undetermined():
-    """The fixed sizes of this valve are wrong. Simulated points do not explain their pull, so the doubt stays."""
+    """The fixed sizes of this valve are wrong. Simulated points do not explain the pull of these sizes, so the doubt stays."""
     one = fit_study.examine(fit_study.patient(1061))
     assert one.case == "other shape" and one.found.undetermined == ("root_radius",) and not one.wrong(), one.found.report()
 
@@ -471,8 +471,8 @@ def test_sizes_without_influence_are_named(seed):
 
 
 def test_sizes_that_trade_with_the_placement_have_an_influence():
-    """A rotation of the valve moves a single disk in the same way as the opening does. The data therefore determine none of the
-    two, although each of them moves the disk."""
+    """A rotation of the valve moves a single disk in the same way as the opening does. The data therefore determine neither
+    rotation nor opening, although each of them moves the disk."""
     valve = riis.Valve("bileaflet", opening=0.4)
     random, disk = numpy.random.default_rng(16), lambda middle, leaflet_id: leaflet_id == 0
     points, _ = fit_study.points_on(random, riis.Surface(valve), 400, disk)
@@ -586,8 +586,8 @@ def test_a_wrong_model_is_doubted_and_widens_the_errors():
 
 
 def test_two_places_that_fit_equally_are_rivals():
-    """The points lie on one of the two open disks, which are parallel. They fit both disks, so a shift by the distance of the
-    disks gives a rival."""
+    """The points lie on one of the two open disks, which are parallel. The points fit both disks, so a shift by the distance of
+    the disks gives a rival."""
     valve = riis.Valve("bileaflet", opening=1.0, open_angle=90.0)
     surface = riis.Surface(valve)
     points, _ = fit_study.points_on(numpy.random.default_rng(13), surface, 200, lambda middle, leaflet_id: leaflet_id == 0)

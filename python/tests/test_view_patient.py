@@ -335,8 +335,8 @@ def test_a_placed_file_opens_and_is_written(patient, wall, mesh, tmp_path):
 
 
 def test_a_skirt_reaches_the_wall(patient, wall):
-    """The outer rim of the skirt lies on the wall. It stays there at each opening, and undo removes it. Without a mesh nothing is
-    marked, and the lights judge the valve in the wall."""
+    """The outer rim of the skirt lies on the wall. The rim stays on the wall at each opening, and undo removes the skirt. Without
+    a mesh nothing is marked, and the lights judge the valve in the wall."""
     model = model_of(patient, wall)
     i = model.add("coapting")
     model.read_landmarks(patient / "landmarks.mrk.json")

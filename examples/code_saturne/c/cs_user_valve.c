@@ -13,7 +13,7 @@
 
 BEGIN_C_DECLS
 
-/* These objects are made in the first time step. */
+/* The objects of riis are made in the first time step. */
 static riis_valve *valve, *valve_before;
 static riis_surface *surface;
 static riis_mesh *mesh;
@@ -147,7 +147,7 @@ static void create_valve(void) {
 static void advance_law(void) {
   const cs_mesh_quantities_t *q = cs_glob_mesh_quantities;
   const cs_real_3_t *u = (const cs_real_3_t *)CS_F_(vel)->val;
-  /* The slab's volume, and the integrals of pressure and velocity over it. */
+  /* The volume of a slab, and the integrals of pressure and velocity over it. */
   double upstream[3] = {0}, downstream[2] = {0};
   for (cs_lnum_t c = 0; c < cs_glob_mesh->n_cells; ++c) {
     const double z = q->cell_cen[3 * c + 2], v = q->cell_vol[c], p = CS_F_(p)->val[c];

@@ -2,7 +2,7 @@
 ! Puts a heart valve into code_saturne 6.0, by a momentum source, in Fortran. The momentum equation gets the source -K (u -
 ! u_surface). -K is its implicit part, and K u_surface its explicit part. The pressure equation of code_saturne does not take this
 ! source into account. The pressure drop therefore builds up over several time steps, and stays too small. The head losses in ../c
-! avoid this.
+! avoid this delay.
 module valve_in_root
   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_int64_t, c_null_char, c_ptr
   use riis
@@ -10,7 +10,7 @@ module valve_in_root
   private
   public :: advance_valve, write_checkpoint, record_step, coefficient, momentum, present_valve
 
-  ! These objects are made in the first time step.
+  ! The objects of riis are made in the first time step.
   type(riis_valve), save :: valve, valve_before
   type(riis_surface), save :: surface
   type(riis_mesh), save :: cells

@@ -154,8 +154,8 @@ contains
     call demand(worst < 0.05_dp, 'each is within 5 % of (R/eps) u')
   end subroutine check_drop
 
-  ! (b) A plate closes the same duct, but the pressure equation does not contain K. Each face then lacks the share (1 + rho/(K
-  ! dt))^-steps of its drop.
+  ! (b) A plate closes the same duct, but the pressure equation does not contain K. Each face in the band then lacks the share
+  ! (1 + rho/(K dt))^-steps of its drop.
   subroutine check_slow_drop()
     real(dp), parameter :: h = 1e-3_dp, R = 1e4_dp, eps = 1.5_dp * h, u = 0.1_dp, dt = 1e-3_dp
     integer, parameter :: seen(5) = [1, 10, 100, 1000, 10000]

@@ -67,7 +67,7 @@ def tables(case, mitral, aortic, beats=3):
 
 
 def naive_tables(case, coupled_case, start):
-    """Writes the amplitude of the naive variant. This variant continues from a time of the coupled run, with the volumes of
+    """Writes the amplitude of the naive variant. The naive variant continues from a time of the coupled run, with the volumes of
     zero_d.py."""
     times, volumes = np.loadtxt(pathlib.Path(case) / "constant" / "zeroDVolume").T
     run = run_of(coupled_case)

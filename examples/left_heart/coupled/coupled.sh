@@ -1,7 +1,7 @@
 # shellcheck shell=bash
 # SPDX-License-Identifier: Apache-2.0
 # The steps of ./run heart --coupled: the valves open by the pressures of the flow, and the wall moves by its elastance. heart.sh
-# sources this file. It makes the mesh and the tables of both valves first.
+# sources this file. The command makes the mesh and the tables of both valves first.
 
 heart_coupled() {
   heart_python coupled/study.py "$of_work/left_heart/libvolumeSearch.so" | tee "$of_out/coupled_study.txt"

@@ -97,7 +97,7 @@ def _anterior(attachment: Attachment) -> Reals:
     made = []
     for turn in (0.0, 2.0 * math.pi / 3.0, -2.0 * math.pi / 3.0):
         off = numpy.angle(numpy.exp(1j * (around - first - turn)))
-        # One edge has one end on each side of this direction.
+        # One edge has one end on each side of the wanted direction.
         k = int(numpy.argmax((off.min(axis=1) <= 0.0) & (off.max(axis=1) > 0.0) & (numpy.ptp(off, axis=1) < math.pi)))
         a, b = off[k]
         made.append(edges[k, 0] + a / (a - b) * (edges[k, 1] - edges[k, 0]))
@@ -138,7 +138,7 @@ def placed_by(state: ValveState, points3: Any) -> dict[str, Any]:
             f"points3: are on a circle of radius {radius:.3g}, and that of the valve is {state.scale * known.radius:.3g}: "
             "choose the mesh's unit first, or click on the annulus"
         )
-    # These are two frames with the circles' normals; x is towards the first point.
+    # The two rotations are frames with the circles' normals; x is towards the first point.
     frames = []
     for origin, up, points in ((known.centre, known.normal, known.points), (centre, normal, clicks)):
         x = points[0] - origin
@@ -167,7 +167,7 @@ def _mean_turn(known: Annulus, own: Reals, centre: Reals, frame: Reals, clicks: 
 
     cusps, places = angles(known.points, known.centre, own), angles(clicks, centre, frame)
     cusps[0] = places[0] = 0.0
-    # Both lists continue in the same direction.
+    # Clicks and nadirs continue in the same direction.
     off = numpy.sort(places) - numpy.sort(cusps)
     return float(off.mean())
 

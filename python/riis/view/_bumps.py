@@ -20,7 +20,7 @@ _N_POINTS = 25  # of a drawn line
 
 
 class Bump(NamedTuple):
-    """A bump that has a place. It lies on a leaflet or at a commissure, and the other number is -1."""
+    """A bump that has a place. The bump lies on a leaflet or at a commissure, and the number of the other place is -1."""
 
     number: int  #: the n of bump_n
     leaflet: int

@@ -152,7 +152,7 @@ def _alone(quads: Ids) -> Ids:
     """Returns the rows of the faces that belong to only one cell. A face of three nodes has its last node twice."""
     key = numpy.sort(quads, axis=1)
     is_triangle = quads[:, 2] == quads[:, 3]
-    # The three smallest nodes identify a face. For a triangle these are its nodes, each once.
+    # The three smallest nodes identify a face. For a triangle the three smallest nodes are its nodes, each once.
     second = numpy.where(is_triangle & (key[:, 0] == key[:, 1]), key[:, 2], key[:, 1])
     third = numpy.where(is_triangle, key[:, 3], key[:, 2])
     order = numpy.lexsort((third, second, key[:, 0]))
@@ -175,7 +175,7 @@ class _Incidence:
         numpy.cumsum(numpy.bincount(flat, minlength=n_nodes), out=self.start[1:])
 
     def rows_at(self, nodes: AnyIds) -> AnyIds:
-        """Returns the rows of all these nodes. A row occurs as often as it contains one of these nodes."""
+        """Returns the rows of the cells at all given nodes. A row occurs as often as it contains one of the given nodes."""
         first = self.start[nodes]
         count = self.start[nodes + 1] - first
         total = int(count.sum())

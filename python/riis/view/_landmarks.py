@@ -95,7 +95,7 @@ class LandmarkedValves(Valves):
     def gap_ribbon(self, i: int) -> tuple[Reals, Ids]:
         """Returns points (n, 3) and triangles (m, 3) of the gap between a valve and the wall: the skirt that would close it.
 
-        There are no triangles without a wall, if the wall is missed, or if the valve has a skirt.
+        The gap has no triangles without a wall, if the wall is missed, or if the valve has a skirt.
         """
         state, none = self._at(i).state, (numpy.empty((0, 3)), numpy.empty((0, 3), numpy.int64))
         valve = state.valve()
@@ -173,7 +173,8 @@ class LandmarkedValves(Valves):
         return [] if state.surface is not None else missing(state.kind, self._landmarks.points)
 
     def read_landmarks(self, path: str | os.PathLike[str]) -> str:
-        """Takes the landmarks of a file in place of the present ones. They are converted to the unit and the axes of the mesh.
+        """Takes the landmarks of a file in place of the present ones. The landmarks of the file are converted to the unit and the
+        axes of the mesh.
 
         If the unit of the mesh is not known, it becomes that of the file. If the axes are not known, they become those of the
         file. Returns the kind of valve that the file names, or "".
@@ -273,9 +274,9 @@ class LandmarkedValves(Valves):
         return points, options
 
     def fit_of(self, i: int, points: Any, *, free: Sequence[str] | None = None, **options: Any) -> Callable[[], FitResult]:
-        """Returns a function that fits a valve to the points of its segmented leaflets, as riis.fit does, with its options. It
-        starts from the present sizes and placement. It changes nothing, so it may run on another thread; take_fit takes its
-        result.
+        """Returns a function that fits a valve to the points of its segmented leaflets, as riis.fit does, with its options. The
+        fit starts from the present sizes and placement. The function changes nothing, so it may run on another thread; take_fit
+        takes its result.
 
         points  (n, 3), in the mesh's unit, or what riis.fit takes
         free    names of the sizes to fit. Without names, ``sizes_to_fit`` chooses them

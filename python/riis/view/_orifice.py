@@ -115,8 +115,8 @@ def _loops(free: Bools) -> list[NDArray[numpy.int64]]:
 
 
 def outline_of(surface: Surface, centre: Reals) -> list[Reals]:
-    """Returns the closed lines (n, 3) around the free orifice, in mesh units. There are none if the orifice is closed or has no
-    outline.
+    """Returns the closed lines (n, 3) around the free orifice, in mesh units. The list is empty if the orifice is closed or has
+    no outline.
 
     centre  a point on the axis of the valve's disc
     """

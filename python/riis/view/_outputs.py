@@ -23,7 +23,7 @@ from riis.view._valves import KINDS, Value, ValveState, refuse
 from riis.view._walls import Wall
 
 class Facts(NamedTuple):
-    """Everything in these files except the valves."""
+    """Everything in the written files except the valves."""
 
     unit: str | None
     path: str | None  #: of the mesh

@@ -358,7 +358,7 @@ def has_cusps(kind: str) -> bool:
 
 
 def is_atrioventricular(kind: str) -> bool:
-    """Returns whether a valve lets the blood into a ventricle. Its leaflets hang from an annulus."""
+    """Returns whether a valve lets the blood into a ventricle. The leaflets of such a valve hang from an annulus."""
     return kind not in (SURFACE, "bileaflet") and not has_cusps(kind)
 
 

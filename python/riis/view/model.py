@@ -117,7 +117,7 @@ class Model(BumpedValves, LandmarkedValves):
 
     @classmethod
     def near(cls, points: Any, cells: Any = None, **options: Any) -> Model:
-        """Makes a model of a large mesh. It keeps the whole mesh, and works with the cells near the valves.
+        """Makes a model of a large mesh. The model keeps the whole mesh, and works with the cells near the valves.
 
         The marks are equal to those of the whole mesh. If a valve leaves the cells near it, the next update finds new cells,
         which takes about a second for 5 million nodes.
@@ -231,8 +231,8 @@ class Model(BumpedValves, LandmarkedValves):
         self._change(tuple(state for number_of, state in enumerate(self.valves) if number_of != i), self._unit)
 
     def change_kind(self, i: int, kind: str) -> None:
-        """Turns a valve into a valve of another kind, with the default sizes of this kind. Its placement, half thickness and
-        cycle stay."""
+        """Turns a valve into a valve of another kind, with the default sizes of this kind. The valve keeps its placement, half
+        thickness and cycle."""
         state = self._at(i).state
         if state.surface is not None:
             raise refuse(f"i: valve {i} is a surface from a file, which has no kind")
@@ -245,10 +245,9 @@ class Model(BumpedValves, LandmarkedValves):
         """Sets a parameter of a valve, or "opening", "half_thickness", "offset", "resistance", "scale", "triangulation", "name".
 
         Lengths of parameters are in centimetres, the half thickness is in mesh units. The offset is in half thicknesses. The
-        resistance is in kg/(m s) if the mesh
-        has a unit, and a text such as "1e5 g/(cm s)" then has its own. Otherwise it is in mesh units. A surgeon's name, such as
-        "annulus", sets the parameter that it stands for. Refuses a value that is out of range, and sizes that do not fit
-        together.
+        resistance is in kg/(m s) if the mesh has a unit, and a text such as "1e5 g/(cm s)" then has its own. Without a unit, the
+        resistance is in mesh units. A surgeon's name, such as "annulus", sets the parameter that it stands for. Refuses a value
+        that is out of range, and sizes that do not fit together.
         """
         state = self._at(i).state
         key = ("set", i, name)
@@ -410,7 +409,8 @@ class Model(BumpedValves, LandmarkedValves):
     def lights(self) -> list[Light]:
         """Judges the valves: unit, inside, half_thickness, crossing, wall and sealed. With several valves, the worst one counts.
 
-        This takes longer than the marks, about half a second for 100,000 nodes, so a page calls it when the hand rests.
+        Judging the valves takes longer than the marks, about half a second for 100,000 nodes, so a page calls it when the hand
+        rests.
         """
         if self._lights is None:
             self.update()
@@ -506,7 +506,7 @@ class Model(BumpedValves, LandmarkedValves):
         self._change(states, self._unit)
 
     def at(self, time: float) -> None:
-        """Moves all valves with a cycle, and surfaces that move, to a time. This is not a step of undo."""
+        """Moves all valves with a cycle, and surfaces that move, to a time. The move to a time is not a step of undo."""
         moment = number(time, "time")
         states = tuple(_moved(state, moment) for state in self.valves)
         self._take(self._made(states, self._wall))
@@ -542,8 +542,8 @@ class Model(BumpedValves, LandmarkedValves):
 
     @property
     def span(self) -> tuple[float, float]:
-        """The first and the last time of the motion. It has the longest period, and begins with the first frame of surfaces that
-        move. Both are 0 if nothing moves."""
+        """The first and the last time of the motion. The motion has the longest period, and begins with the first frame of
+        surfaces that move. Both times are 0 if nothing moves."""
         parts = []
         for k, state in enumerate(self.valves):
             source, length = state.surface, self.period(k)
@@ -605,7 +605,7 @@ class Model(BumpedValves, LandmarkedValves):
     def command(
         self, *, case: str = "case.json", output: str = "marked.vtu", program: str = "riis", warp: str = "warp.json"
     ) -> str:
-        """Returns the command that gives the present marks. It needs the files of ``command_files``, under their names.
+        """Returns the command that gives the present marks. The command needs the files of ``command_files``, under their names.
 
         Several valves need a case. If a warp is in no placed file, it needs a separate file. If one of several valves is a
         surface that moves, the output is a .pvd file, whose first step has the present marks. Without a mesh, the command writes

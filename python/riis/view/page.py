@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """The page of riis view: a server on 127.0.0.1 with the picture of a Model, its sliders, lights and files.
 
-The page is page.html, a template of Vue. Its variables are the state of this server. browser.js hands the gestures on the picture
-to the functions that begin with _on_. Everything runs on one thread, except that a separate thread reads a mesh. hand.py,
-details.py, heartbeat.py and saving.py contain the parts of the page that change the valves, play them and write files.
+The page is page.html, a template of Vue. The template's variables are the state of this server. browser.js hands the gestures on
+the picture to the functions that begin with _on_. Everything runs on one thread, except that a separate thread reads a mesh.
+hand.py, details.py, heartbeat.py and saving.py contain the parts of the page that change the valves, play them and write files.
 """
 
 from __future__ import annotations
@@ -277,8 +277,8 @@ class Page(Hand, Details, Heartbeat, Patient, saving.Files):
             self._renew_all()
 
     async def _read(self, path: str | None = None, **others: str | None) -> None:
-        """On a thread, reads a mesh or a wall and the other Sources, and shows the progress. If one of them is refused, nothing
-        changes."""
+        """On a thread, reads a mesh or a wall and the other Sources, and shows the progress. If one of the files is refused,
+        nothing changes."""
         sources = Sources(path, **others)
         parts = {"part": -1.0}
         name = os.path.basename(sources.path or sources.wall or sources.saved or "")

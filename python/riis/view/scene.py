@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The picture of a Model: the mesh, the leaflets, the cells around them, and the places that the lights report.
 
-A scene draws into a PyVista plotter without a window, or into a plotter of a notebook. Its objects stay in place while a valve
-moves, and only their points and cells change. All calls of a scene must come from one thread.
+A scene draws into a PyVista plotter without a window, or into a plotter of a notebook. The objects of a scene stay in place while
+a valve moves, and only their points and cells change. All calls of a scene must come from one thread.
 """
 
 from __future__ import annotations
@@ -205,8 +205,8 @@ class Scene:
         self._placed = None
 
     def show_cut(self) -> None:
-        """Draws the cells' edges in the plane of the cut. This takes longer than a move of a leaflet, so call it when the mouse
-        rests."""
+        """Draws the cells' edges in the plane of the cut. Drawing the edges takes longer than a move of a leaflet, so call it
+        when the mouse rests."""
         if self._plane is None or self._how != "cut" or self.grid is None:
             return
         place = (self._plane.GetOrigin(), self._plane.GetNormal())
@@ -232,7 +232,7 @@ class Scene:
     # what moves
 
     def _put(self, name: str, data: Any, **how: Any) -> None:
-        """Draws data under this name. If an object has this name already, gives it these data."""
+        """Draws data as an object with a name. If an object has the name already, gives it the data."""
         if name in self._data:
             self._data[name].shallow_copy(data)
             self._actors[name].SetVisibility(data.n_points > 0)
