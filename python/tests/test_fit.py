@@ -429,9 +429,9 @@ def test_random_patients_are_right_or_flagged():
 @pytest.mark.parametrize("seed", [7020, 7039, 7053, 7254, 50047, 50249])
 def test_whole_valves_whose_sizes_were_undetermined(seed):
     """Cases from past faults. Patient 7020 starts with far too large roots (see also test_starts_are_near_enough). In patient
-    7053, three of 26 parts determine a length. By chance, the points of these three parts have large residuals. In 7039 and 7254,
-    a few points near the edges of two closed disks pull as if the housing had other angles. In 50047, two root radii are equally
-    likely. In 50249, a profile looked too far."""
+    7053, three of 26 parts determine a length. By chance, the points of these three parts have large residuals. In patients 7039
+    and 7254, a few points near the edges of two closed disks pull as if the housing had other angles. In patient 50047, two root
+    radii are equally likely. In patient 50249, a profile looked too far."""
     one = fit_study.examine(fit_study.patient(seed))
     assert one.found.doubts == () and one.found.undetermined == () and not one.wrong(), one.found.report()
 
