@@ -43,8 +43,8 @@ int main(void) {
   check(riis_mesh_create(n_cells, centre, centre + 1, centre + 2, 3, &mesh));
   check(riis_marks_create(&marks));
 
-  /* With a round rim, the band would have half a tube around the free edges and the annulus. With a cut rim, the band ends
-   * at these edges. */
+  /* With a round rim, the band would have half a tube around the free edges and the annulus. With a cut rim, the band ends at the
+   * free edges and the annulus. */
   riis_mark_options mark_options;
   riis_resistance resistance;
   check(riis_mark_options_init(&mark_options, sizeof mark_options));

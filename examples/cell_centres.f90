@@ -29,8 +29,8 @@ program cell_centres
   call surface%create(valve, half_thickness=eps, scale=0.01d0) ! the valve is given in centimetres
   call mesh%create(centre)
 
-  ! With a round rim, the band would have half a tube around the free edges and the annulus. With a cut rim, the band ends at
-  ! these edges.
+  ! With a round rim, the band would have half a tube around the free edges and the annulus. With a cut rim, the band ends at the
+  ! free edges and the annulus.
   call riis_mark_nodes(surface, mesh, result, fields=RIIS_FIELD_RIM)
   call result%add_resistance(R, coefficient, rim=RIIS_RIM_CUT)
 

@@ -15,8 +15,8 @@ static void check(riis_status status) {
   exit(EXIT_FAILURE);
 }
 
-/* Cuts each cube of the grid into six tetrahedra. Each tetrahedron follows three edges from the cube's first node to its last. No
- * two tetrahedra follow the axes in the same order. */
+/* Cuts each cube of the grid into six tetrahedra. Each tetrahedron follows three edges from the first node of the cube to its
+ * last node. No two tetrahedra follow the axes in the same order. */
 static void make_tetrahedra(void) {
   static const int axes[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
   static const int step[3] = {1, n, n * n};
@@ -59,7 +59,7 @@ int main(void) {
 
   static const int32_t searches[2] = {RIIS_SEARCH_NEIGHBOR, RIIS_SEARCH_EXHAUSTIVE};
   static const char *const names[2] = {"neighbor", "exhaustive"};
-  /* The marks are kept from step to step, because the neighbour search starts from the last marked nodes. */
+  /* The marks are kept from step to step, because the neighbour search starts from the previously marked nodes. */
   riis_marks *marks[2] = {NULL, NULL};
   riis_mark_list marked[2];
   printf("%d nodes, %d tetrahedra\n", n_nodes, n_cells);

@@ -11,7 +11,7 @@ program csr_from_elements
   type(riis_surface) :: surface
   type(riis_mesh) :: mesh
   type(riis_adjacency) :: adjacency
-  ! Kept from step to step, because the neighbour search starts from the last marked nodes.
+  ! The marks are kept from step to step, because the neighbour search starts from the previously marked nodes.
   type(riis_marks) :: by_neighbors, by_all
   integer, allocatable :: node_num(:), node_num_of_all(:)
   double precision, allocatable :: distance(:), distance_of_all(:)
@@ -61,8 +61,8 @@ contains
       trim(merge('complete            ', 'perhaps not complete', stats%complete /= 0))
   end subroutine mark
 
-  ! Cuts each cube of the grid into six tetrahedra. Each tetrahedron follows three edges from the cube's first node to its last.
-  ! No two tetrahedra follow the axes in the same order.
+  ! Cuts each cube of the grid into six tetrahedra. Each tetrahedron follows three edges from the first node of the cube to its
+  ! last node. No two tetrahedra follow the axes in the same order.
   subroutine make_tetrahedra()
     integer, parameter :: step(3) = [1, n, n**2]
     integer, parameter :: axes(3, 6) = reshape([1, 2, 3, 1, 3, 2, 2, 1, 3, 2, 3, 1, 3, 1, 2, 3, 2, 1], [3, 6])

@@ -45,7 +45,7 @@ static int64_t label_part(const riis_surface *surface, riis_marks *marks, int fi
 }
 
 /* Sends the labels of one plane of the part to a rank, and receives the labels of the plane at_plane from a rank. Returns 1 if
- * these labels show that a region reaches a lower node. */
+ * the received labels show that a region reaches a lower node. */
 static int exchange(int from_plane, int to_rank, int at_plane, int from_rank) {
   int64_t sent[plane], got[plane];
   int changed = 0;

@@ -101,8 +101,8 @@ contains
     call adjacency%destroy()
   end subroutine label_part
 
-  ! Sends the labels of one plane of the part to a rank, and receives the labels of the plane at_plane from a rank. These labels
-  ! may show that a region reaches to a lower node.
+  ! Sends the labels of one plane of the part to a rank, and receives the labels of the plane at_plane from a rank. The received
+  ! labels may show that a region reaches to a lower node.
   subroutine exchange(from_plane, to_rank, at_plane, from_rank)
     integer, intent(in) :: from_plane, to_rank, at_plane, from_rank
     integer(int64) :: sent(plane), got(plane), own

@@ -79,9 +79,9 @@ int main(int argc, char **argv) {
   check(riis_surface_create(valve, NULL, &surface));
   check(riis_marks_create(&marks));
 
-  /* If every core has a rank, each rank should use one thread. If each rank is bound to several cores, such as by mpirun
-   * --map-by slot:PE=4, leave n_threads at 0, which means all cores of the rank. If ranks are not bound, each rank would then
-   * take all cores of the machine. */
+  /* If every core has a rank, each rank should use one thread. If each rank is bound to several cores, such as by mpirun --map-by
+   * slot:PE=4, leave n_threads at 0. The rank then uses all of its cores. If ranks are not bound, each rank would use all cores
+   * of the machine. */
   riis_mark_options options;
   check(riis_mark_options_init(&options, sizeof options));
   options.n_threads = 1;

@@ -38,8 +38,8 @@ program mpi_partition
     call mesh%create(xyz(:, first:last))
     call mesh%set_adjacency(offsets(1:last - first + 2), columns, n_all=n_all)
     ! If every core has a rank, each rank should use one thread. If each rank is bound to several cores, such as by mpirun
-    ! --map-by slot:PE=4, leave n_threads out, which means all cores of the rank. If ranks are not bound, each rank would then
-    ! take all cores of the machine.
+    ! --map-by slot:PE=4, leave n_threads out. The rank then uses all of its cores. If ranks are not bound, each rank would use
+    ! all cores of the machine.
     call riis_mark_nodes(surface, mesh, result, search=RIIS_SEARCH_NEIGHBOR, n_threads=1)
     n_marked = int(result%n_marked())
     call result%dense(distance=distance(first:last))

@@ -26,7 +26,7 @@ int main(void) {
     xyz[3 * i + 2] = -0.02 + 0.00125 * (i / (n * n));
   }
 
-  /* These objects are made once, and every step reuses their memory. */
+  /* All objects of riis are made once, and every step reuses their memory. */
   riis_valve *valve = NULL, *valve_before = NULL;
   riis_surface *surface = NULL;
   riis_mesh *mesh = NULL;
@@ -64,7 +64,7 @@ int main(void) {
 
   riis_mark_list marked = {.n_nodes = 0};
   for (int step = 0; step <= n_steps; ++step) {
-    /* Resets only the nodes that the last step set. The list of marked nodes is valid until the next marking with these marks. */
+    /* Resets only the nodes that the last step set. The list of marked nodes is valid until the next marking. */
     for (int64_t i = 0; i < marked.n_nodes; ++i) {
       coefficient[marked.node_id[i]] = 0;
       for (int c = 0; c < 3; ++c) momentum[3 * marked.node_id[i] + c] = 0;

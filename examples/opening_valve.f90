@@ -26,7 +26,7 @@ program opening_valve
   coefficient = 0
   momentum = 0
 
-  ! These objects are made once, and every step reuses their memory.
+  ! All objects of riis are made once, and every step reuses their memory.
   call valve%create('mitral')
   call valve%set('opening', 0d0)
   call valve%copy(valve_before) ! valve_before has the opening of the previous step

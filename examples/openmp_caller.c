@@ -1,6 +1,6 @@
-/* Two ways to mark nodes in a code that uses OpenMP itself. The first way is one call between the code's parallel regions. This
- * call starts its own threads. The second way is one call from each of the code's threads, for its block of the mesh. These calls
- * start no threads. Lengths are in cm. */
+/* Two ways to mark nodes in a code that uses OpenMP itself. The first way is one call between the code's parallel regions. The
+ * call starts threads of the library. The second way is one call from each of the code's threads, for its block of the mesh.
+ * These calls start no threads. Lengths are in cm. */
 #include <omp.h>
 #include <riis/riis.h>
 #include <stdio.h>
@@ -54,9 +54,9 @@ int main(void) {
   printf("one call, marked: %lld, the farthest at %8.6f cm\n", (long long)marked.n_nodes, farthest);
   printf("settings of OpenMP: %s\n", kept ? "as they were" : "changed");
 
-  /* One call from each thread. All threads read one surface. Each has a mesh and marks of its own. While any thread marks, no
-   * thread may update the surface. Update the surface before the region, or in a single construct, because all threads wait at
-   * its end. */
+  /* One call from each thread. All threads read one surface. Each thread has a separate mesh and separate marks. While any thread
+   * marks, no thread may update the surface. Update the surface before the region, or in a single construct, because all threads
+   * wait at its end. */
   riis_mark_options options;
   riis_mesh *block_mesh[n_blocks] = {NULL};
   riis_marks *block_marks[n_blocks] = {NULL};

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: Apache-2.0
-! Two ways to mark nodes in a code that uses OpenMP itself. The first way is one call between the code's parallel regions. This
-! call starts its own threads. The second way is one call from each of the code's threads, for its block of the mesh. These calls
-! start no threads. Lengths are in cm.
+! Two ways to mark nodes in a code that uses OpenMP itself. The first way is one call between the code's parallel regions. The
+! call starts threads of the library. The second way is one call from each of the code's threads, for its block of the mesh. These
+! calls start no threads. Lengths are in cm.
 program openmp_caller
   use omp_lib
   use riis
@@ -43,9 +43,9 @@ program openmp_caller
   print '(a, i0, a, f8.6, a)', 'one call, marked: ', size(node_num), ', the farthest at ', farthest, ' cm'
   print '(2a)', 'settings of OpenMP: ', trim(merge('as they were', 'changed     ', kept))
 
-  ! One call from each thread. All threads read one surface. Each has a mesh and a result of its own. While any thread marks, no
-  ! thread may update the surface. Update the surface before the region, or in a single construct, because all threads wait at its
-  ! end.
+  ! One call from each thread. All threads read one surface. Each thread has a separate mesh and a separate result. While any
+  ! thread marks, no thread may update the surface. Update the surface before the region, or in a single construct, because all
+  ! threads wait at its end.
   !$omp parallel do num_threads(n_blocks) schedule(static, 1)
   do i = 1, n_blocks
     call block_mesh(i)%create(xyz(:, last_node(i - 1) + 1:last_node(i)))

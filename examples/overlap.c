@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0
  * Marks the next time step on a second thread while the solver is busy with this one. A solver on a GPU works in this way. The
- * main thread only waits for the GPU meanwhile. Afterwards it uploads a short list of nodes, K and K u_surface.
+ * main thread only waits for the GPU meanwhile. Afterwards it uploads a short list: nodes, K and K u_surface.
  *
- * The opening of the next step must be known before the present step is solved. Laws in time know it: tables and times of
- * opening. riis_opening_switch_advance and riis_opening_angle_advance need the pressures of the last step, so they know it only
- * after the solve. There are two ways: mark after the solve, without overlap, or give them the pressures of the step before. The
- * valve then answers one step later.
+ * The opening of the next step must be known before the present step is solved. Laws over time, tables and times of opening, know
+ * it. riis_opening_switch_advance and riis_opening_angle_advance need the pressures of the previous step, so they know it only
+ * after the solve. With these laws there are two ways: mark after the solve, without overlap, or use the pressures of one step
+ * earlier. The valve then responds one step later.
  *
  * Usage: overlap [nodes on a side] [sweeps of the solver in a step] [steps]. With arguments it prints times. */
 #define _POSIX_C_SOURCE 200809L
@@ -39,7 +39,8 @@ static void *memory(size_t n_bytes) {
 
 /* ---- The valve ---- */
 
-/* There are two of these. While the solver reads the list of one of them, the other thread makes the other's list. */
+/* There are two surfaces and two sets of marks. While the solver reads the list of one set, the other thread makes the list of
+ * the other set. */
 typedef struct {
   riis_surface *surface;
   riis_marks *marks;
@@ -47,7 +48,7 @@ typedef struct {
   int step;
 } marking;
 
-/* All that the second thread uses. The main thread touches it only while no marking runs. */
+/* Everything that the second thread uses. The main thread accesses it only while no marking runs. */
 typedef struct {
   riis_valve *valve, *before;
   riis_mesh *mesh;

@@ -38,7 +38,8 @@ int main(void) {
   check(riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, &mesh));
   check(riis_marks_create(&marks));
 
-  /* The band from one to two half thicknesses. This band lies beside the resistance, so its pressure is the blood's. */
+  /* The band from one to two half thicknesses. The band of the pressure does not overlap the resistance, so its pressure is that
+   * of the blood. */
   riis_mark_options marking;
   check(riis_mark_options_init(&marking, sizeof marking));
   marking.distance_limit = 2 * eps;

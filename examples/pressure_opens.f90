@@ -28,7 +28,8 @@ program pressure_opens
   call surface%create(valve, half_thickness=eps, scale=0.01d0)
   call mesh%create(xyz)
 
-  ! The band from one to two half thicknesses. This band lies beside the resistance, so its pressure is the blood's.
+  ! The band from one to two half thicknesses. The band of the pressure does not overlap the resistance, so its pressure is that
+  ! of the blood.
   call riis_mark_nodes(surface, mesh, marks, distance_limit=2 * eps, fields=RIIS_FIELD_SIDE + RIIS_FIELD_RIM)
   law = riis_opening_switch(opening_duration=0.04d0, closing_duration=0.04d0, open_above=100d0)
   do step = 1, n_steps

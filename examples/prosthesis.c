@@ -2,11 +2,11 @@
  * Makes a user-defined valve, a bioprosthesis of three cusps, from control points, and marks it while it opens. Lengths are in
  * cm.
  *
- * The ring of radius 1.2 lies at z = 0, and blood flows to +z. The tips of the posts, the commissures, are at z = 1.2. A
- * leaflet consists of two patches. The two halves meet in the leaflet's middle line, from the ring to the free edge. Each patch
- * lies between two curves from a commissure to the middle line. The attachment at v = 0 goes down the post to the ring. The curve
- * at v = 1 is half of the free edge. The patch's side at the commissure is a point, so the patch consists of straight lines from
- * the attachment to the free edge. When the valve opens, only the free edges and the middle lines move.
+ * The ring of radius 1.2 lies at z = 0, and blood flows to +z. The tips of the posts, the commissures, are at z = 1.2. A leaflet
+ * consists of two patches. The two halves meet at the leaflet's middle line, which runs from the ring to the free edge. Each
+ * patch lies between two curves from a commissure to the middle line. The attachment at v = 0 runs down the post to the ring. The
+ * curve at v = 1 is half of the free edge. The patch's side at the commissure is a point, so the patch consists of straight lines
+ * from the attachment to the free edge. When the valve opens, only the free edges and the middle lines move.
  *
  * When the valve is closed, each half of a free edge runs from its commissure to the axis. The curve has the same control points
  * as the adjacent half of the neighbouring leaflet, so the leaflets meet without a hole. All control points of a leaflet lie in

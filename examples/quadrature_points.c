@@ -26,8 +26,8 @@ static void check(riis_status status) {
   exit(EXIT_FAILURE);
 }
 
-/* Cuts each cube of the grid into six tetrahedra. Each tetrahedron follows three edges from the cube's first node to its last. No
- * two tetrahedra follow the axes in the same order. */
+/* Cuts each cube of the grid into six tetrahedra. Each tetrahedron follows three edges from the first node of the cube to its
+ * last node. No two tetrahedra follow the axes in the same order. */
 static void make_tetrahedra(void) {
   static const int axes[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
   static const int step[3] = {1, n, n * n};
@@ -77,8 +77,8 @@ int main(void) {
   check(riis_surface_options_init(&options, sizeof options));
   options.scale = 0.01; /* the valve is given in centimetres */
   options.half_thickness = eps;
-  /* One time step ago the valve was elsewhere. If the valve also opened, the call would need a second valve with the earlier
-   * opening. */
+  /* One time step ago, the valve was at another place. If the valve also opened, the call would need a second valve with the
+   * earlier opening. */
   before = options;
   for (int c = 0; c < 3; ++c) before.translation[c] = -speed[c] * dt;
   check(riis_surface_create(valve, &options, &surface));

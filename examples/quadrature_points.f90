@@ -31,8 +31,8 @@ program quadrature_points
   call valve%create('mitral')
   call valve%set('opening', 0.5d0)
   call surface%create(valve, half_thickness=eps, scale=0.01d0) ! the valve is given in centimetres
-  ! One time step ago the valve was elsewhere. If the valve also opened, the call would need a second valve with the earlier
-  ! opening.
+  ! One time step ago, the valve was at another place. If the valve also opened, the call would need a second valve with the
+  ! earlier opening.
   call surface%update_moving(valve, valve, dt, translation=[0d0, 0d0, 0d0], translation_before=-speed * dt)
   call mesh%create(point)
 
@@ -60,8 +60,8 @@ program quadrature_points
 
 contains
 
-  ! Cuts each cube of the grid into six tetrahedra. Each tetrahedron follows three edges from the cube's first node to its last.
-  ! No two tetrahedra follow the axes in the same order.
+  ! Cuts each cube of the grid into six tetrahedra. Each tetrahedron follows three edges from the first node of the cube to its
+  ! last node. No two tetrahedra follow the axes in the same order.
   subroutine make_tetrahedra()
     integer, parameter :: axes(3, 6) = reshape([1, 2, 3, 1, 3, 2, 2, 1, 3, 2, 3, 1, 3, 1, 2, 3, 2, 1], [3, 6])
     integer, parameter :: step(3) = [1, n, n**2]

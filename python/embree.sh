@@ -8,10 +8,10 @@
 # embree.sh cost isa=sse2 BUILD the same, with the system's Embree restricted to these instructions instead of the Embree in
 # PREFIX
 #
-# riis calls Embree for one thing: the groups of triangles near a point, whose bounds riis computes itself. In Embree's terms
-# these are user geometry and point queries. The wheel's Embree therefore has no triangles, quads, grids, curves, points and
-# instances of its own, no packets of rays, no filters and no ISPC. The marks are the same, because riis decides them in double
-# precision.
+# riis calls Embree only to find the groups of triangles near a point. riis itself computes the bounds of these groups. In
+# Embree's terms, the groups are user geometry, and the searches are point queries. The wheel's Embree therefore contains no
+# triangles, quads, grids, curves, points and instances, no packets of rays, no filters and no ISPC. The marks are the same,
+# because riis decides them in double precision.
 set -euo pipefail
 
 give_up() {
@@ -19,7 +19,8 @@ give_up() {
   exit 1
 }
 
-# fetch_source FOLDER: the distribution's patches only concern its own package. The package libembree-dev has the licences.
+# fetch_source FOLDER: the distribution's patches are left out, because they only concern its own package. The package
+# libembree-dev has the licences.
 fetch_source() {
   local folder licences=/usr/share/doc/libembree-dev/copyright
   folder=$(realpath -m -- "$1")
@@ -39,8 +40,8 @@ build() {
   options=(-D CMAKE_BUILD_TYPE=Release -D CMAKE_INSTALL_PREFIX="$prefix" -D CMAKE_INSTALL_LIBDIR=lib
     -D CMAKE_POSITION_INDEPENDENT_CODE=ON -D EMBREE_STATIC_LIB=ON -D EMBREE_ISPC_SUPPORT=OFF -D EMBREE_TUTORIALS=OFF
     -D EMBREE_SYCL_SUPPORT=OFF -D EMBREE_TASKING_SYSTEM=TBB
-    # The baseline of x86-64 alone. Wider sets would double the size. riis itself searches most meshes, with AVX2 or AVX-512.
-    # For ARM, Embree takes NEON, which is the baseline there, and these options do not matter.
+    # Only the baseline instructions of x86-64. Further instruction sets would double the size. riis itself searches most meshes,
+    # with AVX2 or AVX-512. For ARM, Embree uses NEON, which every ARM processor has, and these options have no effect.
     -D EMBREE_MAX_ISA=NONE -D EMBREE_ISA_SSE2=ON -D EMBREE_ISA_SSE42=OFF -D EMBREE_ISA_AVX=OFF -D EMBREE_ISA_AVX2=OFF
     -D EMBREE_ISA_AVX512=OFF
     -D EMBREE_GEOMETRY_USER=ON -D EMBREE_RAY_PACKETS=OFF -D EMBREE_RAY_MASK=OFF -D EMBREE_FILTER_FUNCTION=OFF)
@@ -52,13 +53,13 @@ build() {
   : >"$source/common/cmake/installTBB.cmake"
   # Debian's sources lack the manual, which the installation copies.
   [[ -e $source/readme.pdf ]] || : >"$source/readme.pdf"
-  # Without curves, nothing refers to these files, which would take most of the time.
+  # Without curves, nothing refers to the files of curves, which would take most of the time.
   sed -i '/curve_intersector_virtual\|bvh_builder_hair/d' "$source/kernels/CMakeLists.txt"
   cmake -S "$source" -B "$prefix.build" -G Ninja "${options[@]}" \
     -D CMAKE_CXX_FLAGS='-fvisibility=hidden -ffunction-sections -fdata-sections'
   cmake --build "$prefix.build" --parallel "$(nproc)"
   cmake --install "$prefix.build"
-  # The licences of everything in it, for the wheel.
+  # The licences of everything in this Embree, for the wheel.
   mkdir -p "$prefix/licences"
   cp "$source/copyright" "$prefix/licences/libembree.copyright"
   rm -rf "$prefix.build"

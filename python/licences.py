@@ -7,8 +7,8 @@ TEXTS   a folder with NAME.copyright for each library NAME that is linked into t
         for each library of the wheel that no Debian package has
 
 Debian keeps the licence of each package in /usr/share/doc, and the texts that it refers to in /usr/share/common-licenses. The
-module itself contains parts of nanobind and of its robin_map. The Python that runs this script must have the nanobind that built
-the module.
+module itself contains parts of nanobind and of its robin_map. The Python that runs this script must have the same nanobind that
+built the module.
 """
 import importlib.metadata
 import pathlib

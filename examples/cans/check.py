@@ -17,7 +17,8 @@ import sys
 HALF_THICKNESS = 0.046875
 ANGLES = {"upright": 0.0, "leaning": 20.0}
 CONTRASTS = {"470": 214, "4394.53": 2000}  # K dt/rho at the peak, by R
-# The ways of cans.sh, and the solutions of the Poisson equation in a substep. CaNS has one without a valve.
+# The names of the ways in cans.sh, and how many solutions of the Poisson equation each needs in a substep. CaNS itself needs one
+# solution, without a valve.
 WAYS = {"sweeps-1": ("K in the predictor alone", 1), "sweeps-2": ("2 sweeps", 2), "sweeps-4": ("4 sweeps", 4),
         "sweeps-8": ("8 sweeps", 8), "extrapolation-0.8": ("0.8 of the last change again", 1),
         "cg-2": ("2 iterations of CG", 3), "cg-4": ("4 iterations of CG", 5), "cg-8": ("8 iterations of CG", 9),
@@ -36,7 +37,7 @@ class BadRecord(Exception):
 
 
 def number(text):
-    """Returns a number; Fortran writes 1.0+240 for 1e240, and stars for more."""
+    """Returns a number. Fortran writes 1.0+240 for 1e240, and stars for larger numbers."""
     try:
         return float(re.sub(r"(?<=\d)([+-]\d{3})$", r"e\1", text.strip()))
     except ValueError:
@@ -57,7 +58,7 @@ def read_run(runs, name):
 
 
 def read_log(runs, name):
-    """Returns what CaNS printed."""
+    """Returns the output of CaNS."""
     path = os.path.join(runs, name, "log")
     try:
         with open(path, encoding="ascii", errors="replace") as file:
@@ -94,7 +95,7 @@ def formula(R, lean):
 
 
 def lag(drops):
-    """Returns the first step from which drops, in parts of the formula, stay within 2 %, or None."""
+    """Returns the first step from which the drops, divided by the formula, stay within 2 %, or None."""
     outside = [i for i, drop in enumerate(drops) if not abs(drop - 1) <= 0.02]
     if not outside:
         return 1
@@ -131,8 +132,8 @@ def check_stable(report, runs):
 
 
 def costs_of(run):
-    """Returns the processor time of each step over that of its part without a valve, which other work on the machine leaves
-    alone."""
+    """Returns the processor time of each step, divided by that of its part without a valve. Other work on the machine hardly
+    changes the ratio of the two times."""
     return [whole / (whole - pressure - riis)
             for whole, pressure, riis in zip(run["seconds"], run["seconds_pressure"], run["seconds_riis"])]
 
@@ -172,7 +173,7 @@ def opening_row(runs, way, title, run, drop, flow):
 
 
 def check_opening(report, runs):
-    """Compares the ways while a valve opens with 30 iterations of CG a substep."""
+    """Compares the ways, while a valve opens, with 30 iterations of CG in each substep."""
     reference = read_run(runs, f"opening-{REFERENCE}")
     top = max(reference["flow"])
     rows, errors = [], {}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""draw.py RUNS PICTURE: draws the lag of the pressure and the valve that opens, from the runs of ./run cans."""
+"""draw.py RUNS PICTURE: draws the lag of the pressure and the opening valve, from the runs of ./run cans."""
 import sys
 
 import matplotlib
@@ -9,7 +9,7 @@ import matplotlib.pyplot as plt
 
 from check import WAYS, formula, read_run
 
-# Colours that are distinct for all kinds of colour vision (Okabe, Ito 2008), as in the pictures of riis.
+# These colours can be distinguished with every kind of colour vision (Okabe, Ito 2008), as in the pictures of riis.
 COLOURS = ("#0072b2", "#e69f00", "#009e73", "#d55e00", "#cc79a7", "#000000")
 
 

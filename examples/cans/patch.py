@@ -6,8 +6,8 @@ patch.py FOLDER [--undo] [--sha256 HASH]
   --undo    takes the valve out; src/main.f90 then has its old bytes
   --sha256  the hash of another src/main.f90 that you have read: the calls must fit it
 
-The script inserts four calls into src/main.f90, and copies riis_valve.f90 and riis_pressure.f90 to src. Each inserted line ends
-with "! riis". A second call changes nothing. An unknown src/main.f90 is refused.
+The script inserts four calls into src/main.f90, and copies riis_valve.f90 and riis_pressure.f90 to src. Each line that the script
+inserts ends with "! riis". A second call changes nothing. An unknown src/main.f90 is refused.
 """
 import argparse
 import hashlib
@@ -19,7 +19,7 @@ HERE = pathlib.Path(__file__).parent
 FILES = ["riis_valve.f90", "riis_pressure.f90"]
 MARK = " ! riis\n"
 
-# The beginning of a line of CaNS, and what comes before or after this line.
+# The beginning of a line in CaNS, and the lines to insert before or after it.
 CALLS = [
     ("  use mod_updatep        , only: updatep\n", "after",
      "  use mod_riis_valve     , only: riis_valve_setup,riis_valve_apply,riis_valve_report"),
@@ -33,7 +33,7 @@ CALLS = [
 
 
 class Refused(Exception):
-    """Raised if the sources are not the known ones."""
+    """Raised if the sources are of an unknown version."""
 
 
 def hash_of(lines):
@@ -41,7 +41,7 @@ def hash_of(lines):
 
 
 def read(path):
-    """Returns the lines of a file; each byte is a character."""
+    """Returns the lines of a file. Each byte becomes a character."""
     try:
         return path.read_bytes().decode("latin-1").splitlines(keepends=True)
     except OSError as error:

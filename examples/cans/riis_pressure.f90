@@ -1,14 +1,14 @@
 ! SPDX-License-Identifier: Apache-2.0
-! The pressure of CaNS with a valve. CaNS solves a Poisson equation with constant coefficients, which does not know K. The
-! pressure therefore reaches the valve's drop only after many steps. This module improves the pressure before CaNS projects:
+! The pressure of CaNS with a valve. CaNS solves a Poisson equation with constant coefficients, which does not contain K. The
+! pressure therefore reaches the drop of the valve only after many steps. This module improves the pressure before CaNS projects:
 !
 !   jump           the drop across the valve, one number a call, is computed by a Galerkin condition
 !   sweeps         predictor and projection are repeated
 !   cg             conjugate gradients on the equation with K, preconditioned by CaNS's own solver
 !   extrapolation  the last change of the pressure is repeated
 !
-! README.md, "The lag of the pressure", compares them. All keep p and the predicted velocity consistent:
-! velocity = (velocity without pressure and K - a grad p) / (1 + a K), where a is the length of the substep.
+! README.md, "The lag of the pressure", compares the ways to improve the pressure. All ways keep p and the predicted velocity
+! consistent: velocity = (velocity without pressure and K - a grad p) / (1 + a K), where a is the length of the substep.
 module mod_riis_pressure
   use, intrinsic :: iso_c_binding, only: c_ptr
   use, intrinsic :: iso_fortran_env, only: int64
@@ -28,7 +28,7 @@ module mod_riis_pressure
   integer, public :: sweeps = 1, cg = 0
   real(rp), public :: extrapolation = 0
 
-  ! The faces of a velocity component near the valve have 1 / (1 + a K), the velocity before a correction, and fluxes.
+  ! For the faces of a velocity component near the valve: 1 / (1 + a K), the velocity before a correction, and fluxes.
   type :: faces
     real(rp), allocatable :: softened(:), before(:), flux(:)
   end type faces
@@ -79,7 +79,7 @@ contains
     allocate (field(0:n(1)+1, 0:n(2)+1, 0:n(3)+1), source=0._rp)
   end subroutine new
 
-  ! Takes the lists of another marking, which need K, and the normals for the jump.
+  ! Reads the lists of another marking. The lists need K, and for the jump also the normals.
   subroutine riis_pressure_valve_moved(lists)
     type(riis_mark_list), intent(in) :: lists(3)
     integer(int64) :: all
@@ -95,7 +95,7 @@ contains
     if (jump .and. has_valve) call make_shape
   end subroutine riis_pressure_valve_moved
 
-  ! The shape of the jump: the potential of K times the normals. The pressure steps by about one number across the valve, and is
+  ! The shape of the jump: the potential of K times the normals. The pressure changes by about one number across the valve, and is
   ! smooth at a free edge.
   subroutine make_shape
     integer :: c
@@ -228,10 +228,10 @@ contains
     call fillps(n, dli, dzfi, 1 / a, u, v, w, q)
   end subroutine divergence
 
-  ! Changes p by a multiple of the jump's shape s, such that s is orthogonal to the divergence of the predicted velocity. With the
-  ! equation A p = b of the pressure with K, this is the best multiple in A's norm. The slow part of the error is a jump across
-  ! the valve. The gradient of the jump is in the band, where a solver with constant coefficients takes it for 1 + a K times too
-  ! large.
+  ! Changes p by a multiple of the jump's shape s. After the change, s is orthogonal to the divergence of the predicted velocity.
+  ! With the equation A p = b of the pressure with K, this is the best multiple in A's norm. The slow part of the error is a jump
+  ! of the pressure across the valve. The gradient of this jump lies in the band, where a solver with constant coefficients makes
+  ! its effect 1 + a K times too large.
   subroutine correct_jump(a, u, v, w, p, pp)
     real(rp), intent(in) :: a
     real(rp), intent(inout), contiguous, dimension(0:, 0:, 0:) :: u, v, w, p
@@ -271,7 +271,7 @@ contains
     end do
   end function product_of
 
-  ! Sets the band's fluxes to what the valve takes from a gradient: (1 - 1 / (1 + a K)) grad q.
+  ! Sets the band's fluxes to the part that the valve takes away from a gradient: (1 - 1 / (1 + a K)) grad q.
   subroutine take_from_gradient(q, m, c)
     integer(int64), intent(in) :: m
     real(rp), intent(in) :: q(0:m - 1)
@@ -304,7 +304,7 @@ contains
   end function work_of_band
 
   ! Conjugate gradients for A x = -div(predicted velocity) / a with A q = -div(grad q / (1 + a K)). The preconditioner is CaNS's
-  ! solver, so the Laplacian of each direction is known, and A differs from it only at faces near the valve.
+  ! solver, so the Laplacian of each direction is known. A differs from this Laplacian only at faces near the valve.
   subroutine conjugate_gradients(a, u, v, w, p, pp)
     real(rp), intent(in) :: a
     real(rp), intent(inout), contiguous, dimension(0:, 0:, 0:) :: u, v, w, p
@@ -333,7 +333,7 @@ contains
       direction = pp + r_z / r_z_before * direction
       laplacian = -residual + r_z / r_z_before * laplacian
       if (jump) then
-        ! The residual contains no jump, so the direction must stay orthogonal to it.
+        ! The residual contains no jump, so each direction must stay orthogonal to the jump's shape.
         direction = direction - sums(2) / sums(3) * shape_of_jump
         do c = 1, 3
           band(c)%flux = -sums(2) / sums(3) * real(near(c)%K * near(c)%normal(c, :), rp)

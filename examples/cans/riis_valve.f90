@@ -1,10 +1,11 @@
 ! SPDX-License-Identifier: Apache-2.0
 ! A valve in CaNS. patch.py inserts calls into CaNS's main program: riis_valve_setup once, riis_valve_apply in each substep after
-! the predictor, riis_valve_report after each time step. The file riis.nml describes the valve (README.md, "riis.nml").
-! Edit make_valve and move_valve for a valve of your own.
+! the predictor, riis_valve_report after each time step. The file riis.nml describes the valve (README.md, "riis.nml"). Edit
+! make_valve and move_valve for your own valve.
 !
-! Each velocity component has its own mesh, the faces where CaNS stores it. A mesh has three axes and no nodes. A node's number is
-! the place in the array u(0:n(1)+1, 0:n(2)+1, 0:n(3)+1), so the lists of marked faces index u, v and w.
+! Each velocity component has a separate mesh: the faces at which CaNS stores the component. A mesh consists of three axes,
+! without a list of nodes. A node's number is the place in the array u(0:n(1)+1, 0:n(2)+1, 0:n(3)+1), so the lists of marked faces
+! index u, v and w.
 module mod_riis_valve
   use, intrinsic :: iso_c_binding, only: c_ptr
   use, intrinsic :: iso_fortran_env, only: error_unit, int64, real64
@@ -19,7 +20,7 @@ module mod_riis_valve
   public :: riis_valve_setup, riis_valve_apply, riis_valve_report
   public :: riis_valve_start, riis_valve_mark, riis_valve_lists, surface ! for the tests
 
-  ! riis.nml. Lengths have CaNS's unit. R is divided by the density, because CaNS's density is 1.
+  ! riis.nml. Lengths are in the unit of CaNS. R is divided by the density, because the density in CaNS is 1.
   character(len=16) :: kind = 'plate'        ! plate, none, or a kind of riis such as trileaflet
   real(real64) :: R = 0, half_thickness = 0
   real(real64) :: place(3) = 0               ! of the valve's origin
@@ -75,8 +76,8 @@ contains
     if (sweeps < 1) call stop_run('riis.nml: sweeps must be at least 1')
     call make_valve
 
-    ! u(i, j, k) is on the upper face of its cell in x, and in the middle of the cell in y and z. The face in the lower halo is
-    ! marked where another rank owns it, and the face on a boundary of the domain is left out, because CaNS sets its velocity.
+    ! u(i, j, k) is on the upper face of its cell in x, and in the middle of the cell in y and z. A face in the lower halo is
+    ! marked if another rank owns it. A face on a boundary of the domain is left out, because CaNS sets its velocity.
     stride = [1, n(1) + 2, (n(1) + 2) * (n(2) + 2)]
     do c = 1, 3
       lowest = 1
@@ -101,7 +102,7 @@ contains
     end function axis_of
   end subroutine riis_valve_start
 
-  ! Makes the surface, which is closed at the beginning. A plate reaches beyond the walls.
+  ! Makes the surface, which is closed at the beginning. A plate extends beyond the walls.
   subroutine make_valve
     real(real64) :: corners(3, 4), size_of
     if (kind == 'plate') then
@@ -119,7 +120,8 @@ contains
     moves = opens_at < 1e30_real64
   end subroutine make_valve
 
-  ! Moves the surface to its state at the end of a time step. The surface gets the velocity from the step before.
+  ! Moves the surface to its state at the end of a time step. The velocity of the surface comes from the state of the previous
+  ! step.
   subroutine move_valve(time, dt)
     real(rp), intent(in) :: time, dt
     call before%set('opening', opening_at(real(time - dt, real64)))
@@ -179,8 +181,9 @@ contains
     seconds(2) = seconds(2) + real(improved - start, rp)
   end subroutine riis_valve_apply
 
-  ! Writes a line of valve.csv: the drop of the mean pressure between the two planes, which contains the pressure of the body
-  ! force, the mean velocity, the number of marked faces, and this rank's processor time in riis, in the pressure and in all.
+  ! Writes a line of valve.csv. The line has the drop of the mean pressure between the two planes, which contains the pressure of
+  ! the body force, the mean velocity, and the number of marked faces. The line also has this rank's processor time in riis, in
+  ! the pressure and in total.
   subroutine riis_valve_report(step, time, u, p)
     integer, intent(in) :: step
     real(rp), intent(in) :: time

@@ -95,7 +95,7 @@ def mean(values):
 
 
 def runs_on_ranks(study, case, first):
-    """Returns the numbers of ranks for which there are runs NAME_1, NAME_2, ..., ascending."""
+    """Returns, in ascending order, the numbers of ranks for which there are runs NAME_1, NAME_2, ..."""
     found = glob.glob(os.path.join(study, case, "RESU", first + "_[0-9]*", "history.csv"))
     return sorted(int(os.path.basename(os.path.dirname(path)).rsplit("_", 1)[1]) for path in found)
 
@@ -111,7 +111,7 @@ COST_HEAD = ["solver", "ranks", "cells", "steps", "riis a step", "a step", "shar
 
 
 def compare_ranks(report, text, one, many):
-    """Checks that two runs have the same marked cells in all their common time steps. Also compares centres and K."""
+    """Checks that two runs have the same marked cells in all their common time steps. Also compares the cell centres and K."""
     steps = min(len(one["step"]), len(many["step"]))
     ids = sum(one["ids"][i] == many["ids"][i] for i in range(steps))
     centres = sum(one["centres"][i] == many["centres"][i] for i in range(steps))

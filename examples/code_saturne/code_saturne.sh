@@ -1,16 +1,16 @@
 # shellcheck shell=bash
 # SPDX-License-Identifier: Apache-2.0
 # The steps of ./run code_saturne, which reads this file, and of the test example_code_saturne. The study of code_saturne has
-# three cases: c and fortran, one for each language, and reference, with a head-loss zone of the solver's own. Each run has a
-# name.
+# three cases. The cases c and fortran are named after the languages, and reference has the solver's own head-loss zone. Each run
+# has a name.
 
-# saturne_environment WORK PREFIX: prepares for runs in the folder WORK with the riis installed in PREFIX.
+# saturne_environment WORK PREFIX: prepares for runs in the folder WORK, with riis installed in PREFIX.
 saturne_environment() {
   saturne_work=$(cd -- "$1" && pwd)
   saturne_source=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")" && pwd)
   RIIS_PREFIX=$(cd -- "$2" && pwd)
   export RIIS_PREFIX
-  # code_saturne's script ends without this variable, which containers lack.
+  # code_saturne's script stops if this variable is missing, as in containers.
   export USER=${USER:-$(id -un)}
   # By default, Open MPI refuses to run as root and with more ranks than processors. Each rank has one thread.
   export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMP_NUM_THREADS=1
@@ -18,7 +18,7 @@ saturne_environment() {
   export OMPI_MCA_plm=isolated OMPI_MCA_pml=ob1 OMPI_MCA_btl=self,vader OMPI_MCA_btl_vader_single_copy_mechanism=none
 }
 
-# saturne_mesh: makes the mesh of the root. It uses one thread, so that the mesh is the same everywhere.
+# saturne_mesh: makes the mesh of the root. One thread makes the same mesh on every machine.
 saturne_mesh() {
   gmsh -3 -nt 1 -setnumber Mesh.ScalingFactor 0.01 -format msh22 -o "$saturne_work/root.msh" "$saturne_source/root.geo"
 }
@@ -45,7 +45,7 @@ saturne_run() {
 }
 
 # saturne_closed STEPS FORTRAN_STEPS RANKS...: runs the closed valve in a flow of 5 cm/s, in C and in Fortran, with each number of
-# ranks. Then runs the solver's own head-loss zone with the same cells and the same K.
+# ranks. Also runs the solver's own head-loss zone, with the same cells and the same K.
 saturne_closed() {
   local ranks steps=$1 fortran_steps=$2 cells=$saturne_work/STUDY/c/RESU/closed_1
   shift 2
@@ -58,14 +58,15 @@ saturne_closed() {
     saturne_run reference closed 1 REFERENCE_CELLS="$saturne_work/cells.csv" RUN_INFLOW=0.05 RUN_STEPS="$steps"
 }
 
-# saturne_open: runs the open valve, and no valve, in a flow of 20 cm/s.
+# saturne_open: runs the open valve in a flow of 20 cm/s, and then the same flow without a valve.
 saturne_open() {
   saturne_run c open 1 VALVE_OPENING=1 RUN_INFLOW=0.2 RUN_STEPS=25 &&
     saturne_run c none 1 VALVE_PRESENT=0 RUN_INFLOW=0.2 RUN_STEPS=25
 }
 
 # saturne_beat: runs the beat, in which the solver's pressures open and close the valve. Further runs leave out u_surface, use
-# several ranks until the valve is open, or restart halfway. Both halves are also run without a valve.
+# several ranks until the valve is open, or restart halfway. Both halves of the beat, up to the restart and after it, are also run
+# without a valve.
 saturne_beat() {
   local half=30 steps=45
   saturne_run c beat 1 RUN_STEPS=150 RUN_SLICE_EVERY=5 RUN_CHECKPOINT=$half &&
@@ -100,10 +101,10 @@ saturne_install_riis() {
 }
 
 # ./run code_saturne [--short]
-#   Runs the valve in code_saturne 6.0, in C and in Fortran: closed, open, and through a beat that the solver's own pressures
-#   drive. It compares the valve with the solver's own head losses, and compares 1, 2 and 4 ranks. It leaves tables and pictures
-#   in out/code_saturne, in a quarter of an hour. --short runs only the closed valve, on 1 and 2 ranks, in two minutes. It is
-#   skipped if the distribution lacks code_saturne, as Debian 13 does.
+#   Runs the valve in code_saturne 6.0, in C and in Fortran. The valve is closed, open, or moves through a beat that the solver's
+#   own pressures drive. The command compares the valve with the solver's own head losses, and compares 1, 2 and 4 ranks. The
+#   command leaves tables and pictures in out/code_saturne, in a quarter of an hour. --short runs only the closed valve, on 1 and
+#   2 ranks, in two minutes. The command is skipped if the distribution lacks code_saturne, as Debian 13 does.
 #
 # The command uses $build, $packages, install_missing, version_on_offer, say and step
 # of `run`.

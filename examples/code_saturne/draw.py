@@ -12,7 +12,7 @@ import numpy as np
 from matplotlib.tri import Triangulation
 
 DT = 0.002  # s, RUN_DT of settings.c
-# Colours that are distinct for all kinds of colour vision (Okabe, Ito 2008), as in the pictures of riis.
+# These colours can be distinguished with every kind of colour vision (Okabe, Ito 2008), as in the pictures of riis.
 COLOURS = ("#0072b2", "#e69f00", "#009e73")
 LEAFLET = "#d55e00"
 
@@ -28,7 +28,8 @@ class Triangles(ctypes.Structure):
 
 
 def leaflets_cut(opening):
-    """Returns the segments in which the plane y = 0 cuts the valve at an opening: (n, 2, 2), with x and z in metres."""
+    """Returns the segments in which the plane y = 0 cuts the valve at an opening, as an array (n, 2, 2), with x and z in
+    metres."""
     riis = ctypes.CDLL(os.path.join(os.environ["RIIS_PREFIX"], "lib", "libriis.so"))
     riis.riis_last_error.restype = ctypes.c_char_p
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The aortic root of ./run demo, prepared for a flow solver: it has a tube at each end, and numbers for the inlet, the outlet and
-// the wall. This command makes the mesh in metres, with edges of 1.8 mm around the valve:
-// gmsh -3 -nt 1 -setnumber Mesh.ScalingFactor 0.01 -format msh22 -o root.msh root.geo
+// The aortic root of ./run demo, prepared for a flow solver. The root has a tube at each end, and numbers for the inlet, the
+// outlet and the wall. This command makes the mesh in metres, with edges of 1.8 mm around the valve: gmsh -3 -nt 1 -setnumber
+// Mesh.ScalingFactor 0.01 -format msh22 -o root.msh root.geo
 DefineConstant[ size = 0.18 ]; // length of the edges around the valve, in centimetres
 tube_length = 1;
-// Sections closer together than the length of edges would leave flat tetrahedra at the wall.
+// Sections closer together than the length of an edge would leave flat tetrahedra at the wall.
 spacing = size;
 n_points = 48;
 Include "../demo/aortic_root.geo";
@@ -21,7 +21,7 @@ outlet[] = Surface In BoundingBox {-3, -3, top + tube_length - 0.01, 3, 3, top +
 wall[] = Surface{:};
 wall[] -= inlet[];
 wall[] -= outlet[];
-// code_saturne does not read the names of groups. It selects faces by these numbers.
+// code_saturne does not read the names of groups. Therefore code_saturne selects faces by the numbers of groups.
 Physical Surface(1) = inlet[];
 Physical Surface(2) = outlet[];
 Physical Surface(3) = wall[];

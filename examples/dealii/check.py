@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Checks the runs of ./run dealii: `check.py COMMAND ARGUMENT...`. Each run has a folder with steps.csv and cells-*.csv."""
+"""Checks the runs of ./run dealii: `check.py COMMAND ARGUMENT...`. Each run has a folder that contains steps.csv and
+cells-*.csv."""
 import csv
 import pathlib
 import subprocess
@@ -9,8 +10,9 @@ import numpy
 
 EQUAL = 1e-6  # runs on several ranks and a restarted run must agree to this share of the largest value
 DENSITY, LENGTH = 1060, 0.06  # of the blood, kg/m3, and of the duct of beat.prm, m
-# The limits of the leak over drop eps / R times the leaflets' area. They were set after the first beat, which had 0.69. The walls
-# probably cut off a part of the leaflets, and bands of leaflets that touch overlap.
+# The limits of the leak, divided by drop eps / R times the area of the leaflets. The limits of the leak were set after the first
+# beat, in which the ratio was 0.69. Probably the walls cut off a part of the leaflets, and the bands of touching leaflets
+# overlap.
 LEAK = (0.5, 1.1)
 FIELDS = {"velocity": ("u", "v", "w"), "pressure": ("p",), "K": ("K",), "K u_valve": ("K_u", "K_v", "K_w")}
 
@@ -21,7 +23,7 @@ def require(holds, text):
 
 
 def steps_of(folder):
-    """The table of a run's steps: a dictionary of columns."""
+    """Returns the table of a run's steps, as a dictionary of columns."""
     with open(pathlib.Path(folder) / "steps.csv", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     require(rows, f"{folder} has steps")
@@ -29,7 +31,7 @@ def steps_of(folder):
 
 
 def cells_of(folder):
-    """The cells of a run's last step, of all ranks: the sorted ids, and columns in the same order."""
+    """Returns the cells of a run's last step, of all ranks: the sorted ids, and columns in the same order."""
     rows = []
     for path in sorted(pathlib.Path(folder).glob("cells-*.csv")):
         with open(path, encoding="utf-8") as file:
@@ -42,7 +44,7 @@ def cells_of(folder):
 
 
 def difference(ours, theirs):
-    """The largest difference of each field of two runs, over the field's largest value."""
+    """Returns the largest difference of each field of two runs, divided by the field's largest value."""
     (ids, here), (other_ids, there) = ours, theirs
     require(ids == other_ids, f"both runs have the same cells, not {len(ids)} and {len(other_ids)} others")
     found = {}
@@ -55,7 +57,7 @@ def difference(ours, theirs):
 
 
 def same(*folders):
-    """The last step of each run, compared with the first run's. Runs that started later are restarts."""
+    """Compares the last step of each run with that of the first run. Runs with a later start are restarts."""
     first, *others = map(pathlib.Path, folders)
     ours, steps = cells_of(first), steps_of(first)
     require(numpy.abs(ours[1]["K_u"]).max() > 0, "the valve moves in the step that is compared")
@@ -72,7 +74,7 @@ def same(*folders):
 
 
 def drops(*runs):
-    """The drop across a plate that closes a duct. Each run is FOLDER:ELEMENTS:HALF THICKNESS:R:SPEED:SECONDS."""
+    """Checks the drop across a plate that closes a duct. Each run is FOLDER:ELEMENTS:HALF THICKNESS:R:SPEED:SECONDS."""
     print("The drop across the closed plate, over (R / eps) u. Expected is the share of K that the quadrature finds.")
     print(f"  {'elements':<24} {'step, ms':>8} {'eps / h':>7} {'expected':>8} {'measured':>8} {'measured / expected':>19}")
     for run in runs:
@@ -89,7 +91,7 @@ def drops(*runs):
 
 
 def plate(folder, speed):
-    """A plate that moves between equal pressures takes the blood along, at its own speed."""
+    """Checks that a moving plate between equal pressures moves the blood at the speed of the plate."""
     steps, speed = steps_of(folder), float(speed)
     flow = steps["outflow"][-1] / steps["area"][-1]
     print(f"A plate moves at {speed:g} m/s between equal pressures: the blood flows at {flow:.6f} m/s.")
@@ -97,7 +99,7 @@ def plate(folder, speed):
 
 
 def beat(folder, half_thickness, resistance):
-    """The beating valve: it opens and closes, inflow equals outflow, and the closed valve holds."""
+    """Checks the beating valve: it opens and closes, inflow equals outflow, and the closed valve holds."""
     steps = steps_of(folder)
     opening, flow, drop, speed = steps["opening"], steps["outflow"], steps["drop"], steps["largest_speed"]
     is_open, largest = opening == 1, numpy.abs(flow).max()
@@ -109,7 +111,7 @@ def beat(folder, half_thickness, resistance):
     balance, leak = numpy.abs(steps["inflow"] - flow).max() / largest, numpy.abs(flow[shut]).max() / largest
     most = shut[numpy.abs(drop[shut]).argmax()]
     share = flow[most] / (drop * float(half_thickness) / float(resistance) * steps["leaflet_area"])[most]
-    # The leaflets stop the column of blood in the duct, which adds its inertia to the drop at the valve.
+    # The leaflets stop the column of blood in the duct. The inertia of the blood in the duct adds to the drop at the valve.
     hammer = DENSITY * LENGTH * numpy.abs(numpy.gradient(flow, steps["time"]) / steps["area"])
     bernoulli = (2 * (numpy.abs(drop) + hammer).max() / DENSITY) ** 0.5
     print("The trileaflet valve beats:")
@@ -130,7 +132,7 @@ def beat(folder, half_thickness, resistance):
 
 
 def plot(folder, path):
-    """Opening, drop, flow and largest speed of the beating valve, over time."""
+    """Draws opening, drop, flow and largest speed of the beating valve over time."""
     import matplotlib
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
@@ -146,7 +148,7 @@ def plot(folder, path):
 
 
 def refined(folder, half_thickness):
-    """Every cell that the band touches is as small as the smallest cells nearby."""
+    """Checks that every cell that the band touches is as small as the smallest cells nearby."""
     _, cells = cells_of(folder)
     band = cells["K"] > 0
     size = cells["edge"][band]
@@ -157,7 +159,7 @@ def refined(folder, half_thickness):
 
 
 def refusals(program, folder, *files):
-    """Wrong entries and other bad input. Each must be refused, with these words."""
+    """Checks wrong entries and other bad input. Each bad input must be refused, with these words."""
     beats, closed = files
     unknown, folder = "subsection {0}\nset {1} = {2}\nend\n", pathlib.Path(folder)
     cases = (
@@ -209,7 +211,7 @@ def another(program, base, folder, saved):
 
 
 def picture(folder, path):
-    """The speed in the cells that the plane y = 0 cuts, at the end of the run, and the resistance."""
+    """Draws the speed in the cells that the plane y = 0 cuts, at the end of the run, and the resistance."""
     import matplotlib
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt

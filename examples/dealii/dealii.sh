@@ -3,16 +3,16 @@
 # The steps of ./run dealii: install deal.II, compile, run, check, draw. `run` sources this file. The steps use $build, $n_jobs,
 # $packages, install_missing, is_on_offer, python_of_packages, say and step of `run`.
 
-# Debian 13's deal.II passes -fuse-ld=mold to the programs that link it, but its package does not depend on mold.
+# Debian 13's deal.II passes -fuse-ld=mold to programs that link it, but the Debian package does not depend on mold.
 dealii_packages=(gcc g++ cmake ninja-build mold libembree-dev libtbb-dev libdeal.ii-dev openmpi-bin libopenblas0-pthread
   python3-numpy python3-matplotlib)
 dealii_here=$PWD/examples/dealii
 
 # ./run dealii [--short]
-#   Runs valves in deal.II, a finite element library, on meshes that follow the leaflets: a closed plate, whose drop has a closed
-#   form, a plate that moves, and a trileaflet valve that beats. It compares 1, 2 and 4 ranks, checks a restart and bad input, and
-#   leaves tables and pictures in out/dealii. --short leaves out 4 ranks, most plates and the beat. It is skipped if the
-#   distribution lacks libdeal.ii-dev.
+#   Runs valves in deal.II, a finite element library, on meshes that follow the leaflets. The valves are a closed plate with an
+#   exact drop, a moving plate, and a beating trileaflet valve. The command compares 1, 2 and 4 ranks, checks a restart and bad
+#   input, and leaves tables and pictures in out/dealii. --short leaves out 4 ranks, most plates and the beat. The command is
+#   skipped if the distribution lacks libdeal.ii-dev.
 run_dealii() {
   local short='' python out=$PWD/out/dealii ranks=(1 2 4)
   case $* in
@@ -109,7 +109,7 @@ dealii_closed() {
   done
 }
 
-# dealii_ranks: the same steps on each of these numbers of ranks. Each run saves its state in mid-course.
+# dealii_ranks: runs the same steps on several numbers of ranks. Each run saves its state in the middle.
 dealii_ranks() {
   local ranks
   for ranks; do

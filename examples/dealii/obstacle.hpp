@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-// The valve's entries in the parameter file.
+// The entries of the valve in the parameter file.
 struct ObstacleSettings {
   std::string kind = "trileaflet";  // a kind of riis, or plate: a square plate across the duct
   std::string parameters;           // such as "annulus=2.4, bending_height=0.5", in the valve's own unit
@@ -26,7 +26,7 @@ class Obstacle {
  public:
   using Points = std::vector<dealii::Point<3>>;
 
-  // half_width is half the side of the duct, which the plate closes.
+  // half_width is half the side of the duct that the plate closes.
   Obstacle(const ObstacleSettings &settings, double half_width) : settings(settings), half_width(half_width) {
     riis::check(riis_marks_create(marks.out()));
     options = riis::defaults<riis_surface_options>();
@@ -45,7 +45,7 @@ class Obstacle {
     options.rotation_angle = 90;
   }
 
-  // Moves the valve to its state at `time`. A time step earlier it had the opening `opening_before`.
+  // Moves the valve to its state at `time`. One time step earlier, the valve had the opening `opening_before`.
   void move(double opening_before, double opening, double time, double time_step) {
     if (is_plate()) return move_plate(time);
     riis::check(riis_valve_set_scalar(before, "opening", opening_before));
@@ -54,7 +54,7 @@ class Obstacle {
     riis::check(riis_surface_update_moving(surface, valve, before, time_step, nullptr, nullptr));
   }
 
-  // Adopts the points to mark. The arrays must stay in place until the next call.
+  // Takes over the points to mark. The arrays must stay in place until the next call.
   void set_points(const Points &points) {
     riis_mesh *const old = mesh;
     const double *const x = points.empty() ? nullptr : points[0].begin_raw();
@@ -101,13 +101,13 @@ class Obstacle {
     return result;
   }
 
-  // The area that resists: the area of the surface, or of the plate's part in the duct.
+  // The area that resists. The area is that of the surface, or of the part of the plate in the duct.
   double area() const {
     if (is_plate()) return 4 * half_width * half_width;
     return riis::get<riis_surface_info>(riis_surface_get_info, surface).area;
   }
 
-  // Everything that a restart must find unchanged.
+  // All settings that must be the same after a restart.
   std::string description() const {
     std::ostringstream text;
     text.precision(17);

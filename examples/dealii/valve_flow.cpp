@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Blood flows through a duct with a heart valve: riis in deal.II, by Taylor-Hood elements on an adaptive mesh, on any number of
-// ranks. Each time step solves one linear system for the velocity u and the pressure p:
+// Blood flows through a duct with a heart valve. This program uses riis in deal.II, with Taylor-Hood elements on an adaptive
+// mesh, on any number of ranks. Each time step solves one linear system for the velocity u and the pressure p:
 //
 //   rho (u - u_old) / dt + rho (u_old . grad) u - mu laplace(u) + grad(p) + K u = K u_valve,   div(u) = 0
 //
-// riis gives K and K u_valve at the quadrature points (obstacle.hpp), and distances, by which the mesh follows the valve.
+// riis gives K and K u_valve at the quadrature points (obstacle.hpp). riis also gives distances, by which the mesh follows the
+// valve.
 //
 //   mpirun -n 2 valve_flow beat.prm [MORE.prm...]          later files overwrite the entries of earlier ones
 #include <deal.II/base/conditional_ostream.h>
@@ -142,12 +143,13 @@ void Parameters::read(const std::vector<std::string> &files) {
 
 // ---- The preconditioner of the linear system --------------------------------------------------------------------------------
 
-// The system is (A B^T; B 0). A good preconditioner is (A B^T; 0 -S) with the Schur complement S = B A^-1 B^T. Here A is
-// nearly a mass matrix: a velocity has the inertia rho/dt and the resistance K, and both are much larger than the viscosity. So S
-// is close to B D^-1 B^T, with the lumped mass matrix D. This matrix is a Laplacian of the pressure with the coefficient
-// 1/(rho/dt + K), and B gives it the boundary conditions of the flow. Each velocity in D has its own K. With one K per cell, a
-// cell partly in the band would also resist flow along the band. Where viscosity and grad-div dominate, S is close to the
-// pressure's mass matrix over their coefficients. The sum of both inverses serves (Cahouet, Chabard 1988).
+// The system is (A B^T; B 0). A good preconditioner is (A B^T; 0 -S) with the Schur complement S = B A^-1 B^T. A is nearly a mass
+// matrix, because a velocity has the inertia rho/dt and the resistance K, and both are much larger than the viscosity. So the
+// Schur complement S is close to B D^-1 B^T, with the lumped mass matrix D. The matrix B D^-1 B^T is a Laplacian of the pressure
+// with the coefficient 1/(rho/dt + K). B gives it the boundary conditions of the flow. D has a separate K for each velocity. With
+// one K for a whole cell, a cell partly in the band would also resist flow along the band. Where viscosity and grad-div dominate,
+// S is close to the pressure's mass matrix divided by their coefficients. The preconditioner uses the sum of both inverses
+// (Cahouet, Chabard 1988).
 //
 // MUMPS factorises A. In the band the grad-div term is larger than all other terms of A, and it couples the components of the
 // velocity. An incomplete LU or SOR therefore does not converge there.
@@ -234,9 +236,9 @@ class Flow {
   std::vector<Tensor<1, 3>> K_u;
   double flow_rate = 0;  // through the outlet, of the last step
 
-  // The pressure's unit in the linear system, which makes velocities and pressures similar numbers.
+  // The unit of the pressure in the linear system, which makes velocities and pressures numbers of similar size.
   double pressure_unit = 1;
-  // Scratch of the assembly.
+  // Scratch memory of the assembly.
   FullMatrix<double> cell_matrix, cell_mass;
   Vector<double> cell_rhs, cell_diagonal;
 };
@@ -261,15 +263,15 @@ Flow::Flow(const Parameters &parameters)
   cell_mass.reinit(dof[3].size(), dof[3].size());
 }
 
-// Makes the coarse mesh, which every rank has. Only its nodes lie on the round wall. The refinement at the valve keeps its faces
-// plane. On a round wall, new nodes would leave gaps between small and large cells, and blood would leak there.
+// Makes the coarse mesh, which every rank stores. Only its nodes lie on the round wall. The refinement at the valve keeps the
+// faces of the wall flat. On a round wall, new nodes would leave gaps between coarse and fine cells, and blood would leak there.
 void Flow::make_mesh() {
   Triangulation<3> coarse;
   const double r = parameters.radius, length = parameters.length;
   if (parameters.shape == "round") {
     GridGenerator::subdivided_cylinder(coarse, parameters.cells_along, r, length / 2);
     GridTools::shift(Point<3>(length / 2, 0, 0), coarse);
-    // The manifold of a cylinder along x through the origin is the same after this shift.
+    // A cylinder along x through the origin remains the same manifold after this shift.
   } else {
     const unsigned int across = parameters.cells_across;
     GridGenerator::subdivided_hyper_rectangle(coarse, {parameters.cells_along, across, across}, Point<3>(0, -r, -r),
@@ -292,7 +294,7 @@ void Flow::make_mesh() {
   triangulation.copy_triangulation(flat);
 }
 
-// Numbers the unknowns, and makes everything that depends on their number.
+// Numbers the unknowns, and allocates everything that depends on their number.
 void Flow::set_up() {
   const std::vector<unsigned int> blocks{0, 0, 0, 1};
   dof_handler.distribute_dofs(fe);
@@ -344,9 +346,9 @@ void Flow::set_up() {
   K_u.resize(points.size());
 }
 
-// Refines cells that the band reaches, and coarsens others. Returns whether it refined any. A cell is at most half its diameter
-// from its centre, so the distance of the centre decides. Cells are merged only if the merged cell would not be refined
-// again.
+// Refines cells that the band touches, and coarsens other cells. Returns whether any cell was refined. Every point of a cell is
+// at most half a diameter from the centre, so the distance of the centre decides. Cells are merged only if the merged cell would
+// not be refined again.
 bool Flow::adapt_mesh() {
   Obstacle::Points centres;
   for (const auto &cell : triangulation.active_cell_iterators())
@@ -404,7 +406,7 @@ void Flow::assemble(double time) {
     double volume = 0, mean_K = 0;
     for (unsigned int q = 0; q < n_q; ++q) volume += fe_values.JxW(q), mean_K += K[point + q] * fe_values.JxW(q);
     mean_K /= volume;
-    // In the band the pressure is steep. A grad-div term limits the effect of the pressure's error there on the velocity.
+    // In the band the pressure is steep. A grad-div term limits the effect of the pressure's error on the velocity.
     const double grad_div = parameters.grad_div * mean_K * std::pow(volume, 2. / 3);
 
     for (unsigned int q = 0; q < n_q; ++q, ++point) {
@@ -452,8 +454,8 @@ void Flow::assemble(double time) {
   right_hand_side.compress(VectorOperation::add);
 }
 
-// Adds the terms of a cell's faces at the inlet and the outlet. One is the given pressure. Another takes the energy from blood
-// that flows in at an open end (Bazilevs et al. 2009).
+// Adds the terms of a cell's faces at the inlet and the outlet. The first term is the given pressure. The second term removes
+// energy from blood that flows in at an open end (Bazilevs et al. 2009).
 void Flow::assemble_open_boundary(const DoFHandler<3>::active_cell_iterator &cell, double inlet_pressure) {
   FEFaceValues<3> fe_face_values(fe, face_quadrature, update_values | update_normal_vectors | update_JxW_values);
   std::vector<Tensor<1, 3>> u_old(face_quadrature.size());
@@ -478,8 +480,8 @@ void Flow::assemble_open_boundary(const DoFHandler<3>::active_cell_iterator &cel
   }
 }
 
-// Solves the linear system by GMRES, and returns the number of iterations. The preconditioner acts from the left. It turns the
-// residual into an estimate of the error in velocity and pressure, which decides when to stop.
+// Solves the linear system by GMRES, and returns the number of iterations. The preconditioner acts from the left. The
+// preconditioner turns the residual into an estimate of the error in velocity and pressure, which decides when to stop.
 unsigned int Flow::solve() {
   const Preconditioner preconditioner(system_matrix, velocity_mass, mass_matrix.block(1, 1));
   PETSc::BlockVector unknown(owned, comm), scale(owned, comm);
@@ -557,8 +559,8 @@ void Flow::report(unsigned int step, double opening, std::int64_t n_marked, unsi
   flow_rate = sums[outflow];
   const double drop = sums[inlet_push] / sums[inlet_area] - sums[outlet_push] / sums[outlet_area];
   const double eps = parameters.obstacle.half_thickness, R = parameters.obstacle.R;
-  // K integrates to R/eps times the area. The quadrature finds this share of K, and a flat closed valve has the same share of its
-  // drop.
+  // The integral of K is R/eps times the area. The quadrature finds a share of this integral, and a flat closed valve has the
+  // same share of its drop.
   const double share = R > 0 ? sums[sum_K] / (R / eps * obstacle.area()) : 1;
   const double eps_h = eps * sums[band] / sums[edges], time = step * parameters.time_step;
   out << std::fixed << std::setprecision(4) << time << " s: opening " << std::setprecision(3) << opening << ", drop "
@@ -599,7 +601,7 @@ void Flow::draw(unsigned int step) const {
   data_out.write_vtu_with_pvtu_record(parameters.folder + "/", "flow", step, comm, 5);
 }
 
-// Writes the data of each cell in the last step, so that runs can be compared: its id, centre and edge, the integrals of
+// Writes the data of each cell in the last step, so that runs can be compared. The data are id, centre and edge, the integrals of
 // velocity, K and K u_valve, and the pressure in the middle.
 void Flow::write_cells() const {
   std::ofstream file(parameters.folder + "/cells-" + std::to_string(rank) + ".csv");
@@ -709,7 +711,7 @@ void Flow::run() {
   write_cells();
 }
 
-// An error of one rank must end all ranks.
+// An error on one rank must end all ranks.
 int main(int argc, char **argv) {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   PetscOptionsSetValue(nullptr, "-pc_factor_mat_solver_type", "mumps");  // PETSc's own LU has no ranks

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The surface of an aortic root that the trileaflet valve fills: outflow tract, three sinuses and ascending aorta, in
 // centimetres. The cusps' attachment lies on the wall, and the sinuses bulge outwards above the attachment. With -setnumber paper
-// 1 the file makes a root for the paper's aortic valve, and with -setnumber coapting 1 one for the coapting valve. fill.geo fills
-// it with about 100,000 nodes. Command: gmsh -2 -format msh2 -o SURFACE.msh aortic_root.geo
+// 1 the file makes a root for the paper's aortic valve, and with -setnumber coapting 1 a root for the coapting valve. fill.geo
+// fills it with about 100,000 nodes. Command: gmsh -2 -format msh2 -o SURFACE.msh aortic_root.geo
 SetFactory("OpenCASCADE");
 DefineConstant[ paper = 0, coapting = 0 ];
 h = 0.05;
-// Parameters of the valve, with the same names. leaflet_height is that of the commissures. Lists have a number for each cusp:
-// right, left, non-coronary.
+// Parameters of the valve, with the same names. leaflet_height is the height of the commissures. Lists have a number for each
+// cusp: right, left, non-coronary.
 If (paper)
   root_radius = 1.29; leaflet_height = 1.02; bending_height = 0.71;
   leaflet_radius[] = {1.365, 1.495, 1.38}; leaflet_angle[] = {61, 58.5, 60.5};
@@ -34,10 +34,10 @@ DefineConstant[ spacing = 0.1 ]; // distance between sections, from the root to 
 joint = 3;      // degrees on each side of a commissure, in which the wall changes from one cusp's radius to the next cusp's
 
 Macro Section // makes a section at height z above the root
-  // The attachment's point at this height has the distance `radius` from the axis and the angle half_angle from the cusp's middle
-  // (docs/theory/aortic.md). t is the parameter of the attachment there.
+  // The point of the attachment at this height has the distance `radius` from the axis and the angle half_angle from the cusp's
+  // middle (docs/theory/aortic.md). In these formulas, t is the parameter of the attachment.
   If (coapting)
-    // A cubic, whose height grows with t. Halving an interval finds t.
+    // The attachment is a cubic, whose height grows with t. Bisection finds t.
     low = 0; high = 1;
     For i In {1 : 40}
       t = (low + high) / 2;
@@ -52,7 +52,7 @@ Macro Section // makes a section at height z above the root
     radius[] = {Hypot(x, y), Hypot(x, y), Hypot(x, y)};
     half_angle[] = {Max(Atan2(y, x) * 180 / Pi, 1e-6), Max(Atan2(y, x) * 180 / Pi, 1e-6), Max(Atan2(y, x) * 180 / Pi, 1e-6)};
   Else
-    // A parabola through the root, the bending curve's end and the commissure.
+    // The attachment is a parabola through the root, the end of the bending curve and the commissure.
     t = Min(1, Max(0, z / leaflet_height));
     s = bending_height / leaflet_height;
     For c In {0 : 2}
@@ -73,8 +73,8 @@ Macro Section // makes a section at height z above the root
   points[] = {};
   For i In {0 : n_points - 1}
     angle = 360 * i / n_points;
-    // The weighted mean of the cusps' radii, to which the sinus's bulge is added. A cusp's weight is 1 in the cusp and falls to 0
-    // towards the next cusp.
+    // The weighted mean of the cusps' radii. The bulge of the sinus is added to the mean radius. The weight of a cusp is 1 in the
+    // cusp and falls to 0 towards the next cusp.
     sum = 0;
     weights = 0;
     sinus = 0;

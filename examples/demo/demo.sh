@@ -3,11 +3,11 @@
 # The steps of ./run demo, which reads this file: compile the program, make meshes, mark and draw, measure times, and print a
 # summary. The steps use $build, $logs, $n_jobs, $demo_packages, install_missing and step of `run`.
 
-# `run` refuses the commands of this file before, if bash lacks associative arrays.
+# `run` has already refused the commands of this file if bash lacks associative arrays.
 ((BASH_VERSINFO[0] >= 4)) || return 0
 
-# build_demo: compiles the program. A folder that is configured for the tests keeps its configuration, so that ./run test need not
-# build everything again.
+# build_demo: compiles the program. If the folder is configured for the tests, it keeps this configuration, so that ./run test
+# need not build everything again.
 build_demo() {
   local less=(-D RIIS_WITH_FORTRAN=OFF -D RIIS_BUILD_TESTS=OFF)
   ! grep -qs '^RIIS_BUILD_TESTS:BOOL=ON' "$build/CMakeCache.txt" || less=()
@@ -15,8 +15,8 @@ build_demo() {
     cmake --build --preset test --parallel "$n_jobs" --target riis_program
 }
 
-# demo_mesh NAME [OPTION...]: makes the mesh of examples/demo/NAME.geo, unless it exists. The options are gmsh's.
-# examples/demo/fill.geo explains why the surface is written to a file first. gmsh runs with one thread, because several threads
+# demo_mesh NAME [OPTION...]: makes the mesh of examples/demo/NAME.geo if it does not exist. The options are those of gmsh.
+# examples/demo/fill.geo explains why the surface is first written to a file. gmsh runs with one thread, because several threads
 # sometimes left stray cells in the mesh.
 demo_mesh() {
   local mesh=$build/demo/$1 surface=examples/demo/$1.geo volume=examples/demo/fill.geo
@@ -38,14 +38,14 @@ demo_parts() {
   return "$status"
 }
 
-# The demo's valves and the place of each. The valve that the demo calls aortic is the coapting valve in its root. The stenotic
-# valve is this valve with a disease.
+# The valves of the demo, and the place of each valve. The valve that the demo calls aortic is the coapting valve in an aortic
+# root. The stenotic valve is the aortic valve with a disease.
 demo_valves=(aortic stenotic mitral)
 declare -A demo_kind=([aortic]=coapting [stenotic]=aortic_stenosis_rheumatic [mitral]=mitral)
 declare -A demo_place=([aortic]=aortic [stenotic]=aortic [mitral]=mitral)
 demo_openings=(0 0.25 0.5 0.75 1)
-# For each place, the mesh, and a point on each side of the valve. demo_states looks for a path between them through the closed
-# valve.
+# For each place: the mesh, and a point on each side of the valve. demo_states looks for a path between these points through the
+# closed valve.
 declare -A demo_mesh_of=([aortic]=aortic_root [mitral]=mitral_tube)
 declare -A demo_from=([aortic]="0,0,-0.4" [mitral]="0,0.2,-1.3") demo_to=([aortic]="0,0,2.8" [mitral]="0,0.2,2.1")
 
@@ -61,7 +61,7 @@ of_each_valve() {
 }
 
 # demo_states VALVE: marks and draws the valve at each opening into out/VALVE_OPENING*, and writes the stats to build/demo. Also
-# checks for ways through the closed valve.
+# checks for paths through the closed valve.
 demo_states() {
   local opening name place=${demo_place[$1]}
   for opening in "${demo_openings[@]}"; do
@@ -122,7 +122,7 @@ demo_beat() {
     orifice_over_time "$1" >"out/$1_orifice.csv"
 }
 
-# In a table of states, the orifice is the third column from the end. Its perimeter and the effective area follow.
+# In a table of states, the orifice is the third column from the end. The perimeter and the effective area follow.
 # orifice_over_time VALVE: prints the orifice at the times of the valve's heartbeat, interpolated linearly between the states of
 # its table.
 orifice_over_time() {
@@ -150,7 +150,7 @@ number_of() { sed -n -E 's/^ *"'"$2"'": ([^,]*),?$/\1/p' "$build/demo/$1.json" |
 # thousands: puts commas between the thousands of the number that it reads.
 thousands() { sed -E ':a; s/^([0-9]+)([0-9]{3})\b/\1,\2/; ta'; }
 
-# milliseconds_of KEY...: prints the sum of these keys' times in the stats of the timed marking.
+# milliseconds_of KEY...: prints the sum of the times of all KEYs in the stats of the timed marking.
 milliseconds_of() {
   local key
   for key in "$@"; do number_of mitral_steps "$key"; done | LC_ALL=C awk '{ sum += $1 } END { printf "%.1f ms", 1000 * sum }'
@@ -217,14 +217,14 @@ TEXT
 }
 
 # ./run demo
-#   Builds the program, and meshes an aortic root and a mitral tube. It marks a healthy and a stenotic aortic valve and a mitral
-#   valve in these meshes at five openings, and through a heartbeat for movies. It also times the steps of a moving valve. It
-#   leaves meshes, pictures and movies in out/.
+#   Builds the program, and meshes an aortic root and a mitral tube. The command marks a healthy and a stenotic aortic valve and a
+#   mitral valve in these meshes, at five openings and through a heartbeat for movies. The command also times the steps of a
+#   moving valve. Meshes, pictures and movies are left in out/.
 run_demo() {
   packages=("${demo_packages[@]}")
   install_missing
   step "compile the program, mesh an aortic root and a mitral tube meanwhile" demo_parts
-  # On a virtual display, which an empty DISPLAY demands, pictures are the same everywhere.
+  # An empty DISPLAY demands a virtual display, on which pictures are the same everywhere.
   DISPLAY='' step "mark and draw the valves at five openings" demo_pictures
   DISPLAY='' step "move the valves through a heartbeat, for movies" demo_beats
   step "time the steps of a moving valve" "$build/bin/riis" mark "$build/demo/mitral_tube.vtk" --valve mitral \

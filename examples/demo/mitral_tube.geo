@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The surface of a tube that the default mitral valve fills: its section is the plan view of the annulus, which is the same at
-// every opening. The tube runs from 0.35 cm below the open leaflets to 0.4 cm above the closed annulus, in centimetres. fill.geo
-// fills it with about 100,000 nodes. Command: gmsh -2 -format msh2 -o SURFACE.msh mitral_tube.geo
+// The surface of a tube that the default mitral valve fills. The cross section of the tube is the plan view of the annulus, which
+// is the same at every opening. The tube extends from 0.35 cm below the open leaflets to 0.4 cm above the closed annulus, in
+// centimetres. fill.geo fills it with about 100,000 nodes. Command: gmsh -2 -format msh2 -o SURFACE.msh mitral_tube.geo
 SetFactory("OpenCASCADE");
 h = 0.064;
 bottom = -1.4;
 top = 2.2;
-// Parameters of the valve, with the same names. They define the curves of docs/theory/mitral.md.
+// Parameters of the valve, with the same names. The parameters define the curves of docs/theory/mitral.md.
 AP_diameter = 3;
 ALPM_diameter = 4;
 ALPM_position_ratio = 0.55;

@@ -24,7 +24,7 @@ def law():
 
 
 def values_at(function, points):
-    """The values of a function at points of the whole mesh, on rank 0. Points outside the mesh have NaN."""
+    """Returns the values of a function at points of the whole mesh, on rank 0. Points outside the mesh get NaN."""
     from dolfinx import geometry
     mesh = function.function_space.mesh
     tree = geometry.bb_tree(mesh, mesh.topology.dim)
@@ -62,7 +62,7 @@ def record(folder, n_steps):
 
 
 def read(folder, n_ranks):
-    """The points of all ranks, each once, with their fields."""
+    """Returns the points of all ranks, each once, with their fields."""
     parts = [numpy.load(pathlib.Path(folder) / f"rank{rank}of{n_ranks}.npz") for rank in range(n_ranks)]
     fields = {name: numpy.concatenate([part[name] for part in parts], axis=1) for name in ("K", "K_u", "velocity")}
     return numpy.concatenate([part["xyz"] for part in parts]), fields
@@ -166,7 +166,7 @@ def drops():
 
 
 def forces():
-    """The force on a valve that opens between equal pressures. By symmetry it has no component along x or y."""
+    """Computes the force on a valve that opens between equal pressures. By symmetry this force has no component along x or y."""
     from mpi4py import MPI
     import riis
     import valve_in_duct
@@ -221,7 +221,7 @@ def refusals():
 
 
 def leaflets(opening):
-    """The lines in which the leaflets cut the plane y = 0, as pairs of x and z in m."""
+    """Returns the lines in which the leaflets cut the plane y = 0, as pairs of x and z in m."""
     import riis
     surface = riis.Surface(riis.Valve("bileaflet", hinge_offset=HINGE, opening=opening), scale=0.01, half_thickness=EPS)
     lines = []
@@ -233,7 +233,7 @@ def leaflets(opening):
 
 
 def picture(folder, path):
-    """The speed in the plane y = 0 with the leaflets: closed, half open, open, and at the end."""
+    """Draws the speed in the plane y = 0 with the leaflets: closed, half open, open, and at the end."""
     import matplotlib
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt

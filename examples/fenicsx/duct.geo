@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A round duct along z, as wide as the housing of the bileaflet valve, in metres. Edges have that size where the valve turns.
+// A round duct along z, as wide as the housing of the bileaflet valve, in metres. Edges have this size where the valve rotates.
 SetFactory("OpenCASCADE");
 DefineConstant[ size = 1.5e-3 ];
 Cylinder(1) = {0, 0, -0.02, 0, 0, 0.06, 0.011};

@@ -9,9 +9,10 @@ fenicsx_packages=(gcc g++ cmake ninja-build libembree-dev libtbb-dev nlohmann-js
 fenicsx_version=0.9 # the one of Debian 13
 
 # ./run fenicsx
-#   Opens a mechanical valve in a duct with dolfinx 0.9, in Python. It compares marks on 1 and 2 ranks, compares the drop across
-#   the closed valve with the closed form, and leaves a picture in out/fenicsx. It builds the Python package for the
-#   distribution's Python, with build tools from PyPI. It is skipped if the distribution lacks dolfinx 0.9, as Debian 12 does.
+#   Opens a mechanical valve in a duct with dolfinx 0.9, in Python. The command compares marks on 1 and 2 ranks, compares the drop
+#   across the closed valve with the exact formula, and leaves a picture in out/fenicsx. The command builds the Python package for
+#   the distribution's Python, with build tools from PyPI. The command is skipped if the distribution lacks dolfinx 0.9, as Debian
+#   12 does.
 run_fenicsx() {
   local here=$PWD/examples/fenicsx work=$PWD/build-python/fenicsx out=$PWD/out/fenicsx python fenicsx_log
   (($# == 0)) || { echo "./run fenicsx: '$*' is not an argument of this command" >&2; exit 2; }
@@ -38,7 +39,7 @@ run_fenicsx() {
   say "wrote out/fenicsx/velocity.png, marks.txt, drops.txt and forces.txt; for ParaView out/fenicsx/flow.bp"
 }
 
-# Says why nothing runs if the distribution lacks dolfinx, or has another version.
+# If the distribution lacks dolfinx, or has another version, prints why nothing runs.
 fenicsx_is_there() {
   local version
   is_on_offer python3-dolfinx || true
@@ -63,7 +64,7 @@ fenicsx_settings() {
   export OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1
 }
 
-# fenicsx_in FOLDER COMMAND...: runs the command there. Its output is also in $fenicsx_log.
+# fenicsx_in FOLDER COMMAND...: runs the command in the folder. The output of COMMAND is also in $fenicsx_log.
 fenicsx_in() {
   cd "$1" || return
   shift

@@ -36,7 +36,7 @@ def duct(comm, size):
 
 
 def flow(comm, law, dt, n_steps, size=2e-3, eps=2e-3, kind="bileaflet", speed=MEAN_SPEED, **parameters):
-    """Yields the state after each time step. The law gives the opening at a time, and the parameters belong to the valve.
+    """Yields the state after each time step. `law` gives the opening at a time, and `parameters` belong to the valve.
 
     Blood flows in with the mean speed `speed`. If it is None, no stress acts at the inlet, so both pressures are equal."""
     mesh, tags = duct(comm, size)
@@ -44,7 +44,7 @@ def flow(comm, law, dt, n_steps, size=2e-3, eps=2e-3, kind="bileaflet", speed=ME
     P2 = basix.ufl.element("Lagrange", mesh.basix_cell(), 2, shape=(3,))
     W, V = fem.functionspace(mesh, basix.ufl.mixed_element([P2, P1])), fem.functionspace(mesh, P2)
 
-    # K and K u_valve are functions with values at the points of the velocity. riis marks these points.
+    # K and K u_valve are functions with values at the points of the velocity, which riis marks.
     K, K_u = fem.Function(fem.functionspace(mesh, ("Lagrange", 2))), fem.Function(V)
     xyz = V.tabulate_dof_coordinates()
     assert numpy.array_equal(xyz, K.function_space.tabulate_dof_coordinates())

@@ -40,7 +40,7 @@ contains
     p_ventricle = (E_min + (E_max - E_min) * active) * (this%V - V_0)
   end function p_ventricle
 
-  !> Returns the pressure at the outlet. This pressure depends on the flow through the outlet.
+  !> Returns the pressure at the outlet. The pressure at the outlet depends on the flow through it.
   pure real(dp) function p_aorta(this, flow)
     class(circulation), intent(in) :: this
     real(dp), intent(in) :: flow

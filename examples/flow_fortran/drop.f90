@@ -66,8 +66,8 @@ program drop_of_valve
 
 contains
 
-  ! Computes the flow for a window of time, and its means. The drop is that from rest before the valve to the lowest mean pressure
-  ! of a layer of cells, which is in the jet.
+  ! Computes the flow for a window of time, and its means. The drop is the difference between the pressure of blood at rest before
+  ! the valve and the lowest mean pressure of a layer of cells. The layer with the lowest pressure is in the jet.
   subroutine advance(window)
     real(dp), intent(in) :: window
     real(dp) :: dt, span
@@ -89,8 +89,8 @@ contains
     drop = lasting() - minval(pressure)
   end subroutine advance
 
-  ! Returns the drop from rest before the valve to the outlet, where the pressure is 0. This drop lacks the pressure that the jet
-  ! has gained again behind the valve.
+  ! Returns the drop from rest before the valve to the outlet, where the pressure is 0. Behind the valve the jet regains a part of
+  ! its pressure, and this drop does not include that part.
   real(dp) function lasting()
     lasting = pressure(1) + fluid%rho / 2 * speed**2
   end function lasting

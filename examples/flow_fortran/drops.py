@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Computes the pressure drops of standing aortic valves with the program `drop`, and compares them with two formulas. It keeps
-the runs that are finished in FOLDER/runs.csv, and goes on there after a stop. It leaves the table in FOLDER/drops.md and a plot
+"""Computes the pressure drops of standing aortic valves with the program `drop`, and compares them with two formulas. The script
+keeps finished runs in FOLDER/runs.csv, so it can continue after a stop. The script leaves the table in FOLDER/drops.md and a plot
 in FOLDER/drops.png.
 
 usage: drops.py PROGRAM FOLDER [--short]"""
@@ -64,7 +64,7 @@ def read_rows(path):
 
 
 def compute(program, one):
-    """Runs the program. Returns its results as a dict of texts."""
+    """Runs the program. Returns the results of the run as a dict of texts."""
     done = subprocess.run([program, *words_of(one)], capture_output=True, text=True, check=False)
     if done.returncode != 0:
         stop(f"{program} {' '.join(words_of(one))} failed: {done.stderr.strip()}")
@@ -73,7 +73,7 @@ def compute(program, one):
 
 
 class Drop:
-    """A run with the drops of both formulas, in mmHg."""
+    """One run with the drops of both formulas, in mmHg."""
 
     def __init__(self, row):
         self.kind = row["kind"]
@@ -94,7 +94,7 @@ class Drop:
 
 
 def draw(drops, path):
-    """Draws the drop over the opening for each kind, at one flow and in the finest grid, beside both formulas."""
+    """Draws the drop over the opening for each kind, at one flow and on the finest grid, together with both formulas."""
     try:
         import matplotlib
     except ImportError:

@@ -59,7 +59,8 @@ program flow_through_valve
     dt = fluid%time_step(longest_step)
     step_number = step_number + 1
     step_time = step_time + dt
-    ! The law of opening takes the pressures and the flow of the last step. The pressure equation uses the valve's new position.
+    ! The law of opening uses the pressures and the flow of the previous step. The pressure equation uses the valve's new
+    ! position.
     call riis_opening_advance(law, state, step_time, p_up - p_down, flow_rate, status)
     call check(status)
     call valve%move(state%opening, dt, fluid)

@@ -7,7 +7,7 @@
 flow_packages=(gcc g++ gfortran cmake make libembree-dev libtbb-dev libopenmpi-dev libhypre-dev python3-matplotlib ffmpeg)
 flow_build="build-flow"
 
-# flow_compile: installs the library and its Fortran modules to a folder, and compiles the solver as a user's own project.
+# flow_compile: installs the library and its Fortran modules into a folder, and compiles the solver as a separate project.
 flow_compile() {
   cmake --preset library -B "$flow_build/library" -D RIIS_WITH_FORTRAN=ON -D CMAKE_INSTALL_PREFIX="$PWD/$flow_build/riis" &&
     cmake --build "$flow_build/library" --parallel "$n_jobs" &&
@@ -19,8 +19,8 @@ flow_compile_solver() {
     cmake --build "$flow_build/solver" --parallel "$n_jobs"
 }
 
-# flow_restart FOLDER FIRST SECOND WORD...: restarts a run from its step FIRST, and goes on to the step SECOND. The state at
-# SECOND and the rows of the table in between must equal the first run's.
+# flow_restart FOLDER FIRST SECOND WORD...: restarts a run from its step FIRST, and continues to the step SECOND. The state at
+# SECOND and the rows of the table in between must equal those of the first run.
 flow_restart() {
   local folder=$1 first=$2 second=$3 again=$1/again
   shift 3
@@ -52,17 +52,19 @@ flow_story() {
 }
 
 # ./run flow [--cells N | --short] [--offset O]
-#   Builds a flow solver in Fortran with the beating aortic valve in its root, and checks the solver against closed forms. It
-#   computes one heartbeat with some 77,000 cells, and leaves plots of pressures, flow, opening, jet and force, and a movie of the
-#   velocity, in out/flow. --cells takes N cells across the root instead of 40, which changes the half thickness. --short takes a
-#   coarse grid until the valve opens, in out/flow_short. With --offset the band steps aside by O half thicknesses. It then has a
-#   cut rim and a skirt, and _offset ends the folder's name. It is skipped if the distribution lacks libhypre-dev.
+#   Builds a flow solver in Fortran with a beating aortic valve in its root, and checks the solver against exact formulas. The
+#   command computes one heartbeat with some 77,000 cells. In out/flow it leaves plots of pressures, flow, opening, jet and force,
+#   and a movie of the velocity. --cells takes N cells across the root instead of 40, which changes the half thickness. --short
+#   computes on a coarse grid until the valve opens, in out/flow_short. With --offset the band is shifted by O half thicknesses.
+#   The band then has a cut rim and a skirt, and the folder's name ends in _offset. The command is skipped if the distribution
+#   lacks libhypre-dev.
 # ./run flow --study
-#   Prints the effect of resistance, half thickness and size of cells on the drop and the leak.
+#   Prints the effects of resistance, half thickness and size of cells on the drop and the leak.
 # ./run flow --drops [--short]
 #   Computes the steady drops of the aortic, coapting and trileaflet valves at some openings, flows, half thicknesses and offsets,
-#   in ten minutes of a processor. It leaves a table with two formulas beside the drops, and a plot, in out/drops. Finished runs
-#   in that folder are kept, so a second call goes on after a stop. --short makes six runs in a coarse grid, in out/drops_short.
+#   in ten minutes of processor time. The command leaves a plot and a table, which compares the drops with two formulas, in
+#   out/drops. Finished runs in that folder are kept, so a second call continues after a stop. --short makes six runs on a coarse
+#   grid, in out/drops_short.
 run_flow() {
   local out=out/flow python words=() save=(600 620) short=() offset='' what=beat
   while (($# > 0)); do

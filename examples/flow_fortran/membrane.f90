@@ -1,7 +1,8 @@
 ! SPDX-License-Identifier: Apache-2.0
-!> A toy: one cusp of a half-open valve is a membrane of springs, which the flow moves. The other two cusps stay where they are.
+!> A small demonstration: one cusp of a half-open valve is a membrane of springs, which the flow moves. The other two cusps stay
+!> where they are.
 !! The springs, the mass and the friction are not those of tissue, and nothing stops a cusp from going through another cusp. The
-!! program shows the calls that a code for shells needs: a force at each vertex, and vertices that move with velocities.
+!! program shows the calls that a shell code needs: a force at each vertex, and vertices that move with velocities.
 program membrane
   use, intrinsic :: iso_fortran_env, only: int32, int64
   use riis
@@ -63,7 +64,7 @@ program membrane
 
 contains
 
-  ! Takes the triangles of a valve. Vertices of a leaflet that coincide are twins, of which the first one moves. The attachment
+  ! Takes the triangles of a valve. Vertices of a leaflet that coincide are twins, and only the first twin moves. The attachment
   ! and the other cusps do not move. Each side of a triangle of the cusp is a spring, at rest in this shape.
   subroutine take_shape(eps)
     real(dp), intent(in) :: eps
@@ -109,8 +110,9 @@ contains
     call check(status)
   end subroutine take_shape
 
-  ! Takes the force of the flow at each vertex. On a staggered grid a face has one component of the velocity, so each component
-  ! has its own call, with the volumes of its faces. The vertices of a cusp must have the force of the cusp.
+  ! Takes the force of the flow at each vertex. On a staggered grid a face stores one component of the velocity. Each component
+  ! therefore has its own call, with the volumes of its faces. The forces at the vertices of a cusp must add up to the force on
+  ! the cusp.
   subroutine take_forces()
     real(dp) :: velocity(3, size(fluid%K)), weight(size(fluid%K)), part(3, size(x, 2)), sums(3, 3)
     integer :: c, f
@@ -132,7 +134,7 @@ contains
     end do
   end subroutine take_forces
 
-  ! Moves the cusp by dt. The force of the flow stays the same for the step, and the springs follow in smaller steps.
+  ! Moves the cusp by dt. The force of the flow stays the same during the step, and the springs move in smaller steps.
   subroutine move_cusp()
     real(dp) :: before(3, size(x, 2)), pull(3, size(x, 2)), along(3), h
     integer :: i, k

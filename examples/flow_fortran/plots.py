@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Draws what the flow solver left in a folder: beat.png, the heartbeat over time; flow.mp4, the flow through the valve; and
-five stills of it."""
+"""Draws the results of the flow solver in a folder: beat.png, the heartbeat over time; flow.mp4, the flow through the valve; and
+five stills of the movie."""
 import pathlib
 import sys
 
@@ -14,7 +14,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 MMHG = 133.322
-# Colours that are distinct for all kinds of colour vision (Okabe, Ito 2008), as in the pictures of riis.
+# These colours can be distinguished with every kind of colour vision (Okabe, Ito 2008), as in the pictures of riis.
 LEAFLET = "#d55e00"
 WALL = "#b9aaa2"
 UPSTREAM = "#d55e00"
@@ -52,7 +52,7 @@ def cut(triangles, axis, position):
 
 
 class Frame:
-    """Two slices of the flow, with the cut of the leaflets."""
+    """Draws two slices of the flow, with the cut of the leaflets."""
 
     def __init__(self, path):
         with open(path, "rb") as file:
@@ -100,7 +100,7 @@ def draw_pressures(axes, table):
 
 
 def draw_beat(table, path):
-    """All quantities over time, in one figure."""
+    """Draws all quantities over time, in one figure."""
     figure, axes = plt.subplots(5, 1, figsize=(8, 11), sharex=True, constrained_layout=True)
     figure.suptitle("One heartbeat of the aortic valve, from rest (grey: the valve is closed).\n"
                     "It opens within 40 ms when the ventricle has more pressure, and closes when the flow turns back.",

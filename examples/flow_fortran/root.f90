@@ -1,8 +1,8 @@
 ! SPDX-License-Identifier: Apache-2.0
 !> Describes the walls of an aortic root with three sinuses. The attachment of the cusps lies on the wall, so a valve that seals
-!! in its own attachment seals here. The root belongs to the trileaflet valve unless fit_root has taken the sizes of another
-!! valve. The formulas come from examples/demo/aortic_root.geo. docs/theory/aortic.md and coapting.md describe the attachments.
-!! Lengths are in the valve's unit, centimetres.
+!! in its own attachment seals here. The root fits the trileaflet valve, or another valve after fit_root has read its sizes. The
+!! formulas come from examples/demo/aortic_root.geo. docs/theory/aortic.md and coapting.md describe the attachments. Lengths are
+!! in the valve's unit, centimetres.
 module flow_root
   use, intrinsic :: iso_fortran_env, only: dp => real64
   use riis, only: riis_valve
@@ -12,8 +12,8 @@ module flow_root
 
   real(dp), parameter :: radian = acos(-1._dp) / 180
   real(dp), parameter :: base_z = -1.2_dp         ! the free edges of the closed trileaflet valve lie at z = 0
-  ! These sizes equal the valve's parameters of the same names. Three numbers belong to the right, left and non-coronary cusps.
-  ! leaflet_height is the height of the commissures.
+  ! The sizes of the root are equal to the valve's parameters of the same names. Three numbers belong to the right, left and
+  ! non-coronary cusps. leaflet_height is the height of the commissures.
   real(dp) :: base_radius = 1.25_dp, leaflet_height = 1.2_dp, bending_height = 0.6_dp
   real(dp), dimension(3) :: leaflet_radius = 1.25_dp, leaflet_angle = 60, bending_radius = 1.275_dp, bending_angle = 35
   real(dp) :: middle_of_cusp(3) = [0, 120, 240]   ! [degrees]
@@ -25,7 +25,7 @@ module flow_root
 
 contains
 
-  !> Takes the sizes of an aortic, trileaflet or coapting valve. Returns the shift along z that places the valve in the root [m].
+  !> Reads the sizes of an aortic, trileaflet or coapting valve. Returns the shift along z that places the valve in the root [m].
   subroutine fit_root(valve, kind, shift)
     type(riis_valve), intent(in) :: valve
     character(len=*), intent(in) :: kind

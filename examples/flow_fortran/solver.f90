@@ -2,9 +2,9 @@
 !> Solves for incompressible flow on a staggered grid of cubic cells, by a fractional step method. The resistance K of a valve is
 !! implicit in the momentum equation AND in the pressure equation. README.md has the equations.
 !!
-!! A cell has a number m. Its neighbour in direction d has the number m + stride(d). The lower face of cell m in direction c has
-!! the index (m, c), and velocity component c lies on it. Walls are closed faces between cells inside and outside the lumen. The
-!! flow enters at the lower end in z and leaves at the upper end.
+!! A cell has a number m. The neighbour of cell m in direction d has the number m + stride(d). The lower face of cell m in
+!! direction c has the index (m, c), and velocity component c lies on it. Walls are closed faces between cells inside and outside
+!! the lumen. The flow enters at the lower end in z and leaves at the upper end.
 module flow_solver
   use, intrinsic :: iso_fortran_env, only: dp => real64
   use flow_pressure, only: pressure_equation
@@ -172,7 +172,7 @@ contains
           this%b(q) = this%b(q) + 2 * A(m + s(3), 3) * p(m + s(3))
         end if
         if (this%coefficient(0, q) <= 0) this%coefficient(0, q) = dt / rho ! a cell in the wall
-        ! Between closed ends the pressure is known up to a constant: one cell at an end is tied to 0.
+        ! Between closed ends the pressure is known only up to a constant, so it is set to 0 in one cell at an end.
         if (this%closed_ends .and. m == this%end_cell(1)) this%coefficient(0, q) = this%coefficient(0, q) + dt / rho
         this%x(q) = merge(p(m), 0._dp, this%K_in_pressure)
       end do
@@ -193,7 +193,7 @@ contains
     end associate
   end subroutine step
 
-  ! Computes S for a step of dt. The band holds a face if K dt > rho. S is 0 if K u_surface is 0 everywhere.
+  ! Computes S for a step of dt. A face is held by the band if K dt > rho. S is 0 if K u_surface is 0 everywhere.
   subroutine set_source(this, dt)
     class(flow), intent(inout) :: this
     real(dp), intent(in) :: dt

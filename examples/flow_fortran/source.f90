@@ -3,7 +3,7 @@
 !!
 !! A face with a large K has the velocity of the leaflet, and the pressure hardly changes it. If a cell has only such faces and
 !! walls, its divergence is the divergence of u_surface. The source allows this divergence. Without the source the pressure grows
-!! until blood flows through these faces.
+!! until blood flows through the faces of the band.
 module flow_source
   use, intrinsic :: iso_fortran_env, only: dp => real64
   implicit none
@@ -12,9 +12,10 @@ module flow_source
 
 contains
 
-  !> Computes the source S [1/s] of every cell. Faces that are neither held nor closed join cells to sets. A set with a cell at an
-  !! end of the vessel lies outside the band, and its source is 0. In every other set the source is uniform. Its integral equals
-  !! the flow out of the set through the held faces.
+  !> Computes the source S [1/s] of every cell. Faces that are not held and not closed connect cells to sets. A set with a cell at
+  !> an
+  !! end of the vessel lies outside the band, and its source is 0. In every other set the source is uniform. The integral of the
+  !! source equals the flow out of the set through the held faces.
   pure subroutine find_source(cell, ends, stride, h, closed, face, held, u, without_net, S)
     integer, intent(in) :: cell(:)                ! the numbers of all fluid cells
     integer, intent(in) :: ends(:)                ! the numbers of the cells at both ends
@@ -66,7 +67,7 @@ contains
     if (without_net) S(around) = -sum(S(cell)) / max(1, size(around))
   end subroutine find_source
 
-  ! Adds all cells that are joined to the first n members.
+  ! Adds all cells that are connected to the first n members.
   pure subroutine gather(joins, stride, gathered, members, n)
     logical, intent(in) :: joins(:, :)
     integer, intent(in) :: stride(3)

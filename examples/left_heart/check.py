@@ -18,11 +18,11 @@ import numpy as np
 import zero_d
 from zero_d import ML, MMHG, PERIOD, RHO, foam
 
-# Without a pressure, the valve first goes to these shares of the way from the least opening to 1, at these times. The flow tells
-# the volume that the leaflets displace.
+# Without a pressure difference, the valve first moves to these shares of the way from the smallest opening to 1, at these times.
+# The flow then shows the volume that the leaflets displace.
 SWEPT, SWEEP = ((0.0, 0.0), (0.08, 0.4), (0.12, 1.0), (0.16, 0.0)), 0.17
-# The openings at which the orifice is then measured: shares of the same way. Each is held for HOLD seconds. With an offset, the
-# bands part below 0.01. Without one they part near 0.2.
+# The openings at which the orifice is then measured, as shares of the same way. Each opening is held for HOLD seconds. With an
+# offset, the bands separate below the opening 0.01. Without an offset, they separate near 0.2.
 HELD = (0.0, 0.001, 0.002, 0.003, 0.004, 0.006, 0.008, 0.01, 0.015, 0.02, 0.03, 0.04, 0.06, 0.08, 0.1, 0.125,
         *np.arange(0.15, 0.36, 0.0125), *np.arange(0.4, 0.91, 0.05), 1.0)
 HOLD = 0.03
@@ -57,7 +57,8 @@ def amplitude(case, times):
 
 
 def volumes(case, times):
-    """Returns the volume of the mesh at the start, and at the times, in ml: from its outer faces, moved as beatMotion.C does."""
+    """Returns the volume of the mesh in ml, at the start and at the given times. The volume is computed from the outer faces of
+    the mesh, moved as beatMotion.C does."""
     mesh = zero_d.Mesh(case)
     return np.array([mesh.volume(one) / ML for one in amplitude(case, (0.0, *times))])
 
@@ -68,7 +69,7 @@ def pressure_of(case, name):
 
 
 class Beat:
-    """Time series of a case, in s, ml, ml/s and mmHg. Inflow and outflow are forward if positive."""
+    """Time series of a case, in s, ml, ml/s and mmHg. Inflow and outflow are positive in the forward direction."""
 
     def __init__(self, case):
         inflow, outflow = foam.table(case, "inflow"), foam.table(case, "outflow")
@@ -79,7 +80,7 @@ class Beat:
         self.openings = {name: np.interp(self.time, rows[:, 0], rows[:, 1]) for name, rows in valves.items()}
         log = foam.text(case / "log.pimpleFoam")
         seconds = np.array(re.findall(r"ExecutionTime = (\S+)", log), float)
-        # The time begins at 0 again where a run was cut off and went on.
+        # If a run was cut off and continued, its time begins at 0 again.
         self.processor_seconds = seconds[-1] + seconds[:-1][np.diff(seconds) < 0].sum()
         self.courant = max(float(word) for word in re.findall(r"Courant Number mean: \S+ max: (\S+)", log))
 
@@ -101,7 +102,7 @@ def held(least):
 
 
 def keys(least):
-    """The valve takes the first tenth of each hold to move to the next opening."""
+    """The valve uses the first tenth of each hold to move to the next opening."""
     openings = held(least)
     swept = (f"({time:g} {openings[0] + (1 - openings[0]) * share:g})" for time, share in SWEPT)
     holds = (f"({SWEEP + (i + share) * HOLD:.6g} {opening:g})" for i, opening in enumerate(openings) for share in (0.1, 1))
@@ -111,8 +112,9 @@ def keys(least):
 def orifice(case, valve, least):
     """Prints opening, area and leak, and the volume that a change of the opening displaces.
 
-    The pressure difference drives the leak and the jet. While there is no jet, the leak is the flow over the pressure
-    difference. A valve that does not close, with a least opening above 0, has an orifice there, and no leak.
+    The pressure difference drives the leak and the jet. As long as there is no jet, the leak is the flow divided by the pressure
+    difference. If a valve does not close, its smallest opening is above 0. At its smallest opening, such a valve has an orifice,
+    and no leak.
     """
     openings = held(least)
     beat = Beat(pathlib.Path(case))
@@ -126,7 +128,8 @@ def orifice(case, valve, least):
     if not ((flow > 0).all() and (difference > 0).all()):
         sys.exit(f"check.py: the {valve} valve has the flows {flow} ml/s at the differences {difference} mmHg")
     leak = flow / difference * (openings[0] == 0)
-    # Bands that begin to part let blood creep through. Ten times the leak of the closed valve are a jet.
+    # When bands begin to separate, a little blood passes through. A flow of ten times the leak of the closed valve counts as a
+    # jet.
     creeps = leak < 10 * leak[0]
     leak[~creeps] = leak[creeps][-1] if creeps.any() else 0
     area = np.where(creeps, 0, (flow - leak * difference) * ML * np.sqrt(RHO / (2 * difference * MMHG)))
@@ -169,7 +172,7 @@ def check_beat(case, model_file, mitral, aortic):
         if leak == 0:
             print(f"the {name} valve does not close")
             continue
-        # A leak is only known where the pressure difference is large, and where the valve has rested for 10 ms.
+        # A leak is known only if the pressure difference is large, and if the valve has rested for 10 ms.
         at_rest = closed[name] & (np.abs(difference) > 20)
         for _ in range(round(0.01 / step)):
             at_rest[1:] &= at_rest[:-1]

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Prints a clinician's usual numbers of the last beat, with a column for each heart. The exit status is 1 if a diseased heart
-misses what its disease asks for.
+lacks a sign of its disease.
 
     clinic.py CASE TABLES [CASE TABLES ...]
 
@@ -23,7 +23,7 @@ MITRAL_AREA = "effective area of the open mitral valve, cm2"
 
 
 def name_of(case):
-    """Returns the heart's name for people: the name of its case, but for the healthy one."""
+    """Returns a readable name of the heart. The name is that of the heart's case, except for the healthy heart."""
     name = pathlib.Path(case).name
     return "healthy" if name == "beat" else name
 
@@ -44,7 +44,7 @@ def plane(case, time):
 
 
 def jet(points, velocity):
-    """Returns the speed of the fastest blood of the plane in the aortic tube."""
+    """Returns the speed of the fastest blood in this plane in the aortic tube."""
     in_tube = (points[:, 1] > 2e-3) & (points[:, 0] > 0)
     return np.linalg.norm(velocity[in_tube], axis=1).max()
 
@@ -52,7 +52,8 @@ def jet(points, velocity):
 def vortex(points, corners, velocity):
     """Returns the circulation of the strongest vortex in the ventricle, in m2/s, and its centre and radius in mm.
 
-    A vortex is a disc of the plane that lies in the blood below the base. Its circulation is the integral of the vorticity.
+    A vortex is a disc in this plane that lies in the blood below the base. The circulation of a vortex is the integral of the
+    vorticity.
     """
     a, b, c = (points[corners[:, k]] for k in range(3))
     first, second = b - a, c - a
@@ -78,7 +79,7 @@ def vortex(points, corners, velocity):
 
 
 def regurgitant_area(flow, difference):
-    """Returns the area in cm2 through which blood goes back while the ventricle is 40 mmHg above the atrium."""
+    """Returns the area in cm2 through which blood flows back while the ventricle is 40 mmHg above the atrium."""
     driven = difference > 40
     return -flow[driven].mean() * ML * np.sqrt(RHO / (2 * difference[driven].mean() * MMHG)) * 1e4
 
@@ -105,15 +106,16 @@ def numbers(case, tables):
     e_volume = np.clip(mitral[ejects[-1] : trough], 0, None).sum() * step
     stroke = volume.max() - volume.min()
 
-    # Isovolumetric phases: neither valve leaves an orifice.
+    # In isovolumetric phases, both valves leave no orifice.
     closed = ~open_["mitral"] & ~open_["aortic"]
     moved = time > 0.005
     contraction = (closed & moved & (time < time[ejects[0]])).sum() * step * 1e3
     relaxation = (closed & (time > time[ejects[-1]])).sum() * step * 1e3
     has_phases = open_["mitral"].any() and not open_["mitral"].all()
 
-    # While the flow slows down, its inertia keeps the aorta above the ventricle. Over the whole ejection, this part of the
-    # gradient cancels the part that speeds the blood up. The steps with the ventricle above the aorta contain only the latter.
+    # While the flow slows down, its inertia keeps the pressure in the aorta above that in the ventricle. Over the whole ejection,
+    # this part of the gradient cancels the part that accelerates the blood. Steps in which the ventricle is above the aorta
+    # contain only the second part.
     forward = (aortic > 0) & open_["aortic"]
     gradient = (ventricle - aorta)[forward]
     effective = aortic[forward].mean() * ML * np.sqrt(RHO / (2 * gradient.mean() * MMHG))
@@ -172,7 +174,8 @@ def numbers(case, tables):
 
 
 def demand_diseases(hearts):
-    """Demands of each diseased heart what patients have. `hearts` has the numbers of each heart by its name."""
+    """Checks that each diseased heart has the signs that patients have. `hearts` contains the numbers of each heart by its
+    name."""
     if "stenosis" in hearts:
         gradient = hearts["stenosis"][MEAN_GRADIENT]
         check.demand(gradient > 40, f"stenosis: the mean gradient is {gradient:.1f} mmHg (above 40)")

@@ -22,12 +22,12 @@ from check import foam
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 
-# Colours that are distinct for all kinds of colour vision (Okabe, Ito 2008), as in the pictures of riis.
+# These colours can be distinguished with every kind of colour vision (Okabe, Ito 2008), as in the pictures of riis.
 BLUE, ORANGE, RED, GREEN, GREY = "#0072b2", "#e69f00", "#d55e00", "#009e73", "0.6"
 
 
 def loop(beat, model, path):
-    """Draws the pressure-volume loop, and pressures, flows and openings over time. Grey lines are the heart without space."""
+    """Draws the pressure-volume loop, and pressures, flows and openings over time. Grey lines show the 0D model."""
     figure, axes = plt.subplots(2, 2, figsize=(10, 7), layout="constrained")
     stroke = axes[0, 0]
     shift = model["volume"][0] - beat.volume[0]
@@ -79,7 +79,8 @@ def slice_at(axes, case, time, largest):
 
 
 def valves(axes, case, time, tilt=25, above=False):
-    """Draws the leaflets as the ventricle sees them, from below and somewhat from the side, or as a surgeon does, from above."""
+    """Draws the leaflets from below and slightly from the side, as seen from the ventricle, or from above, as seen by a
+    surgeon."""
     tilt, up = np.radians(tilt), -1 if above else 1
     for name, colour in (("mitral", ORANGE), ("aortic", BLUE)):
         points, corners, _ = foam.triangles(case / "postProcessing" / name / time / "leaflets.vtk")
@@ -90,7 +91,7 @@ def valves(axes, case, time, tilt=25, above=False):
         normal = np.cross(b - a, c - a)
         normal /= np.linalg.norm(normal, axis=1)[:, None] + 1e-30
         light = 0.35 + 0.65 * np.abs(normal @ np.array([-0.4, 0.4, 0.82]))
-        # Triangles in front, with the least height, come last.
+        # Triangles in front, with the smallest height, are drawn last.
         order = np.argsort(-(a + b + c)[:, 2])
         colours = light[order, None] * np.array(matplotlib.colors.to_rgb(colour))
         axes.add_collection(matplotlib.collections.PolyCollection(seen[corners[order]][:, :, :2], facecolors=colours,

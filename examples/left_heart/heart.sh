@@ -15,13 +15,14 @@ heart_least_opening=1e-4 # of the flail valve, whose table then has an orifice i
 . "$heart_here/coupled/coupled.sh"
 
 # ./run heart [--resume] [--offset O] [--all | --coupled | --walls] [--short]
-#   Beats a left heart in OpenFOAM: a ventricle whose wall moves, with a mitral and an aortic valve, which a heart without space
-#   drives. It measures leaks, and checks the balance of blood, the pressures, 1 and 2 ranks and a restart. It leaves tables,
-#   pictures and a movie in out/heart. --all adds three hearts: a stenotic aortic valve, a flail mitral leaflet, a clip on it.
-#   --short has one beat in a coarse mesh. --offset 0 has bands around the leaflets with round rims, in place of bands that step
-#   aside by 0.75 half thicknesses, with cut rims. With --coupled, the pressures of the flow open the valves, and the wall moves
-#   by its elastance. --walls compares the open aortic valve with the same leaflets as walls. --resume continues a run that was
-#   cut off. It is left out like openfoam.
+#   Computes a beating left heart in OpenFOAM: a ventricle with a moving wall, and with a mitral and an aortic valve. A 0D model
+#   drives this heart. The command measures leaks, and checks the balance of blood, the pressures, 1 and 2 ranks and a restart.
+#   The command leaves tables, pictures and a movie in out/heart. --all adds three hearts: with a stenotic aortic valve, with a
+#   flail mitral leaflet, and with a clip on this leaflet. --short computes one beat on a coarse mesh. --offset 0 has bands around
+#   the leaflets with round rims. By default, bands are shifted by 0.75 half thicknesses, and have cut rims. With --coupled, the
+#   pressures of the flow open the valves, and the wall moves by its elastance. --walls compares the open aortic valve with the
+#   same leaflets as walls. --resume continues a run that was cut off. Like openfoam, the command is left out if Debian's package
+#   is missing.
 run_heart() {
   local python name of_keep=
   heart_offset=0.75
@@ -148,7 +149,7 @@ heart_band() {
   of_set "$1" system/fvOptions "$2/halfThickness" "$heart_half_thickness" "$2/offset" "$3" "$2/rim" "$rim"
 }
 
-# heart_held NAME INLET OUTLET: the heart stands still, with closed valves, between these pressures in mmHg.
+# heart_held NAME INLET OUTLET: the heart stands still, with closed valves, between the pressures INLET and OUTLET in mmHg.
 heart_held() {
   local constant=$of_cases/$1/constant valve
   echo 'amplitude table ((0 0) (2 0));' >"$constant/amplitude"
@@ -158,8 +159,8 @@ heart_held() {
 }
 
 # heart_orifice VALVE [DISEASE]: the heart stands still, with the other valve open. The valve first opens without a pressure, and
-# its leaflets displace the flow. Then it takes one opening after the other between 12 and 0 mmHg. The flow and the pressures
-# give the area that each opening leaves, and the leak of the closed valve.
+# its leaflets displace the flow. Then the valve takes one opening after the other between 12 and 0 mmHg. The flow and the
+# pressures give the area that each opening leaves, and the leak of the closed valve.
 heart_orifice() {
   local name=orifice-$1${2:+-$2} folder=$of_out${2:+/$2} other=mitral least=0
   [[ $1 == aortic ]] || other=aortic
@@ -237,10 +238,10 @@ heart_diseased() {
   heart_python check.py beat "$of_cases/$1" "$folder"/{zero_d,mitral,aortic}.csv | tee "$folder/beat.txt"
 }
 
-# 40 steps from the start, with both valves closed at their end. The restart begins after 20 of them. There is no calibration,
-# because its factor differs between 1 and 2 ranks in the fourth digit (examples/openfoam/README.md). The heart is split between
-# the ranks along y. On one rank a band then ends in a cell whose neighbours are all on the other rank. Pressures are solved to
-# 1e-10. With the tolerances of the beats, the flows of the first step differ by 1.3e-4 in the coarse mesh.
+# 40 steps from the start, with both valves closed at their end. The restart begins after 20 of the 40 steps. There is no
+# calibration, because its factor differs between 1 and 2 ranks in the fourth digit (examples/openfoam/README.md). The heart is
+# split between the ranks along y. On one rank a band then ends in a cell whose neighbours are all on the other rank. Pressures
+# are solved to 1e-10. With the tolerances of the beats, the flows of the first step differ by 1.3e-4 in the coarse mesh.
 heart_ranks() {
   local name
   for name in ranks-1 ranks-2 restart; do
@@ -254,7 +255,7 @@ heart_ranks() {
     cp -r "$of_cases/ranks-1/0.04" "$of_cases/restart" && of_run restart 1
 }
 
-# heart_refused NAME TEXT FILE ENTRY VALUE [ENTRY VALUE...]: the case with these entries must end with this text.
+# heart_refused NAME TEXT FILE ENTRY VALUE [ENTRY VALUE...]: the case with these entries must end with TEXT.
 heart_refused() {
   local folder=refused-${1// /_}
   heart_case "$folder" && heart_held "$folder" 10 0 && of_set "$folder" "${@:3}" && of_refused "$1" "$folder" "$2"

@@ -51,7 +51,7 @@ def crossed(start, end, points, corners):
 
 
 def regions(n_cells, owner, neighbour):
-    """Returns the number of each cell's region: the least number of a cell that can be reached through these faces."""
+    """Returns the number of each cell's region: the least number of a cell that can be reached through the given faces."""
     region, before = np.arange(n_cells), None
     while not np.array_equal(region, before):
         before = region.copy()

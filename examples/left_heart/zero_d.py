@@ -1,14 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A left heart without space: it writes the wall's motion, both end pressures and the openings for the flow in space.
+"""A 0D model of the left heart, without space. The model writes the motion of the wall, both end pressures and the openings for
+the flow in space.
 
     python3 zero_d.py CASE MITRAL.csv AORTIC.csv [--beats N] [--dilated] [--out TABLE.csv]
 
-The ventricle has the elastance E(t), so p = E (V - V0). The pulmonary veins fill an atrium before it, and a windkessel lies
-behind it. The tables have the leak of each closed valve, the area that each opening leaves to the flow, and the volume that the
-moving leaflets displace. check.py orifice measures them in the mesh, so the isovolumetric phases have the same lengths as in
-space. Blood is incompressible, so a few milliseconds more or less would change the pressure there by hundreds of mmHg.
+The ventricle has the elastance E(t), so p = E (V - V0). The pulmonary veins fill an atrium before the ventricle, and a windkessel
+lies behind it. The tables contain the leak of each closed valve, the area that each opening leaves to the flow, and the volume
+that the moving leaflets displace. check.py orifice measures them in the mesh, so the isovolumetric phases last as long as in
+space. Blood is incompressible, so an error of a few milliseconds would change the pressure in space by hundreds of mmHg.
 
-With --dilated the ventricle is larger, as after years of a large regurgitation. Its wall in space begins further outside.
+With --dilated the ventricle is larger, as after years of a large regurgitation. In space, the wall of this ventricle begins
+farther out.
 
 The model runs until its beats repeat. The case's tables begin after the A wave, when the blood in the closing mitral valve is
 at rest, because the case starts at rest.
@@ -41,12 +43,13 @@ AT_REST = 119.9  # ml, of the ventricle in heart.geo at the amplitude 0: 2/3 pi 
 
 
 class Body(typing.NamedTuple):
-    """What differs between the healthy heart and one that a large regurgitation has dilated."""
+    """The constants that a large regurgitation changes, compared with the healthy heart."""
 
     v_0: float            # ml, of the ventricle without a pressure
     vein_pressure: float  # mmHg
-    # A valve begins to close when its flow falls below this, in ml/s. Closing at full backflow would stop blood abruptly. If it
-    # begins to close late, both valves are open for a moment: a mitral valve with a clip still fills fast when the beat begins.
+    # A valve begins to close when its flow falls below close_below, in ml/s. A valve that closes at full backflow would stop the
+    # blood abruptly. If a valve begins to close late, both valves are open for a moment. For example, a mitral valve with a clip
+    # still fills fast when the beat begins.
     close_below: float
 
 
@@ -71,9 +74,10 @@ def atrial_elastance(t):
 
 
 class Orifice(typing.NamedTuple):
-    """The area that a valve leaves to the flow at each opening, and the largest opening at which it seals: -1 if it never seals.
+    """The area that a valve leaves to the flow at each opening, and the largest opening at which the valve seals, or -1 if it
+    never seals.
 
-    It seals while it has no area, and its leak is less than 1.1 times the leak at opening 0.
+    A valve seals if it leaves no area, and its leak is less than 1.1 times the leak at opening 0.
     """
 
     openings: np.ndarray
@@ -84,8 +88,8 @@ class Orifice(typing.NamedTuple):
 
     @property
     def rest(self):
-        """The opening of the closed valve. At this opening the bands just touch. So leaflets that begin to open push hardly
-        any blood before their bands part."""
+        """The opening of the closed valve. At this opening the bands just touch. Leaflets that begin to open therefore push
+        hardly any blood before their bands separate."""
         return max(self.sealed, self.openings[0])
 
     @property
@@ -97,9 +101,9 @@ class Orifice(typing.NamedTuple):
 
 
 class Valve:
-    """The flow Q beside the leak: L dQ/dt = dp - q |q| rho / (2 A^2), with the effective area A of the opening.
+    """The flow Q in addition to the leak: L dQ/dt = dp - q |q| rho / (2 A^2), with the effective area A of the opening.
 
-    q is the flow past the leaflets. Q also has the volume that the leaflets displace.
+    q is the flow that passes the leaflets. Q also includes the volume that the leaflets displace.
     """
 
     def __init__(self, name, orifice, body=HEALTHY):
@@ -109,14 +113,15 @@ class Valve:
 
     def opening(self):
         rest = self.orifice.rest
-        # The leaflets begin and end without acceleration, because the blood that they push between closed valves has no way out.
+        # The motion of the leaflets begins and ends without acceleration, because the blood that they push between closed valves
+        # cannot escape.
         return rest + (1 - rest) * self.progress**3 * (10 - 15 * self.progress + 6 * self.progress**2)
 
     def pushed(self):
         """Returns the flow that the leaflets displace in the step.
 
-        OpenFOAM takes the leaflets' flow as a mean over the step, and their place from the end of the step. So in
-        space, the openings lag by half a time step (write_tables).
+        OpenFOAM computes the leaflets' flow as a mean over the step, and their position at the end of the step. In space, the
+        openings therefore lag by half a time step (write_tables).
         """
         now = self.opening()
         self.lagged.append(now)
@@ -165,15 +170,16 @@ def beats(valves, body=HEALTHY, most=40):
             valve.turned -= PERIOD
         change, before = volume - before, volume
         if abs(change) < REPEATS:
-            # A jump of the volume at the end of the beat would be a flow into a closed chamber, so the rest is spread over
-            # the beat.
+            # A jump of the volume at the end of the beat would be a flow into a closed chamber. The remaining difference is
+            # therefore spread over the beat.
             rows[:, 1] -= change * rows[:, 0] / PERIOD
             return rows
     sys.exit(f"zero_d.py: the volume still changes by {change:g} ml after {most} beats")
 
 
 def start_of(rows):
-    """Returns the row after the A wave at which the blood in the mitral valve is at rest. The valve is then half closed."""
+    """Returns the row after the A wave at which the blood in the mitral valve is at rest. The valve is half closed at this
+    time."""
     half_open = (rows[:, 5].min() + 1) / 2
     ending = np.flatnonzero((rows[:, 0] > KICK_START + KICK / 2) & (rows[:, 5] > 0.6 * half_open))
     return ending[np.argmin(np.abs(rows[ending, 7]))]
@@ -183,7 +189,7 @@ def waves(time, flow):
     """Returns the rows of the E wave's peak, of the trough behind it, and of the A wave's peak, from a beat of the mitral flow.
 
     The A wave begins at the trough. When the atrium begins to contract, the end of a high E wave may exceed the A wave. A run in
-    space begins shortly before the beat of zero_d.py, so the same times hold for it.
+    space begins shortly before the beat of zero_d.py, so the same times are valid for it.
     """
     filling, kick = np.where(time > SYSTOLE, flow, 0), np.searchsorted(time, KICK_START + KICK / 2)
     e_wave = np.argmax(filling[:kick])
@@ -231,7 +237,8 @@ class Mesh:
             float(words[words.index(key) + 1]) for key in ("length", "ramp", "radial", "axial", "base"))
 
     def moved(self, amplitude):
-        """Does what beatMotion.C does, but the base stays. Its descent changes no volume."""
+        """Computes the same as beatMotion.C, but the base does not descend. The descent of the base does not change any
+        volume."""
         x = self.points.copy()
         below = x[:, 2] < 0
         depth = np.minimum(1, -x[below, 2] / (self.length * self.ramp))
@@ -246,7 +253,7 @@ class Mesh:
 
 
 def amplitude_of(mesh, change):
-    """Returns the amplitudes for these changes of the mesh's volume against the volume at rest, in m3."""
+    """Returns the amplitudes for given changes of the mesh's volume, relative to the volume at rest, in m3."""
     amplitudes = np.linspace(-0.6, 1.25, 60)  # in the coarse mesh, a run with 1.28 blew up
     changes = np.array([mesh.volume(a) for a in amplitudes]) - mesh.volume(0)
     if changes[0] < change.max() or changes[-1] > change.min():
@@ -275,7 +282,7 @@ def write_table(path, key, times, values):
 
 
 def write_start(case, mesh, amplitude):
-    """Writes the points from which the run starts, as if it were a restart. The points at rest stay in constant."""
+    """Writes the points at which the run starts, as if it were a restart. The points at rest stay in constant."""
     points = mesh.moved(amplitude) - (0, 0, amplitude * mesh.base)
     folder = case / "0" / "polyMesh"
     folder.mkdir(exist_ok=True)
@@ -287,7 +294,8 @@ def write_start(case, mesh, amplitude):
 def write_tables(case, rows, n_beats, dilated=False):
     """Writes constant/amplitude, constant/inletPressure, constant/outletPressure, and constant/mitralKeys and aorticKeys.
 
-    The wall starts at rest. That of a dilated heart starts where the ventricle has the volume of the heart without space.
+    The wall of the healthy heart starts at rest. The wall of a dilated heart starts where the ventricle has the volume of the 0D
+    model.
     """
     start = rows[start_of(rows), 0]
     times = np.arange(round(n_beats * PERIOD / 1e-3) + 1) * 1e-3
@@ -295,7 +303,8 @@ def write_tables(case, rows, n_beats, dilated=False):
 
     change = (at(rows, "volume", start + times) - (AT_REST if dilated else at(rows, "volume", start))) * ML
     constant = case / "constant"
-    # OpenFOAM takes dV/dt as the mean over a step, and the opening of the step's end. So openings lag by half a step.
+    # OpenFOAM uses dV/dt as the mean over a step, and the opening at the end of the step. The openings therefore lag by half a
+    # step.
     lagged = keys - STEP_IN_SPACE / 2
     mesh = Mesh(case)
     amplitudes = amplitude_of(mesh, change)
@@ -304,8 +313,9 @@ def write_tables(case, rows, n_beats, dilated=False):
         write_start(case, mesh, amplitudes[0])
     for name, file in (("atrium", "inletPressure"), ("aorta", "outletPressure")):
         pressures = at(rows, name, start + times) * MMHG / RHO
-        # The blood begins with the pressure 0, also at both ends. decomposePar puts the first row there. On several ranks this
-        # would push the blood in the first step. The solver itself takes the rows from the end of the first step on.
+        # The blood begins with the pressure 0, including both ends. decomposePar writes the first row of the tables there. On
+        # several ranks, another first row would push the blood in the first step. The solver itself uses the rows from the end of
+        # the first step on.
         pressures[0] = 0
         write_table(constant / file, "p0", times, pressures)
     for name in ("mitral", "aortic"):
@@ -315,9 +325,9 @@ def write_tables(case, rows, n_beats, dilated=False):
 
 
 def read_orifice(path):
-    """Returns the table of a valve, by check.py orifice.
+    """Returns the table of a valve that check.py orifice has measured.
 
-    The table of a valve that does not close begins with an opening above 0, which leaves an area. Then the leak is 0.
+    If a valve does not close, its table begins with an opening above 0, which leaves an area. In this case the leak is 0.
     """
     with open(path, encoding="ascii") as file:
         rows = list(csv.DictReader(file))
@@ -334,7 +344,8 @@ def read_orifice(path):
         sys.exit(f"zero_d.py: {path}: the leak is {leak:g}, and must be positive")
     if not (ascend and areas[0] == 0 and openings[0] == 0):
         sys.exit(f"zero_d.py: {path}: openings must ascend from 0 to 1, and areas must begin with 0 and end with a positive one")
-    # The leak of a row with an area is that of the last row without one. So a seal also needs an area of 0.
+    # For a row with an area, the leak is that of the last row without an area. A valve therefore seals only if its area is also
+    # 0.
     parts = np.flatnonzero((areas > 0) | (leaks >= 1.1 * leak))[0]
     return Orifice(openings, areas, leaks, displaced, openings[parts - 1])
 

@@ -27,7 +27,7 @@ class Judge:
 
 
 def lines_of(runs, name, mark):
-    """Returns the words after the mark in the lines of a run's log that begin with it."""
+    """Returns the words that follow the mark, for each line of a run's log that begins with the mark."""
     path = os.path.join(runs, name, "log")
     try:
         with open(path, encoding="ascii", errors="replace") as file:

@@ -10,7 +10,7 @@ import matplotlib.pyplot as plt
 
 from check import Flow, lines_of, numbers
 
-# Colours that are distinct for all kinds of colour vision (Okabe, Ito 2008), as in the pictures of riis.
+# These colours can be distinguished with every kind of colour vision (Okabe, Ito 2008), as in the pictures of riis.
 BLUE, ORANGE, GREEN = "#0072b2", "#e69f00", "#009e73"
 
 

@@ -9,10 +9,10 @@ nek_here=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")" && pwd)
 nek_known=$nek_here/known.sha256
 
 # ./run nek5000 FOLDER [--beat]
-#   Runs valves in Nek5000, a spectral element code: a closed plate, upright and leaning, on 1, 2 and 4 ranks, a trileaflet valve
-#   in a pipe, held closed and open, and the same valve while it opens, with a restart. FOLDER holds Nek5000 and gslib
-#   (examples/nek5000/README.md), and stays as it is. It leaves a table in out/nek5000. --beat adds a beat of 0.8 s. Without
-#   Nek5000 the status is 77.
+#   Runs valves in Nek5000, a spectral element code. A closed plate, upright and leaning, runs on 1, 2 and 4 ranks. A trileaflet
+#   valve in a pipe is held closed and open, and runs while it opens, with a restart. FOLDER contains Nek5000 and gslib
+#   (examples/nek5000/README.md), and is not changed. The command leaves a table in out/nek5000. --beat adds a beat of 0.8 s. If
+#   Nek5000 is missing, the status is 77.
 run_nek5000() {
   local beat='' python out=$PWD/out/nek5000
   case ${2:-} in
@@ -64,7 +64,7 @@ nek_check_sources() {
   }
 }
 
-# nek_copy FOLDER: copies the sources, so that FOLDER stays as it is. A copy that exists is kept, with its compiled files.
+# nek_copy FOLDER: copies the sources, so that FOLDER is not changed. An existing copy is kept, with its compiled files.
 nek_copy() {
   [[ -d $nek_work/Nek5000 ]] || {
     rm -rf "$nek_work/copy"
@@ -81,8 +81,8 @@ nek_tools() {
   (cd "$NEK_SOURCE_ROOT/tools" && ./maketools genbox genmap gmsh2nek)
 }
 
-# nek_meshes: the duct by genbox, and two pipes by gmsh: 8 layers of 20 elements for the beat, and 12 of 33 for the held valve.
-# The tools of Nek5000 read their answers from the keyboard.
+# nek_meshes: the duct by genbox, and two pipes by gmsh: 8 layers of 20 elements for the beat, and 12 layers of 33 elements for
+# the held valve. The tools of Nek5000 read their answers from the keyboard.
 nek_meshes() {
   local layers n from to
   mkdir -p "$nek_work/mesh" && cd "$nek_work/mesh" || return
@@ -99,7 +99,8 @@ nek_meshes() {
 nek_compile() {
   local case folder=$nek_work/$1
   mkdir -p "$folder" && cd "$folder" || return
-  # lgmres: GMRES restarts after so many iterations, and forgets. The template's 30 do not suffice for a large K.
+  # lgmres: GMRES restarts after lgmres iterations, and then forgets earlier directions. The number 30 in the template is too
+  # small for a large K.
   sed -E "s/lx1=8/lx1=$1/; s/lxd=12/lxd=$2/; s/lelg=1000/lelg=400/; s/lx1m=1\)/lx1m=lx1)/; s/lgmres=30/lgmres=200/" \
     "$NEK_SOURCE_ROOT/core/SIZE.template" >SIZE.new &&
     { cmp -s SIZE.new SIZE || mv SIZE.new SIZE; } &&
@@ -127,7 +128,7 @@ nek_run() {
   timeout "${nek_limit:-7200}" mpirun -n "$ranks" "$program" >log 2>&1
 }
 
-# nek_plates: eps is two largest distances of points. Without u_surface nothing changes after the first steps.
+# nek_plates: eps is twice the largest distance between points. Without u_surface, nothing changes after the first steps.
 nek_plates() {
   local ranks
   nek_run plate_0 6 plate plate 1 userParam01=1e4 &&
@@ -146,8 +147,8 @@ nek_held() {
   done
 }
 
-# nek_restart: the valve opens, and the run saves its state at step 60. Another run starts there. The projection of pressures
-# remembers more steps than the three saved ones, so these runs go without it.
+# nek_restart: the valve opens, and the run saves its state at step 60. Another run starts there. The projection of pressures uses
+# more steps than the three saved ones, so these runs do not use it.
 nek_restart() {
   nek_run whole 5 valve pipe8 1 numSteps=163 residualProj=no userParam08=60 userParam10=80 || return
   mkdir -p "$nek_runs/restart" && cp "$nek_runs"/whole/rs_valve0.f0000[123] "$nek_runs/restart" &&

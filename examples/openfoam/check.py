@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Makes the checks and pictures of ./run openfoam. A check prints its numbers, and ends with an error if a number is wrong."""
+"""Does the checks and draws the pictures of ./run openfoam. A check prints its numbers, and ends with an error if a number is
+wrong."""
 import ctypes
 import pathlib
 import re
@@ -232,7 +233,7 @@ def expected(*cases):
 
 
 def cases_of_factor(case):
-    """Returns the calibrated case that is restarted, and its restart."""
+    """Returns the calibrated case that is restarted, and the restarted case."""
     folder = pathlib.Path(case).parent
     return folder / "expected-cubes-2-1-20-yes", folder / "factor-restart"
 
@@ -334,7 +335,8 @@ def beat(*cases):
 
 
 def differences(first, second, time, fields):
-    """Compares fields of two runs. K must have the same bits, and others may differ by 1e-6. Returns the differences in words."""
+    """Compares fields of two runs. K must have the same bits, and other fields may differ by 1e-6. Returns a text with the
+    differences."""
     words = []
     for field in fields:
         a, b = foam.global_field(first, time, field), foam.global_field(second, time, field)
@@ -350,8 +352,7 @@ def differences(first, second, time, fields):
 
 
 def restart(whole, again, none, none_again):
-    """Compares a restart of the heartbeat with the run that was not stopped. Also compares a restart of a flow without a
-    valve."""
+    """Compares a restart of the heartbeat with the uninterrupted run. Also compares a restart of a flow without a valve."""
     print("A restart on 2 ranks while the valve closes, against the run that went on:")
     for name, first, second, fields in (("with the valve", whole, again, (K_NAME, KU_NAME, "p", "U")),
                                         ("without a valve", none, none_again, ("p", "U"))):
@@ -435,7 +436,8 @@ def moving(cases, library):
             require(later[name] > 0.15, f"{name}: |Fz| after 20 ms is what riisSource cures: {later[name]:.3f} N")
 
     print("The same, by other ranks, solvers and valves. The largest difference of a force from that of 1 rank:")
-    # Corrections for edges that are not orthogonal to faces do not converge within a step, so tetrahedra differ more.
+    # Corrections for edges that are not orthogonal to faces do not converge within a step, so the results on tetrahedra differ
+    # more.
     for first, share, names in (("hexahedra-28-riisSource", 1e-3, ("ranks-2", "ranks-4", "two-valves", "pisoFoam")),
                                 ("tetrahedra-riisSource", 1e-2, ("tetrahedra-ranks-2", "tetrahedra-ranks-4"))):
         whole = forces(cases / first)

@@ -12,7 +12,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 
 RHO = 1060.0
-# Colours that are distinct for all kinds of colour vision (Okabe, Ito 2008), as in the pictures of riis.
+# These colours can be distinguished with every kind of colour vision (Okabe, Ito 2008), as in the pictures of riis.
 COLOURS = ("#0072b2", "#e69f00")
 LEAFLET = "#d55e00"
 
@@ -54,12 +54,13 @@ def velocity(case, path):
     half = time[opening > 0.5]
     moving = time[opening > 0]
     full = time[opening > 0.999]
-    # At these times the valve is closed, half open, open, about to close, half closed, and closed again.
+    # At the six times the valve is closed, half open, open, about to close, half closed, and closed again.
     wanted = [moving[0] - 0.01, half[0], full.mean(), full[-1] - 0.01, half[-1], moving[-1] + 0.01]
     written = {float(folder.name): folder for folder in (case / "postProcessing/slice").iterdir()}
     chosen = [written[min(written, key=lambda t: abs(t - want))] for want in wanted]
     slices = [foam.triangles(folder / "middle.vtk") for folder in chosen]
-    # A few cells beside the moving band may be far faster than all other cells. The colour scale leaves them out.
+    # A few cells beside the moving band may have a much higher speed than all other cells. The colour scale does not include
+    # their speeds.
     largest = max(numpy.percentile(numpy.linalg.norm(vectors, axis=1), 99.5) for _, _, vectors in slices)
     figure, axes = plt.subplots(1, 6, figsize=(14, 4.4), sharey=True, layout="constrained")
     for one, folder, (points, corners, vectors) in zip(axes, chosen, slices):

@@ -35,7 +35,7 @@ def _is_binary(data):
 
 
 def _values(path, data, start, kind, count, binary):
-    """Returns the list of values whose opening bracket is the first one after start."""
+    """Returns the list of values that begins at the first opening bracket after start."""
     dtype, width = TYPES[kind]
     begin = data.find(b"(", start) + 1
     if binary:
@@ -150,7 +150,8 @@ def times(case):
 def columns(case, pattern, n):
     """Returns the first n columns of all tables of a function object, in the order of the starts.
 
-    The first column is the time. A run that was cut off begins again before the end of its table: there, the later table counts.
+    The first column is the time. If a run was cut off, the next table begins before the end of its table. In the overlap, the
+    later table counts.
     """
     rows = []
     for path in sorted(pathlib.Path(case).glob(pattern), key=lambda path: float(path.parent.name)):
@@ -173,9 +174,9 @@ def table(case, name):
 
 
 def steps(case):
-    """Reads the solver's log. Returns for each step: time, opening, cells, seconds of the library and of the whole step.
+    """Reads the log of the solver. Returns for each step: time, opening, cells, seconds of the library and of the whole step.
 
-    The integral of K stands between cells and seconds. In the first step, NaN stands for the seconds of the whole step.
+    The integral of K stands between cells and seconds. In the first step, the seconds of the whole step are NaN.
     """
     path = pathlib.Path(case) / "log.pimpleFoam"
     rows, before = [], numpy.nan

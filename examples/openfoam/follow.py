@@ -9,13 +9,13 @@ import check
 import foam_files as foam
 from check import K_NAME, KU_NAME, require
 
-# The cases whose mesh swings, with their ranks.
+# The cases with a swinging mesh, and their ranks.
 SWING = {"follow-patch-1": 1, "follow-patch-2": 2, "follow-zone": 2, "follow-points": 2, "follow-warp-1": 1, "follow-warp-2": 2}
 
 
 def rigid(case, time):
-    """Returns rotation and shift of the mesh since it was at rest, and the largest distance of a point from this motion. All
-    points of the mesh count."""
+    """Returns the rotation and the shift of the mesh since it was at rest, and the largest distance of a point from this motion.
+    All points of the mesh are used."""
     rest, now = (numpy.concatenate([foam.vectors(folder / at / "polyMesh/points") for folder, _ in foam.parts(case)])
                  for at in ("constant", time))
     require(rest.shape == now.shape, f"{case} at {time} has the points of its mesh at rest")
@@ -24,7 +24,8 @@ def rigid(case, time):
 
 
 def best_motion(rest, now):
-    """Returns rotation and shift that take the first points nearest to the second ones, by a singular value decomposition."""
+    """Returns the rotation and the shift that move the first points as near as possible to the second points, by a singular value
+    decomposition."""
     from_, to = rest.mean(axis=0), now.mean(axis=0)
     u, _, vt = numpy.linalg.svd((rest - from_).T @ (now - to))
     turn = vt.T @ numpy.diag([1, 1, numpy.sign(numpy.linalg.det(vt.T @ u.T))]) @ u.T
@@ -41,8 +42,8 @@ def fields(case, time):
 
 
 def follow(cases):
-    """Checks a valve in a mesh that moves as a rigid body. Its marks and K equal those of the valve at rest, and its velocity
-    is that of the rigid body."""
+    """Checks a valve in a mesh that moves as a rigid body. The marks and K of this valve equal those of the valve at rest, and
+    its velocity is that of the rigid body."""
     cases = pathlib.Path(cases)
     rest = cases / "follow-rest"
     times, dt = foam.times(rest), 1e-3
@@ -95,7 +96,7 @@ def follow(cases):
 
     deform(cases / "follow-deform")
 
-    # A mesh that moves steadily, together with the blood: nothing else changes.
+    # Checks a mesh that moves steadily, together with the blood. Nothing else may change.
     steady, v = cases / "follow-steady", numpy.array([0.1, 0.2, 0.3])
     worst = 0.0
     for time in times:
@@ -116,7 +117,7 @@ def follow(cases):
 
 def deform(case):
     """Checks that the valve's nadirs move with the nearest points of the wall while the mesh deforms. The nadirs are landmarks,
-    and they rest while the valve opens."""
+    and do not move when the valve opens."""
     case = pathlib.Path(case)
     sources = numpy.array(re.findall(r"\(([-.\de]+) ([-.\de]+) ([-.\de]+)\)", foam.text(case / "system/warp")), float)
     require(len(sources) == 6, f"{case}/system/warp has six landmarks, not {len(sources)}")
@@ -131,7 +132,7 @@ def deform(case):
         moved = now[nearest] - rest[nearest]
         turn, shift = best_motion(rest[nearest], now[nearest])
         rigid_part = rest[nearest] @ turn.T + shift
-        # A landmark takes part in the rigid motion, and in the rest of its point's motion.
+        # A landmark takes part in the rigid motion, and in the rest of the motion of its point.
         wanted = sources @ turn.T + shift + now[nearest] - rigid_part
         x, _, v = leaflets(case, time)
         nadirs = wanted[:3]
@@ -159,7 +160,7 @@ def wall_points(case, time):
 
 
 def same_bits(whole, again, times):
-    """Checks that K and K U_valve have the same bits after a restart as in a run without one."""
+    """Checks that K and K U_valve have the same bits after a restart as in an uninterrupted run."""
     for time in times:
         for a, b in zip(fields(whole, time), fields(again, time)):
             require((a != 0).any() and (a == b).all(),

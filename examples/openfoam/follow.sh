@@ -2,13 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 # The cases of ./run openfoam whose mesh moves, and those of the angle law. openfoam.sh sources this file.
 
-# The mesh swings about an axis while it moves along a line, or moves steadily.
+# The mesh swings about an axis while it moves along a line, or it moves steadily.
 of_swing='{ swing { solidBodyMotionFunction oscillatingRotatingMotion; origin (0 0 0.003); amplitude (25 0 0); omega 200; }
   along { solidBodyMotionFunction oscillatingLinearMotion; amplitude (0.001 0.002 0.003); omega 300; } }'
 of_steady='{ along { solidBodyMotionFunction linearMotion; velocity (0.1 0.2 0.3); } }'
 
-# of_box NAME: makes a closed box of cubes in which a valve opens from 0.3. Eight steps, all written. The ball upstream lies at
-# the end of the box. A ball that stayed behind would be outside a mesh that has moved.
+# of_box NAME: makes a closed box of cubes in which a valve opens from 0.3. Eight steps, of which all are written. The ball
+# upstream lies at the end of the box. A ball that does not follow would lie outside a mesh that has moved.
 of_box() {
   of_moving "$1" hexahedra-28 "$(of_band 28)" "${2:-riisSource}" 0.3 && of_closed "$1" &&
     of_set "$1" system/fvOptions aorticValve/writeLeaflets yes &&
@@ -54,9 +54,9 @@ END
   of_logged "$1" topoSet topoSet -case "$of_cases/$1"
 }
 
-# of_deforms NAME: deforms the mesh: the points of the inlet swing, and the points of the outlet rest. Landmarks of the valve
-# follow the wall: the nadirs, and a point near each attachment. A file has them, because foamDictionary would keep only six
-# digits.
+# of_deforms NAME: deforms the mesh. The points of the inlet swing, and the points of the outlet do not move. Some landmarks of
+# the valve follow the wall: the nadirs, and a point near each attachment. The landmarks are in a file, because foamDictionary
+# would keep only six digits.
 of_deforms() {
   local folder=$of_cases/$1 name
   of_moving "$1" hexahedra-28 "$(of_band 28)" riisSource 0.3 &&

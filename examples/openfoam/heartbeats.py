@@ -12,7 +12,7 @@ MMHG = 133.322
 
 
 def physiological(case):
-    """Checks heartbeats at 90 mmHg with arteries at the outlet. The last two must agree."""
+    """Checks heartbeats at 90 mmHg with arteries at the outlet. The last two heartbeats must agree."""
     n_beats, period = 4, 0.7
     rows = valve_table(case, "valve")
     time, q, opening = rows["Time"], 1e6 * rows["flow"], rows["opening"]
@@ -54,7 +54,8 @@ def physiological(case):
 
 
 def arteries(case, flows):
-    """Returns the pressure in the compliance in each step in Pa, by the table of the flow. It must end at OpenFOAM's."""
+    """Returns the pressure in the compliance in each step in Pa, computed from the table of the flow. The last pressure must
+    agree with that of OpenFOAM."""
     keys = ("distalResistance", "compliance", "pressure")
     first, last = ([float(re.search(rf"\b{key}\s+([0-9.e+-]+);", foam.text(pathlib.Path(case) / at / "p", "latin-1"))[1])
                     for key in keys] for at in ("0", foam.times(case)[-1]))

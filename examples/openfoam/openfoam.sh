@@ -13,14 +13,14 @@ openfoam_plugin=src/openfoam
 . "$openfoam_here/follow.sh"
 
 # ./run openfoam [plugin [FOLDER] | patient | --short | --size CENTIMETRES | --headers FOLDER]
-#   Builds the plug-in for OpenFOAM, and runs a beating valve in OpenFOAM. It compares marks on 1, 2 and 4 ranks, compares
-#   pressure drops with OpenFOAM's porosity, and checks forces and a restart. It leaves plots in out/openfoam. It fetches
-#   OpenFOAM's headers (45 MB), and is left out if there is no package openfoam. --size 0.1 makes edges of 0.1 cm. --headers only
-#   compiles the plug-in, against the headers of another OpenFOAM. plugin only builds the plug-in, and installs it where the
-#   cases of riis patient look for it: in FOLDER, by default ~/.local/lib/riis/openfoam. After ./run demo it takes the demo's
-#   library, and needs half a minute. Otherwise it also compiles a library, and needs a minute and a quarter. patient runs a beat
-#   of a synthetic patient from landmarks to the table, five minutes of an idle processor, and fails if a number is out of its
-#   bounds.
+#   Builds the plug-in for OpenFOAM, and runs a beating valve in OpenFOAM. The command compares marks on 1, 2 and 4 ranks,
+#   compares pressure drops with OpenFOAM's porosity, and checks forces and a restart. It leaves plots in out/openfoam. The
+#   command downloads OpenFOAM's headers (45 MB), and is left out if there is no package openfoam. --size 0.1 makes edges of
+#   0.1 cm. --headers only compiles the plug-in, with the headers of another OpenFOAM. plugin only builds the plug-in, and
+#   installs it where the cases of riis patient look for it: in FOLDER, by default ~/.local/lib/riis/openfoam. After ./run demo
+#   the command uses the demo's library, and needs half a minute. Otherwise it also compiles a library, and needs a minute and a
+#   quarter. patient computes a beat of a synthetic patient, from landmarks to the table, in five minutes of an idle processor.
+#   The command fails if a number is out of its bounds.
 run_openfoam() {
   of_size=0.16 of_time_step=1e-3 of_half_thickness=1.2e-3
   case $* in
@@ -89,9 +89,9 @@ run_openfoam() {
   say "wrote out/openfoam/beat.png, out/openfoam/velocity.png, and the heartbeat in $of_cases/beat"
 }
 
-# openfoam_install_plugin FOLDER: builds the plug-in with the library inside or beside it, so that it can lie anywhere, and
-# installs it. If the build folder has a library, as after ./run demo, the plug-in takes it. Otherwise the library is built, while
-# OpenFOAM's headers are fetched.
+# openfoam_install_plugin FOLDER: builds the plug-in with the library inside or beside it, so that it can be moved anywhere, and
+# installs it. If the build folder has a library, as after ./run demo, the plug-in uses it. Without such a library, the library is
+# built while OpenFOAM's headers are fetched.
 openfoam_install_plugin() {
   local library=$PWD/$build/src/riis/libriis.so.1 made=static
   openfoam_has_package || exit
@@ -116,8 +116,8 @@ openfoam_install_plugin() {
   say "the plug-in is in $1"
 }
 
-# The kernels keep their -O3. Everything else in the library takes a thousandth of the solver's time, so it is optimised little.
-# The largest batch of files then compiles in 11 s instead of 17 s.
+# The kernels keep their -O3. Everything else in the library takes a thousandth of the solver's time, so it is compiled with
+# little optimisation. The largest batch of files then compiles in 11 s instead of 17 s.
 openfoam_library_and_headers() {
   local fetching status=0
   (openfoam_has_source) &
@@ -143,7 +143,7 @@ openfoam_cut_off() {
   wait "$first" || say "the beat was cut off"
 }
 
-# Follows docs/patient_openfoam.md with the patient of docs/patient.md. The case is cut off once, and goes on.
+# Follows docs/patient_openfoam.md with the patient of docs/patient.md. The case is cut off once, and then continues.
 openfoam_patient() {
   local folder=$PWD/$build/openfoam/patient status=0
   openfoam_install_plugin "$folder.plugin"
@@ -176,7 +176,7 @@ openfoam_build_plugin() {
     -D OPENFOAM_SOURCE="$of_source/src" "${@:2}" && cmake --build "$folder/plugin" --target "${targets[@]}"
 }
 
-# openfoam_headers FOLDER: compiles the plug-in against the headers of another OpenFOAM, whose sources lie in FOLDER. Nothing is
+# openfoam_headers FOLDER: compiles the plug-in with the headers of another OpenFOAM, whose sources lie in FOLDER. Nothing is
 # linked or run. The Foundation's OpenFOAM has fvModels, and gets the plug-in in the folder foundation.
 openfoam_headers() {
   local source=$1/src plugin=$openfoam_plugin part file switches=()
@@ -201,7 +201,7 @@ openfoam_headers() {
 }
 
 # openfoam_start CASES OUT [PACKAGE...]: builds the plug-in, and makes the empty folders build/openfoam/CASES, for cases, and
-# out/OUT, for results. With of_keep it keeps what is in them. Returns 1 after a message if OpenFOAM is left out.
+# out/OUT, for results. With of_keep, the files in these folders are kept. Returns 1 after a message if OpenFOAM is left out.
 openfoam_start() {
   openfoam_has_package || return
   packages=("${openfoam_packages[@]}" "${@:3}")
@@ -243,12 +243,13 @@ openfoam_has_source() {
   fi
 }
 
-# openfoam_source FOLDER: gets the headers from the source package of the installed OpenFOAM, whose original archive has them all.
+# openfoam_source FOLDER: gets the headers from the source package of the installed OpenFOAM. The original archive of this package
+# contains all of these headers.
 openfoam_source() {
   local folder=$1 part
   packaging/apt_fetch.sh source libopenfoam "$folder" \
     src/OpenFOAM src/OSspecific src/finiteVolume src/meshTools src/dynamicMesh || return
-  # OpenFOAM's own wmakeLnInclude makes the same links, with a process for each of 4,000 files.
+  # OpenFOAM's own wmakeLnInclude makes the same links, but starts a process for each of 4,000 files.
   for part in OpenFOAM OSspecific/POSIX finiteVolume meshTools dynamicMesh; do
     mkdir "$folder/src/$part/lnInclude" && (cd "$folder/src/$part/lnInclude" &&
       find .. \( -name lnInclude -o -name Make -o -name config -o -name noLink \) -prune -o -type f \
@@ -259,7 +260,7 @@ openfoam_source() {
 }
 
 # install_library FOLDER [OPTION...]: compiles the library alone in FOLDER/library, and installs it to FOLDER/riis. The options
-# are those of CMake, such as -D RIIS_WITH_FORTRAN=ON. The commands of other solvers use it too.
+# are those of CMake, such as -D RIIS_WITH_FORTRAN=ON. The commands of other solvers also use this function.
 install_library() {
   local folder=$1
   shift
@@ -310,7 +311,7 @@ openfoam_mesh() {
     of_from_gmsh "$folder" "$folder/root.msh" && of_mesh_is_fine "$folder" && touch "$folder/complete"
 }
 
-# of_from_gmsh FOLDER FILE: turns a mesh by gmsh into the case's mesh. Its patch wall becomes a wall.
+# of_from_gmsh FOLDER FILE: turns a mesh by gmsh into the case's mesh. The patch wall of this mesh becomes a wall.
 of_from_gmsh() {
   gmshToFoam -case "$1" "$2" && sed -i '/^ *wall$/,/}/s/patch;/wall;/' "$1/constant/polyMesh/boundary"
 }
@@ -364,8 +365,8 @@ of_logged() {
   return 1
 }
 
-# Runs an opening valve in the tetrahedra and in cubes, and writes every step. With 27 cubes across, some centres lie in the
-# planes of symmetry, equally near to two leaflets. OpenFOAM also writes the cell centres.
+# Runs an opening valve in the tetrahedra and in cubes, and writes every step. With 27 cubes across the valve, some centres lie in
+# the planes of symmetry, equally near to two leaflets. OpenFOAM also writes the cell centres.
 openfoam_marks() {
   local ranks name mesh
   openfoam_hexahedra 27 || return
@@ -400,14 +401,16 @@ openfoam_drops() {
   of_constant_flow closed 0 && of_run closed 1 &&
     of_constant_flow open 1 && of_run open 1 &&
     of_constant_flow none 1 && of_no_valve none && of_run none 1 || return
-  # OpenFOAM's own porosity acts in the same cells as K. Its coefficient in a cell differs from K by at most 1/400 of the largest.
+  # OpenFOAM's own porosity acts in the same cells as K does. The coefficient of the porosity in a cell differs from K by at most
+  # 1/400 of the largest K.
   for model in powerLaw DarcyForchheimer; do
     of_constant_flow "$model" 0 && rm "$of_cases/$model/system/valveTable" &&
       of_check zones "$of_cases/closed" "$of_cases/$model" "$model" && of_run "$model" 1 || return
   done
 }
 
-# openfoam_duct NAME: makes a mesh of a duct of 8 x 8 x 24 mm. It has cubes of 1 mm, tetrahedra, or the dual polyhedra.
+# openfoam_duct NAME: makes a mesh of a duct of 8 x 8 x 24 mm. The mesh of the duct has cubes of 1 mm, tetrahedra, or the dual
+# polyhedra.
 openfoam_duct() {
   local folder=$of_work/duct-$1
   [[ ! -e $folder/complete ]] || return 0
@@ -455,8 +458,8 @@ of_duct() {
     echo 'pressure { $inflow; operation areaAverage; fields (p); }' >>"$of_cases/$name/system/functions" && of_run "$name" 1
 }
 
-# Twelve closed leaflets, each without calibration and with it: meshes, half thicknesses in mm, time steps in ms, and degrees.
-# One of them restarts with its factor, and runs on 2 and 4 ranks.
+# Twelve closed leaflets, each without calibration and with it: meshes, half thicknesses in mm, time steps in ms, and degrees. One
+# of the leaflets restarts with its factor, and runs on 2 and 4 ranks.
 openfoam_expected() {
   local mesh half_thickness step degrees calibrate ranks
   for mesh in cubes tetrahedra polyhedra; do openfoam_duct "$mesh" || return; done
@@ -583,7 +586,7 @@ of_sum() {
 }
 
 # of_jet NAME N SOLVER: runs a heartbeat until the valve is open, in a mesh of cubes. The pressure rises as in a heart, and not as
-# in the case's own beat. Otherwise the leaflets pull the blood faster than the pressure pushes it.
+# in the beat of the case. With the pressure of the case, the leaflets would pull the blood faster than the pressure pushes it.
 of_jet() {
   of_moving "$1" "hexahedra-$2" "$(of_band "$2")" "$3" 0 &&
     cp "$openfoam_here"/case/system/{fvOptions,functions} "$of_cases/$1/system" &&
@@ -687,7 +690,7 @@ of_copy() {
   cp -r "$of_cases/$1" "$of_cases/$2"
 }
 
-# of_go_on NAME TIME END: continues a case on 2 ranks from a written time.
+# of_go_on NAME TIME END: continues a case on 2 ranks, from a written time.
 of_go_on() {
   of_forget_after "$1" "$2" &&
     of_set "$1" system/controlDict startTime "$2" endTime "$3" &&

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes a mesh of the aortic root of ./run demo for a flow solver. It has a tube at the outlet, and names for the inlet, the
-// outlet and the wall. This command makes a mesh in metres with edges of 1.6 mm:
-// gmsh -3 -nt 1 -setnumber Mesh.ScalingFactor 0.01 -setnumber size 0.16 -format msh22 -o root.msh root.geo
+// Makes a mesh of the aortic root of ./run demo for a flow solver. The root has a tube at the outlet, and names for the inlet,
+// the outlet and the wall. This command makes a mesh in metres with edges of 1.6 mm: gmsh -3 -nt 1 -setnumber Mesh.ScalingFactor
+// 0.01 -setnumber size 0.16 -format msh22 -o root.msh root.geo
 DefineConstant[ size = 0.16 ]; // length of the edges in centimetres
 tube_length = 1;
 Include "../demo/aortic_root.geo";

@@ -45,7 +45,7 @@ def same(a, b, text):
 
 
 def nearly_same(a, b, text):
-    """Checks velocities. At the seam of two patches, a node may take the velocity of either side."""
+    """Checks velocities. At the seam of two patches, a node may take the velocity of either patch."""
     differs = (a != b).any(axis=1)
     close = numpy.abs(a - b).max() <= 1e-3 * numpy.abs(b).max()
     check(differs.sum() <= 0.01 * (b != 0).any(axis=1).sum() and close, f"{text}: {differs.sum()} nodes differ")
@@ -111,7 +111,7 @@ def arrays_of(proxy, port=0, is_shown=False):
 
 
 def expected_of(surface, mesh, fields, R=0.0):
-    """Returns what riis itself says."""
+    """Returns the results of riis itself."""
     marks = riis.mark(surface, mesh, fields=fields or None)
     dense = marks.dense(leaflet_id=True)
     found = {"riis_marked": dense.mark.astype(numpy.uint8), "riis_distance": dense.distance, "riis_leaflet": dense.leaflet_id}
@@ -202,7 +202,7 @@ def check_kinds():
 
 
 def check_leaks_of_cells():
-    """A coarse mesh leaks. Voxels have the edges of the same hexahedra, and lines have none that count."""
+    """A coarse mesh has leaks. Voxels have the same edges as hexahedra, and the edges of line cells do not count."""
     xyz, cells = box(14, 4.0, numpy.zeros(3))
     numbers = []
     for order in ((HEXAHEDRON, list(range(8))), (VOXEL, [0, 1, 3, 2, 4, 5, 7, 6])):
@@ -274,7 +274,8 @@ def check_state(marked, expected):
 
 
 def check_time():
-    """At each step of both motions the marks equal those of riis at the opening of that time. ParaView's animation shows them."""
+    """At each step of both motions, the marks equal those of riis at the opening of this time. ParaView's animation shows
+    them."""
     xyz, cells = box(25, 4.0, numpy.zeros(3))
     mesh = pv.XMLUnstructuredGridReader(FileName=[write(grid_of(xyz, [(HEXAHEDRON, cell) for cell in cells]), "time.vtu")])
     cycle = os.path.join(FOLDER, "cycle.csv")

@@ -1,7 +1,7 @@
 # shellcheck shell=bash
 # SPDX-License-Identifier: Apache-2.0
 # The steps of ./run paraview, which reads this file: make a bare Debian, install ParaView there, build the wheel for its Python,
-# and check the plug-in. Debian's ParaView conflicts with the Python modules of libvtk9-dev, so it needs a system of its own. The
+# and check the plug-in. Debian's ParaView conflicts with the Python modules of libvtk9-dev, so it needs a separate system. The
 # steps use variables and functions of ./run and of python/python.sh.
 
 # Packages for the plug-in and its check, besides the packages that build the wheel.
@@ -30,7 +30,7 @@ paraview_check() {
 # under the virtual display.
 paraview_window() {
   local version home=$PWD/build-python/paraview-home
-  # ParaView greets a new user with a window that would cover the others.
+  # ParaView welcomes a new user with a window that would cover the other windows.
   version=$(dpkg-query -W -f '${Version}' paraview)
   mkdir -p "$home/.config/ParaView"
   printf '[General]\nGeneralSettings.ShowWelcomeDialog=false\n' >"$home/.config/ParaView/ParaView${version%%+*}.ini"
@@ -68,7 +68,7 @@ paraview_inside() {
 # ./run paraview [12 | 13]
 #   Makes a bare Debian of this version (12) in build-paraview12/, or in the folder RIIS_ROOTS, with ParaView and the Python
 #   package. The command checks the plug-in for ParaView there, and leaves pictures of the marks and of ParaView's window in
-#   out/paraview. It needs root or sudo, and is skipped without both.
+#   out/paraview. The command needs root or sudo, and is skipped without both.
 run_paraview() {
   local version=${1:-12} suite folder status=0
   case $*/$version in

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Edge lengths from valve.dat, the size field of riis size-field. Outside its grid edges are 5 mm long. With -setnumber uniform
-// LENGTH all edges have that length instead.
+// Edge lengths from valve.dat, the file that riis size-field has written. Outside its grid edges are 5 mm long. With -setnumber
+// uniform LENGTH, all edges have this length instead.
 DefineConstant[ uniform = 0 ];
 If (uniform)
   Mesh.MeshSizeMin = uniform;

@@ -4,13 +4,13 @@
 
 make_patient.py FOLDER [--seed N] [--random] [--noise MM] [--attachment N] [--measure FILE.vtp]
 
-Writes two files into FOLDER. root.stl is a closed surface in millimetres with flat ends. landmarks.mrk.json has three
-commissures and three nadirs, as 3D Slicer writes them. Axes are LPS:
-x to the left, y to the back, z upwards. The root lies obliquely, and no cusp is like another. The seed determines the landmarks'
-noise and the waves of the wall. With --random the seed also determines everything else. With --attachment there are also
-landmarks along the attachment. This root contains no curves of riis, so it tests whether a valve of riis fits. With --measure the
-script writes no file, and prints a distance in millimetres. 95 % of a valve's attachment lie within this distance of the
-patient's attachment. The valve is a file of riis surface --output without a skirt. Needs only Python's own modules.
+Writes two files into FOLDER. root.stl is a closed surface in millimetres with flat ends. landmarks.mrk.json has three commissures
+and three nadirs, as 3D Slicer writes them. Axes are LPS: x to the left, y to the back, z upwards. The root lies obliquely, and
+all cusps are different. The seed determines the landmarks' noise and the waves of the wall. With --random the seed also
+determines everything else. With --attachment there are also landmarks along the attachment. The root contains no curves of riis,
+so it tests whether a valve of riis fits. With --measure the script writes no file, and prints a distance in millimetres. 95 % of
+a valve's attachment lie within this distance of the patient's attachment. The valve is a file of riis surface --output without a
+skirt. The script needs only the modules of Python itself.
 """
 import argparse
 import json
@@ -41,7 +41,8 @@ def smooth_step(x):
 
 
 class Root:
-    """A root, in millimetres. Its axis is z along the flow, from the annulus. The middle of the right cusp is near angle 0."""
+    """A root, in millimetres. The axis of the root is z along the flow, from the annulus. The middle of the right cusp is near
+    angle 0."""
 
     def __init__(self):
         self.commissures = [(65.0, 18.2), (165.0, 15.5), (295.0, 16.8)]  # angle and height, after each cusp
@@ -85,7 +86,7 @@ class Root:
         return tuple(self.centre[k] + x * self.e1[k] + y * self.e2[k] + z * self.e3[k] for k in range(3))
 
     def sector(self, cusp):
-        """Returns the first angle of a cusp and its width."""
+        """Returns the first angle of a cusp, and the width of the cusp."""
         first, last = self.commissures[cusp - 1][0], self.commissures[cusp][0]
         return first, (last - first) % 360
 
@@ -104,7 +105,7 @@ class Root:
         return nadir + (commissure - nadir) * (1 - (1 - place * place) ** 0.6)
 
     def tube_radius(self, degrees, z):
-        """Returns the radius without the sinuses. The cusps are attached there."""
+        """Returns the radius without the sinuses. The cusps are attached at this radius."""
         a, b, direction = self.annulus
         angle = math.radians(degrees - direction)
         ellipse = a * b / math.hypot(b * math.cos(angle), a * math.sin(angle))
@@ -129,7 +130,7 @@ class Root:
 
     def half_attachment(self, cusp, side, n=120):
         """Returns n + 1 points of half a cusp's attachment, evenly by length from its nadir to a commissure."""
-        # The curve is steep at the commissure, so places lie close together there.
+        # The curve is steep at the commissure, so places lie close together near the commissure.
         points = [self.on_attachment(cusp, side * (1 - (1 - i / 2000) ** 3)) for i in range(2001)]
         behind = [0.0]
         for p, q in zip(points, points[1:]):

@@ -1,18 +1,18 @@
 # shellcheck shell=bash
 # SPDX-License-Identifier: Apache-2.0
-# The steps of ./run patient, which reads this file: follow docs/patient.md as a reader would, and check its claims; or take
-# random patients the same way. The steps use $build, $demo_packages, build_demo, thousands, install_missing and step of `run`
-# and of examples/demo/demo.sh.
+# The steps of ./run patient, which reads this file: follow docs/patient.md as a reader would, and check its claims; or do the
+# same for random patients. The steps use $build, $demo_packages, build_demo, thousands, install_missing and step of `run` and of
+# examples/demo/demo.sh.
 
 patient_folder=out/patient
 
 # ./run patient
-#   Follows docs/patient.md: from a patient's segmented root and six landmarks to a beating valve in a graded mesh. It checks that
-#   the closed valve seals, and that no edge leaks at 11 openings. The mesh must have at most a quarter of a uniform mesh's nodes.
-#   It leaves meshes, pictures and a movie in out/patient, in two minutes.
+#   Follows docs/patient.md: from a patient's segmented root and six landmarks to a beating valve in a graded mesh. The command
+#   checks that the closed valve seals, and that no edge leaks at 11 openings. The mesh must have at most a quarter of the nodes
+#   of a uniform mesh. The command leaves meshes, pictures and a movie in out/patient, in two minutes.
 # ./run patient N
-#   Takes N random patients, up to 99, from landmarks to marks, fifteen seconds each. It prints a table, and leaves pictures of
-#   the closed valves in out/patients.
+#   Leads N random patients, up to 99, from landmarks to marks, in fifteen seconds each. The command prints a table, and leaves
+#   pictures of the closed valves in out/patients.
 run_patient() {
   if (($# > 1)) || [[ ! ${1:-1} =~ ^[1-9][0-9]?$ ]]; then
     echo "./run patient: '$*' is not a number of patients from 1 to 99" >&2
@@ -41,7 +41,7 @@ of_patient() {
 # gap_of FOLDER KEY: prints a number of the gap between the closed valve and the wall.
 gap_of() { sed -n -E '/"gap": \{/,/\}/s/^ *"'"$2"'": ([^,]*),?$/\1/p' "$1/patient.json"; }
 
-# patient_claim CLAIM COMMAND...: prints the claim, and whether it holds by the command's status.
+# patient_claim CLAIM COMMAND...: prints the claim, and whether it holds according to the status of the command.
 patient_claim() {
   local text=$1
   shift
@@ -53,7 +53,7 @@ patient_claim() {
   fi
 }
 
-# patient_checks: checks what docs/patient.md claims. Returns 1 if a claim does not hold.
+# patient_checks: checks the claims of docs/patient.md. Returns 1 if a claim does not hold.
 patient_checks() {
   local case=$patient_folder/case graded uniform leaking closed open
   patient_failed=0
@@ -72,9 +72,9 @@ patient_checks() {
   return "$patient_failed"
 }
 
-# random_patients N: takes N random patients from landmarks to marks, prints a table, and puts pictures of the closed valves into
-# one. Returns 1 if riis patient stops, and if the attachment of any patient is too far from the patient's own: 0.1 mm with exact
-# landmarks, 0.8 mm with noise.
+# random_patients N: leads N random patients from landmarks to marks, prints a table, and combines pictures of the closed valves
+# into one picture. Returns 1 if riis patient stops, and if the attachment of any patient is too far from the patient's own:
+# 0.1 mm with exact landmarks, 0.8 mm with noise.
 random_patients() {
   local folder=out/patients seed row place inputs=() tiles='' layout='' n=0
   patient_failed=0
@@ -109,8 +109,8 @@ random_patients() {
   return "$patient_failed"
 }
 
-# attachment_of_patient SEED NOISE WARP FILE: places the valve by landmarks with this noise. Writes a distance into the file: 95 %
-# of the valve's attachment lie within it of the patient's attachment.
+# attachment_of_patient SEED NOISE WARP FILE: places the valve by landmarks with this noise. Writes this distance into the file:
+# 95 % of the valve's attachment lie within this distance of the patient's attachment.
 attachment_of_patient() {
   local make=$here/examples/patient/make_patient.py
   python3 -B "$make" "$4.d" --random --seed "$1" --attachment 3 --noise "$2" &&

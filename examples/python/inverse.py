@@ -38,7 +38,8 @@ def placed(shift):
 
 
 def second_difference(n, h, ends):
-    """Returns the matrix of -d2/dx2 for n values on a grid of step h. Beyond an end, a value is ends[i] times its neighbour."""
+    """Returns the matrix of -d2/dx2 for n values on a grid of step h. Beyond an end, a value is ends[i] times the value at the
+    end."""
     matrix = scipy.sparse.diags([-1.0, 2.0, -1.0], [-1, 0, 1], shape=(n, n)).tolil()
     matrix[0, 0] -= ends[0]
     matrix[-1, -1] -= ends[1]
@@ -137,7 +138,7 @@ class Channel:
     def predict(self, unknowns):
         """Returns the velocities at the measured places, and their derivatives by the unknowns.
 
-        With the flow A U = b, the derivative solves A dU = -dK U, with the same factors of A.
+        If the flow satisfies A U = b, its derivative solves A dU = -dK U, with the same factors of A.
         """
         K, derivatives = self.K_and_derivatives(unknowns)
         flow = self.solve(K)
@@ -178,9 +179,9 @@ class Estimate:
 
 
 def grid_errors(channel, unknowns, velocity, jacobian):
-    """Returns about how far the unknowns are off because of the grid.
+    """Returns an estimate of the error of the unknowns that the grid causes.
 
-    A grid with 1.5 times as many cells across gives other velocities. Errors fall with the square of the spacing, so an
+    A grid with 1.5 times as many cells across gives different velocities. Errors fall with the square of the spacing, so an
     infinitely fine grid differs 1 / (1 - 1 / 1.5^2) = 1.8 times as much.
     """
     finer = Channel(3 * channel.n // 2)

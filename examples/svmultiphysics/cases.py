@@ -6,8 +6,8 @@
     cases.py scale FOLDER FACTOR                          # divides the coordinates of an export by FACTOR, and drops its box
     cases.py fluid|taylor-hood|fsi DUCT.msh FOLDER STEPS PRESSURE PERIOD BLOCK.xml...
 
-The last form makes FOLDER with the meshes and solver.xml. The pressure at the lower end is PRESSURE cos(2 pi t / PERIOD), and
-0 at the upper end. Each BLOCK is the output of `riis export`, whose working folder is the present one. Units are CGS.
+The last form makes FOLDER with the meshes and solver.xml. The pressure at the lower end is PRESSURE cos(2 pi t / PERIOD), and 0
+at the upper end. Each BLOCK is the output of `riis export`, which was run in the present folder. Units are CGS.
 """
 import math
 import pathlib
@@ -45,7 +45,7 @@ def scaffold(path):
 
 
 def scale(folder, factor):
-    """The solver multiplies the coordinates again by Mesh_scale_factor. The box needs exact sums, so it is left out."""
+    """With Mesh_scale_factor, the solver multiplies the coordinates again. The face box needs exact sums, so it is left out."""
     for path in sorted(pathlib.Path(folder).iterdir()):
         if path.stem.startswith("box"):
             path.unlink()
@@ -181,7 +181,8 @@ def write(kind, msh, folder, steps, pressure, period, *blocks):
         meshes = mesh("tube", "tube", [(face, face) for face in ("wall", "low", "high")])
         equations = fluid_equations(kind)
     valves = "".join(uris_case.valve_of(block) for block in blocks)
-    # A flow that starts suddenly oscillates unless this is 0. With 0, the solver's equations of solids give no numbers.
+    # A flow that starts suddenly oscillates if the spectral radius is not 0. With 0, the solver's equations for solids give no
+    # numbers.
     damping = 0.5 if kind == "fsi" else 0
     count = 65
     shares = [i / (count - 1) for i in range(count)]

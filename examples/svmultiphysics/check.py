@@ -26,7 +26,7 @@ def require(holds, text):
 
 
 def rows_of(folder, name):
-    """The rows of all ranks, with numbers where the table has numbers."""
+    """Returns the rows of all ranks, with numbers where the table has numbers."""
     rows = []
     for path in sorted(pathlib.Path(folder).glob(f"riis_{name}_*.csv")):
         with open(path, encoding="utf-8") as file:
@@ -42,7 +42,7 @@ def name_of(folder):
 
 
 def frames_of(folder):
-    """The frame of each valve in each step: its count and whether it closes. A valve at rest has the count 0."""
+    """Returns the frame of each valve in each step: its count, and whether the valve closes. A valve at rest has the count 0."""
     frames = {}
     for row in rows_of(folder, "nodes"):
         count = row["count"] if row["count"] <= row["frames"] else 0
@@ -79,7 +79,7 @@ def points(*folders):
             require(all(row[error] == 0 for row in rows if row[largest] == 0),
                     f"{folder}: {error} is 0 where nothing is marked")
         total = {name: int(sum(row[name] for row in rows)) for name in ("points", "marked", "wrong", "solid")}
-        # Steps after a motion in which every valve rests.
+        # Returns the steps after a motion in which every valve is at rest.
         resting = {step for step, _ in frames if all(frames[key][0] == 0 for key in frames if key[0] == step)}
         moved = [row["step"] for row in rows if row["K_u"] > 0]
         after = [row for row in rows if moved and row["step"] in resting and row["step"] > min(moved)]
@@ -93,7 +93,7 @@ def points(*folders):
 
 
 def turns_of(folder):
-    """The steps in which a valve begins to open and to close."""
+    """Returns the steps in which a valve begins to open and to close."""
     frames, turns = frames_of(folder), {}
     for (step, valve), (count, closing) in sorted(frames.items()):
         if count == 1:
@@ -126,7 +126,7 @@ def restart(whole, ours, solvers):
     require(all(repeated), "the solver plays the last frame again")
     moving = [frame[0] > 1 for (step, _), frame in frames[1].items() if step == first]
     require(any(moving), "the valve moves when the run is continued")
-    # The step that is played again has the same K as before.
+    # Checks that the step that is played again has the same K as before.
     def sums_of(folder, step):
         return {(row["mesh"], row["gauss"], row["functions"]): (row["K"], row["K_u"])
                 for row in rows_of(folder, "points") if row["step"] == step}
@@ -162,7 +162,7 @@ def ranks(one, two):
 
 
 def means_of(folder, quantity):
-    """The solver's values of each step, by face."""
+    """Returns the solver's values in each step, by face."""
     paths = sorted(pathlib.Path(folder).glob(f"*-procs/B_*_{quantity}.txt"))
     require(len(paths) == 1, f"{folder} has one *-procs/B_*_{quantity}.txt")
     lines = [line.split() for line in paths[0].read_text(encoding="ascii").splitlines() if line.strip() and line[0] != "#"]
@@ -234,7 +234,7 @@ def draw(ours, solver, distances, path):
     figure.savefig(path, dpi=90)
 
 
-# Each command with its least number of runs, and whether a word follows them.
+# Each command with its smallest number of runs, and whether a word follows the runs.
 COMMANDS = {"signs": (signs, 1, False), "points": (points, 1, False), "switching": (switching, 3, False),
             "restart": (restart, 3, False), "ranks": (ranks, 2, False), "drop": (drop, 2, True), "cost": (cost, 2, False),
             "draw": (draw, 3, True)}

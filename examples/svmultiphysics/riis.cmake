@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Makes riis the valve engine of svMultiPhysics, whose sources stay as they are. CMake includes this file in the solver's build:
+# Makes riis the valve engine of svMultiPhysics, without a change of its sources. CMake includes this file in the solver's build:
 #   cmake -S SOLVER/Code -B BUILD -D CMAKE_PROJECT_SV_INCLUDE=.../riis.cmake -D riis_DIR=PREFIX/lib/cmake/riis
 # With `-U CMAKE_PROJECT_SV_INCLUDE` the next build makes the same program as before.
 #   RIIS_URIS_CHECK  ON also compiles uris_check.cpp, which compares both engines in each step. Default OFF

@@ -5,7 +5,7 @@
 //   URIS_CHECK  signs: also calls the solver's own distances in each step. all: also compares K and K u_valve of all Gauss points
 //               with a loop over all triangles. Without it, the tables have the frames, sums and seconds only
 // Tables: URIS_TABLE_nodes_RANK.csv has a line for each valve in each step, and URIS_TABLE_points_RANK.csv one for each function
-// space in each step. Seconds are those of the processor.
+// space in each step. Seconds are seconds of processor time.
 #include "uris.h"
 
 #include <algorithm>
@@ -93,8 +93,8 @@ struct Loop {
     }
   }
 
-  // Adds K and K u_valve at p. Several faces may be equally near, as leaflets that touch are. The velocity is then their mean
-  // (docs/theory/marks.md, "Equally near leaflets").
+  // Adds K and K u_valve at p. Several faces may be equally near, such as those of leaflets that touch. The velocity is then the
+  // mean of their velocities (docs/theory/marks.md, "Equally near leaflets").
   void add_resistance(const Point &p, double &K, Point &K_u) const {
     std::vector<std::pair<double, Point>> nearest;  // the distance to each face, and the velocity there
     for (const auto &face : faces) {
@@ -194,7 +194,7 @@ struct Sums {
   double K = 0, K_u = 0, largest_K = 0, largest_K_u = 0, K_error = 0, K_u_error = 0;
 };
 
-// Adds up the points of one element, and compares them with the loops.
+// Adds the points of one element to the sums, and compares them with the loops.
 void add_element(const ComMod &com_mod, const mshType &mesh, const fsType &space, int e, const std::vector<Loop> &all,
                  const Vector<double> &K, const Array<double> &K_u, Sums &sums) {
   bool fluid = true;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// riis as the valve engine of svMultiPhysics. riis.cmake compiles this file into the solver, and gives the solver's own two
-// functions the names sv_calc_sdf and sv_factors. README.md says how, and names the cases that were run.
+// This file makes riis the valve engine of svMultiPhysics. riis.cmake compiles it into the solver, and gives the solver's own two
+// functions the names sv_calc_sdf and sv_factors. README.md explains this, and names the cases that were run.
 //
 //   uris_calc_sdf                      once a time step: distances, signs and velocities at the nodes
 //   eval_uris_ris_factors_quadrature   in each iteration: K and K u_valve at the Gauss points of an element
@@ -26,7 +26,7 @@
 
 namespace uris {
 
-// These functions are in the solver's uris.cpp, but not in its uris.h.
+// sv_calc_sdf and sv_factors are in the solver's uris.cpp, but not in its uris.h.
 void sv_calc_sdf(ComMod &com_mod);
 void sv_factors(const ComMod &com_mod, const mshType &mesh, const fsType &space, const int element, Vector<double> &K,
                 Array<double> &K_u);
@@ -82,10 +82,10 @@ Choice choice() {
 
 // ---- Triangles ----
 
-// Adds the triangles of a face. An export of riis has triangles that only widen the solver's box of nodes, and that are no
-// leaflets. In every frame the middle of such a triangle is the middle of an earlier one. Leaflets may touch in a closed
-// valve, so the middles of two frames are compared. `frames` has the vertices in these frames, and `middles` the earlier
-// middles.
+// Adds the triangles of a face. An export of riis has triangles that only enlarge the solver's box of nodes, and that are not
+// leaflets. In every frame, the middle of such a triangle is the middle of an earlier triangle. Leaflets may touch in a closed
+// valve, so the middles of two frames are compared. `frames` contains the vertices in these frames, and `middles` contains the
+// earlier middles.
 void add_face(Triangles &triangles, const mshType &face, int number, const std::vector<const Array<double> *> &frames,
               std::set<std::vector<int64_t>> &middles) {
   if (face.eNoN != 3) throw std::runtime_error("riis: the face " + face.name + " of a valve must consist of triangles");
@@ -109,7 +109,7 @@ void add_face(Triangles &triangles, const mshType &face, int number, const std::
   }
 }
 
-// Gives riis the triangles at the vertices x. v is null, or has the velocities of the vertices.
+// Gives riis the triangles at the vertices x. v is null, or contains the velocities of the vertices.
 void place(riis::Surface &surface, const Triangles &triangles, const std::vector<int32_t> &corners, int n_vertices,
            const double *x, const double *v, double half_thickness) {
   auto arrays = riis::defaults<riis_surface_arrays>();
@@ -137,7 +137,7 @@ void place(riis::Surface &surface, const Triangles &triangles, const std::vector
                       : riis_surface_create_from_arrays(&arrays, &options, surface.out()));
 }
 
-// Shrinks each triangle to 1e-9 of its size. The nearest of the small triangles has the nearest middle.
+// Shrinks each triangle to 1e-9 of its size. The nearest small triangle is the triangle with the nearest middle.
 void place_middles(Triangles &triangles, const Array<double> &x, double half_thickness) {
   std::vector<double> small(3 * triangles.corners.size());
   std::vector<int32_t> corners(triangles.corners.size());
@@ -175,7 +175,7 @@ struct Closest {
   std::vector<int64_t> triangle;         // (n)
 };
 
-// Finds the closest point to each of the nodes. The results have the length of all nodes.
+// Finds the closest point to each of the nodes. The results have an entry for every node.
 Closest closest_points(const ComMod &com_mod, const riis_surface *surface, const std::vector<int64_t> &nodes) {
   Closest closest{std::vector<double>(com_mod.tnNo), std::vector<double>(3 * com_mod.tnNo),
                   std::vector<int64_t>(com_mod.tnNo)};
@@ -200,8 +200,8 @@ Closest closest_points(const ComMod &com_mod, const riis_surface *surface, const
   return closest;
 }
 
-// Sets the distances to the leaflets and the leaflets' velocity at the nodes. The sign decides when the valve opens. So the
-// solver's rule gives it: the triangle with the nearest middle decides.
+// Sets the distances to the leaflets and the leaflets' velocity at the nodes. The sign of the distances decides when the valve
+// opens. The sign therefore follows the solver's rule: the triangle with the nearest middle decides.
 void set_nodes(const ComMod &com_mod, urisType &uris, const Triangles &leaflets) {
   const auto nodes = nodes_in_box(com_mod, uris.x);
   const Closest exact = closest_points(com_mod, leaflets.surface, nodes);
@@ -228,7 +228,7 @@ void set_nodes(const ComMod &com_mod, urisType &uris, const Triangles &leaflets)
 
 // ---- Time steps ----
 
-// Reads the triangles of a valve, and sets the distances to its scaffold, which rests.
+// Reads the triangles of a valve, and sets the distances to its scaffold, which does not move.
 void start_valve(const ComMod &com_mod, urisType &uris, Valve &valve) {
   const Array<double> first = uris.DxOpen.rslice(0), last = uris.DxOpen.rslice(uris.DxOpen.nslices() - 1);
   std::set<std::vector<int64_t>> middles;
@@ -265,13 +265,13 @@ double half_thickness(const urisType &uris, int n_frames) {
   return uris.cnt >= n_frames ? to : from + static_cast<double>(uris.cnt) / n_frames * (to - from);
 }
 
-// Moves a valve to its frame of this step. Returns false if nothing has changed, as for a valve that rests.
+// Moves a valve to its frame in this step. Returns false if nothing has changed, as for a valve at rest.
 bool show_frame(const ComMod &com_mod, urisType &uris, Valve &valve) {
   const Array3<double> &frames = uris.clsFlg ? uris.DxClose : uris.DxOpen;
   const int n_frames = frames.nslices();
   const bool rests = uris.cnt > n_frames;
   const int frame = rests ? n_frames : uris.cnt;
-  // The velocity is that of the last frame in the step that shows it, and 0 afterwards.
+  // In the step that shows the last frame, the velocity is that of this frame. Afterwards it is 0.
   const int shown = 2 * (rests ? n_frames + 1 : frame) + uris.clsFlg;
   if (shown == valve.shown) return false;
   valve.shown = shown;
@@ -288,7 +288,7 @@ bool show_frame(const ComMod &com_mod, urisType &uris, Valve &valve) {
     velocity = uris.valve_velocity.data();
   }
   valve.half_thickness = half_thickness(uris, n_frames);
-  // A valve whose half thickness shrinks to 0 then has no K, but the solver still needs its distances.
+  // If the half thickness of a valve shrinks to 0, the valve has no K, but the solver still needs its distances.
   const double thickness = valve.half_thickness > 0 ? valve.half_thickness : uris.sdf_deps_close;
   place(valve.leaflets.surface, valve.leaflets, valve.leaflets.corners, uris.tnNo, uris.x.data(), velocity, thickness);
   place_middles(valve.leaflets, uris.x, thickness);
@@ -298,8 +298,8 @@ bool show_frame(const ComMod &com_mod, urisType &uris, Valve &valve) {
 
 // ---- Gauss points ----
 
-// Makes the points of a mesh in a function space, in reference coordinates, as the solver's distances are. A solid's
-// elements have no points, because the solver asks for their K but does not use it.
+// Makes the points of a mesh in a function space, in reference coordinates, which the solver's distances also use. The elements
+// of a solid have no points, because the solver requests their K but does not use it.
 std::unique_ptr<Points> make_points(const ComMod &com_mod, const mshType &mesh, const fsType &space) {
   auto points = std::make_unique<Points>();
   points->mesh = &mesh;
@@ -322,7 +322,7 @@ std::unique_ptr<Points> make_points(const ComMod &com_mod, const mshType &mesh, 
   return points;
 }
 
-// Adds K and K u_valve of a surface to the points. A surface without velocities rests.
+// Adds K and K u_valve of a surface to the points. A surface without velocities is at rest.
 void add_resistance(const riis_surface *surface, double R, bool has_velocities, Points &points, riis_marks *marks) {
   auto options = riis::defaults<riis_mark_options>();
   options.fields = has_velocities ? RIIS_FIELD_VELOCITY : 0;
@@ -369,7 +369,7 @@ const Points &marked_points(const ComMod &com_mod, const mshType &mesh, const fs
 void uris_calc_sdf(ComMod &com_mod) {
   if (choice() == Choice::solver) return sv_calc_sdf(com_mod);
   if (com_mod.nsd != 3) throw std::runtime_error("riis: valves need three dimensions");
-  // The solver resets sdf_computed when it has other nodes: at its start, and when it meshes again.
+  // The solver resets sdf_computed if it has new nodes: at its start, and when it makes a new mesh.
   bool other_nodes = engine.valves.size() != com_mod.uris.size();
   for (const urisType &uris : com_mod.uris) other_nodes = other_nodes || !uris.sdf_computed;
   if (other_nodes) {

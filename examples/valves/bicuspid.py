@@ -3,8 +3,8 @@
 """Writes an aortic valve with two cusps instead of three, for riis mark --valve bicuspid.json.
 
 Two equal cusps without a raphe (type 0 of Sievers and Schmidtke, J. Thorac. Cardiovasc. Surg. 133, 2007) hang in a root of
-constant radius. Their free edges meet along the line between the commissures, and open like a fish's mouth. Lengths are in
-centimetres. After a change of the numbers below, run python3 bicuspid.py > bicuspid.json.
+constant radius. The free edges of both cusps meet along the line between the commissures, and open like a fish's mouth. Lengths
+are in centimetres. After you change the numbers below, run python3 bicuspid.py > bicuspid.json.
 """
 import json
 

@@ -1,11 +1,11 @@
 # shellcheck shell=bash
 # SPDX-License-Identifier: Apache-2.0
-# The steps of ./run diseases, which reads this file. They use $build, $demo_packages, build_demo, install_missing, say and step
-# of `run` and of examples/demo/demo.sh.
+# The steps of ./run diseases, which reads this file. The steps use $build, $demo_packages, build_demo, install_missing, say and
+# step of `run` and of examples/demo/demo.sh.
 
 # ./run diseases
 #   Draws the diseases of `riis help diseases` on one sheet, out/diseases.png. Each valve is drawn from above, closed and open. A
-#   prolapse is drawn closed, from above and aside.
+#   prolapse is drawn closed, from above and from the side.
 run_diseases() {
   packages=("${demo_packages[@]}")
   install_missing

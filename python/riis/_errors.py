@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The exceptions of riis, one class for each status of the C library. This module also replaces C names in messages by Python
-names."""
+"""The exceptions of riis, one class for each status of the C library. The module _errors also replaces C names in messages by
+Python names."""
 
 import re
 from collections.abc import Callable
 
 
 class Error(Exception):
-    """The base of all exceptions of riis. The message names the argument and its value.
+    """The base of all exceptions of riis. The message of an exception names the argument and its value.
 
-    ``status`` is the status of the C library, and ``status_name`` the status's name in C.
+    ``status`` is the status of the C library, and ``status_name`` is its name in C.
     """
 
     status: int = 0
@@ -17,7 +17,7 @@ class Error(Exception):
 
 
 class InvalidArgumentError(Error, ValueError):
-    """An argument has a wrong shape, order or value, or is closed."""
+    """An argument has a wrong shape, order or value, or it is closed."""
 
     status = 1
     status_name = "RIIS_INVALID_ARGUMENT"
@@ -31,7 +31,7 @@ class InvalidParameterError(Error, ValueError):
 
 
 class MissingAttributeError(InvalidArgumentError, AttributeError):
-    """The attribute is not there: the marking did not make it, or the object is closed. ``hasattr`` then returns False."""
+    """The object has no such attribute: the marking did not make it, or the object is closed. ``hasattr`` then returns False."""
 
 
 class UnknownParameterError(InvalidParameterError, KeyError):
@@ -69,15 +69,15 @@ class OutOfMemoryError(Error, MemoryError):
 
 
 class UnavailableError(Error, RuntimeError):
-    """The processor lacks the instructions, or the process must not make this call, for example a child of ``fork``, or a
-    call with another thread's object."""
+    """The processor lacks the instructions, or the process must not make this call. Examples are a call in a child of ``fork``,
+    and a call with another thread's object."""
 
     status = 9
     status_name = "RIIS_UNAVAILABLE"
 
 
 class InternalError(Error, RuntimeError):
-    """An error in riis or in a library below it. If an object was being written, it can then only be closed."""
+    """An error in riis or in a library below it. If an object was being written at this time, it can then only be closed."""
 
     status = -1
     status_name = "RIIS_INTERNAL_ERROR"
@@ -119,7 +119,7 @@ _NAMES = {
     "riis_valve_get_parameter": "Valve.parameters",
     "riis_valve_set_open_state": "Valve.set_open_state",
 }
-# Fields of C structs that correspond to an argument with another name in Python. Other fields have the same name as their
+# Fields of C structs that correspond to an argument with another name in Python. All other fields have the same name as their
 # argument.
 _ARGUMENTS = {
     "arrays.vertex_ids": "faces",
@@ -134,7 +134,7 @@ _ARGUMENTS = {
     "options.point_mask": "mask",
     "search.from": "from_",
 }
-# Python's words for C's constants, for each argument.
+# Python's words for C's constants, by argument.
 WORDS = {
     "measure": ("triangles", "sampling", "minimization"),
     "instructions": ("auto", "baseline", "avx2", "avx512"),

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Fits a valve to points, for example from a segmented image. It maximizes a likelihood of the distances to closest points."""
+"""Fits a valve to points, for example from a segmented image. The fit maximizes a likelihood of the distances to closest
+points."""
 
 from __future__ import annotations
 
@@ -29,11 +30,11 @@ _SECTORS = (50.0, 240.0)  # the range of a cusp's sector, degrees
 _MOVES = ("rotation", "translation", "scale")
 # The number of points that the rough search uses.
 _N_ROUGH = 400
-# If n_starts is not given, a fit has at least and at most these numbers of starts.
+# If n_starts is not given, a fit has at least the first and at most the second number of starts.
 _LEAST_STARTS, _LEAST_STARTS_OF_PART, _MOST_STARTS = 4, 8, 20
-# A fit with one of these doubts may have ended in the wrong place, so more starts follow.
+# A fit with one of the doubts below may have ended in the wrong place, so more starts follow.
 _OF_ENDS = ("starts:", "outliers:", "noise:", "misfit:", "cover:")
-# A fit whose measures exceed these limits gets a doubt in its result.
+# A fit whose measures exceed the limits below gets a doubt in its result.
 _MOST_OUTLIERS = 0.3
 _LEAST_COVERED = 0.9
 _MOST_NOISE = 1.25  # largest noise of the residuals, as a multiple of the stated noise
@@ -41,7 +42,7 @@ _MOST_SCATTER = 0.05  # as a share of the valve's size, if no noise is stated
 
 
 class Rival(NamedTuple):
-    """Another fit with a similar cost, but with a surface that differs from the best fit's."""
+    """Another fit with a similar cost, whose surface differs from that of the best fit."""
 
     parameters: dict[str, float]
     placement: dict[str, Any]
@@ -50,7 +51,7 @@ class Rival(NamedTuple):
 
 @dataclass(frozen=True)
 class FitResult:
-    """A fitted valve. Its surface is Surface(result.valve, **result.placement)."""
+    """A fitted valve. The surface is Surface(result.valve, **result.placement)."""
 
     valve: Valve
     placement: dict[str, Any]  #: scale, rotation_axis, rotation_angle (degrees) and translation
@@ -454,7 +455,8 @@ def fit(
     shares = (numpy.array([own[name] for name in names]) - limits[:, 0]) / (limits[:, 1] - limits[:, 0])
     x = numpy.zeros(problem.n)
     x[: len(names)] = numpy.clip(shares, 0.01, 0.99)
-    # Three equal cusps may open farther than unequal ones. So these sizes start apart, and the search sees one rule.
+    # Three equal cusps may open farther than unequal ones. Therefore the sizes of the cusps start with different values, and the
+    # search sees one rule.
     x[: len(names)] += [1e-7 * (i + 1) if name.startswith(("cusp_", "commissure_")) else 0.0 for i, name in enumerate(names)]
     any_rotation = "rotation" in moves and "rotation_angle" not in given
     n_least = min(_LEAST_STARTS if whole else _LEAST_STARTS_OF_PART, n_most)
@@ -538,8 +540,8 @@ def _result(problem: Problem, x: Reals, mixture: Mixture, judged: Judged, found:
         there = problem.values(z)
         if excess < RIVAL:
             rivals.append(Rival(dict(zip(names, there.tolist())), _placement_of(problem.pose(z)), excess))
-            # Widens standard errors towards a rival. If the rival has the same cost, one standard error reaches it. If its cost
-            # is at the limit, three reach it.
+            # Widens standard errors towards a rival. If the rival has the same cost, one standard error reaches the rival. If the
+            # rival's cost is at the limit, three standard errors reach it.
             errors[:n_names] = numpy.maximum(errors[:n_names], numpy.abs(there - values) / span / max(1.0, excess**0.5))
     problem.begin(base)
     seen = problem.at(x)

@@ -28,7 +28,8 @@ _N_UNKNOWNS = {"rotation": 3, "translation": 3, "scale": 1}
 
 
 def matrix_of(vector: Reals) -> Reals:
-    """Returns the rotation for a vector. Its direction is the axis, and its length is the angle in radians (Rodrigues)."""
+    """Returns the rotation for a vector. The direction of the vector is the axis, and its length is the angle in radians
+    (Rodrigues)."""
     angle = float(numpy.linalg.norm(vector))
     if angle == 0.0:
         return numpy.eye(3)
@@ -78,7 +79,7 @@ def vertex_areas(vertices: Reals, triangles: NDArray[numpy.int64]) -> Reals:
 
 def is_fixed_size(valve: Valve, name: str) -> bool:
     """Returns whether a parameter is a size that may be wrong in a fit in which it is not free. A size of one cusp or commissure
-    that was not set follows the valve, so it is no size of its own. The sizes of a bump count if the bump has a place."""
+    that was not set follows the valve, so it does not count. The sizes of a bump count if the bump has a place."""
     part, _, size = name.rpartition(".")
     if part.startswith("bump_"):
         has_place = valve[f"{part}.leaflet"] >= 0.0 or valve[f"{part}.commissure"] >= 0.0
@@ -110,8 +111,8 @@ class Seen(NamedTuple):
 
 
 class Loss(NamedTuple):
-    """The negative logarithm of the density of a residual. It is concave in the square of the residual, so weighted least
-    squares never raise it."""
+    """The negative logarithm of the density of a residual. The negative logarithm is a concave function of the squared residual,
+    so weighted least squares never increase it."""
 
     value: Callable[[Reals], Reals]
     weight: Callable[[Reals], Reals]  # the derivative by half of the residual's square
@@ -143,10 +144,10 @@ class Mixture:
         return numpy.asarray(-numpy.log(normal + 0.5 * self.outliers / self.reach))
 
     def loss(self, whole: bool) -> Loss:
-        # If points lie evenly over the whole valve, each has the probability density 1 / area. So the logarithm of their
-        # likelihood contains the term -n log(area). The rest of the likelihood is biased near an edge. Noise moves points beyond
-        # the edge, and these pull it outwards by n noise^2 / (4 area) per length. A quarter of the area's term pulls the edge
-        # inwards by the same amount, so edges stay in place.
+        # If points lie evenly over the whole valve, each point has the probability density 1 / area. The logarithm of their
+        # likelihood therefore contains the term -n log(area). The rest of the likelihood is biased near an edge. Noise moves
+        # points beyond the edge. Such points pull the edge outwards by n noise^2 / (4 area) per length. A quarter of the area's
+        # term pulls the edge inwards by the same amount, so edges stay in place.
         return Loss(self.value, lambda r: self.inlier(r) / self.noise**2, 0.25 * (1.0 - self.outliers) if whole else 0.0)
 
 
@@ -196,7 +197,7 @@ class Problem:
         return self.bounds[:, 0] + x[: len(self.names)] * (self.bounds[:, 1] - self.bounds[:, 0])
 
     def at_random(self, random: numpy.random.Generator) -> Reals:
-        """Returns random parameters as fractions of their bounds. Lengths are evenly distributed by their logarithms, because
+        """Returns random parameters, as fractions of their bounds. Lengths are evenly distributed by their logarithms, because
         the bounds are half and twice a value."""
         shares = random.uniform(0.05, 0.95, len(self.names))
         for i, (name, (low, high)) in enumerate(zip(self.names, self.bounds.tolist())):
@@ -269,8 +270,8 @@ class Problem:
         return self.last[1]
 
     def slopes(self, x: Reals, steps: Sequence[tuple[str, float, float]]) -> list[tuple[Reals, float] | None]:
-        """Returns the derivatives of the residuals and of log(area) by parameters. An entry is None if the valve's values near x
-        do not fit together.
+        """Returns the derivatives of the residuals and of log(area) by the parameters. An entry is None if the valve's values
+        near x do not fit together.
 
         A closest point moves with its place on the triangle, because a shift along the surface does not change the distance.
 
@@ -326,8 +327,8 @@ class Problem:
         return result, area
 
     def fixed_jacobian(self, x: Reals) -> tuple[Reals, Reals]:
-        """Returns the derivatives of the residuals and of log(area) by the fixed sizes. A derivative is for a change by the
-        whole value of a length or ratio, or by a radian of an angle."""
+        """Returns the derivatives of the residuals and of log(area) by the fixed sizes. Each derivative is for a change of a
+        length or ratio by its whole value, or of an angle by a radian."""
         self.set_valve(x)
         steps = []
         for name, parameter in self.valve.parameters.items():
@@ -353,13 +354,13 @@ class Problem:
         jacobian, area = self.jacobian(x)
         weighted = (self.weights * loss.weight(seen.residual))[:, None] * jacobian
         n_area = loss.area * float(self.weights.sum())
-        # The Gauss-Newton matrix of the area's term. It is the matrix of a quarter of that term, because this gives
-        # the right uncertainty of edges.
+        # The Gauss-Newton matrix of the area's term. The matrix is that of a quarter of the area's term, because this gives the
+        # right uncertainty of edges.
         return weighted.T @ seen.residual + n_area * area, jacobian.T @ weighted + 0.125 * n_area * numpy.outer(area, area)
 
     def solve(self, x: Reals, loss: Loss, n_steps: int, change: float, held: int | None = None) -> Reals:
         """Minimizes the cost from x by Levenberg and Marquardt's steps, until the cost changes by less than `change` (of a
-        likelihood's logarithm). An unknown that is held does not move."""
+        likelihood's logarithm). Unknowns that are held do not move."""
         damping, cost = 1e-3, self.cost(x, loss)
         for _ in range(n_steps):
             if self.at(x) is None:
@@ -416,8 +417,8 @@ class Problem:
 
     def best_pose(self, x: Reals, rotations: Reals, middle: Reals | None,
                   random: numpy.random.Generator | None) -> tuple[float, Pose] | None:
-        """Turns the base by each rotation, and returns the mean loss and the pose that is closest to the points.
-        Returns None if the values do not fit together.
+        """Rotates the base by each rotation, and returns the mean loss and the pose that is closest to the points. Returns None
+        if the values do not fit together.
 
         middle  a position for the middle of the surface; None keeps the translation
         random  if given, and if the points do not cover the whole valve, the middle is a position for random points of the

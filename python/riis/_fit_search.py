@@ -23,8 +23,8 @@ _SAME = 0.02
 _HOPELESS = 0.15
 # The largest number of fits that are refined.
 _N_ENDS = 4
-# A fit is a rival if the likelihood ratio leaves it possible: twice the difference of the logarithms is below this number, the
-# square of three standard errors.
+# A fit is a rival if the likelihood ratio leaves it possible. Twice the difference of the logarithms is then below this number,
+# the square of three standard errors.
 RIVAL = 9.0
 # An unknown is undetermined if its standard error exceeds this fraction of a reference: the width of its bounds, a radian, the
 # valve's size, or the scale.
@@ -41,7 +41,7 @@ _LEAST_EVIDENCE = 4.0
 _N_SIMULATED = 8000
 # If the cost hardly rises at two standard errors, the profile looks this many times as far before it accepts a larger error.
 _FARTHER = 2.5
-# A fit with other values counts as better if it gains this much, as twice the logarithm of a ratio of likelihoods.
+# A fit with other values counts as better if it gains this much. The gain is twice the logarithm of a ratio of likelihoods.
 _LEAST_GAIN = 0.1
 
 
@@ -70,7 +70,7 @@ class Judged(NamedTuple):
 
 
 def probes_of(problem: Problem, x: Reals, random: numpy.random.Generator, n: int = 150) -> Reals:
-    """Returns n points that lie evenly on the surface at x."""
+    """Returns n points that are spread evenly over the surface at x."""
     surface, pose = problem.set_valve(x), problem.pose(x)
     assert surface is not None
     triangles, vertices = surface.triangles.vertex_id, surface.vertices
@@ -83,8 +83,8 @@ def probes_of(problem: Problem, x: Reals, random: numpy.random.Generator, n: int
 
 
 def simulated(problem: Problem, x: Reals, noise: float, n: int, random: numpy.random.Generator) -> Reals:
-    """Returns at most n points as a whole valve at x would give them, with normal noise. They lie evenly on the surface. If there
-    is a thickness, they lie on both faces, less densely near the rims."""
+    """Returns at most n points as a whole valve at x would give them, with normal noise. The points are spread evenly over the
+    surface. If there is a thickness, the points lie on both faces, and less densely near the rims."""
     if problem.thickness == 0.0:
         points = probes_of(problem, x, random, n)
     else:  # points near the surface move to its faces, and around its rims
@@ -101,14 +101,14 @@ def simulated(problem: Problem, x: Reals, noise: float, n: int, random: numpy.ra
 
 
 def likeliest_spread(pull: Reals, response: Reals, covariance: Reals, only_possible: bool) -> tuple[float, Reals, Reals]:
-    """Takes the likeliest variance of fixed sizes that seem wrong, the same for all. Returns how much likelier this variance
-    is than none (the logarithm of the ratio), and the expectation and the covariance of the sizes.
+    """Finds the likeliest variance of fixed sizes that seem wrong, the same variance for all sizes. Returns how much likelier
+    this variance is than no variance (the logarithm of the ratio), and the expectation and the covariance of the sizes.
 
     response       the derivatives of the pull by the sizes
     covariance     of the pull if the sizes have no variance
     only_possible  leaves out directions in which the pull needs more than three standard deviations, each of 1
     """
-    # A pull of less than 1e-3 says nothing about sizes with a spread of 1. So rounding does not count.
+    # A pull of less than 1e-3 says nothing about sizes with a spread of 1. Rounding errors therefore do not count.
     chances, axes = numpy.linalg.eigh(covariance)
     white = (axes / numpy.sqrt(chances.clip(0.0) + 1e-6)).T
     left, gains, right = numpy.linalg.svd(white @ response)
@@ -135,8 +135,8 @@ def is_same(problem: Problem, x: Reals, log_area: float, end: End) -> bool:
 
 
 def _add(problem: Problem, x: Reals, cost: float, ends: list[End], orbit: int | None, random: numpy.random.Generator) -> None:
-    """Adds the fit x to the fits, or counts it with the fit that has the same surface. The fit x came from a start, or from
-    a turn of a fit of an orbit."""
+    """Adds the fit x to the fits, or counts it with the fit that has the same surface. The fit x came from a start, or from a
+    rotation of a fit of an orbit."""
     seen = problem.at(x)
     if seen is None:
         return
@@ -159,8 +159,8 @@ def _add(problem: Problem, x: Reals, cost: float, ends: list[End], orbit: int | 
 
 def search(problem: Problem, pose: Pose, given: Reals, middle: Reals | None, any_rotation: bool, n_least: int, n_most: int,
            random: numpy.random.Generator) -> tuple[list[End], int]:
-    """Minimizes roughly from one start after the other, until two of them reach the best fit. Returns the fits, the best first,
-    and the number of starts."""
+    """Minimizes roughly from one start after the other, until two starts have reached the best fit. Returns the fits, the best
+    first, and the number of starts."""
     n_names = len(problem.names)
     wide = wide_loss(0.05 * problem.size)
     ends: list[End] = []
@@ -179,7 +179,7 @@ def search(problem: Problem, pose: Pose, given: Reals, middle: Reals | None, any
         _add(problem, x, problem.cost(x, mixture.loss(problem.whole)), ends, orbit, random)
 
     def turn() -> None:
-        """Turns the best fit by one cusp, and swaps front and back, because a turned valve looks similar."""
+        """Rotates the best fit by one cusp, and exchanges front and back, because a rotated valve looks similar."""
         first, orbit = ends[0], ends[0].orbit
         angles = (90.0, 180.0, 270.0) if problem.valve.kind == "quadricuspid" else (120.0, 240.0, 180.0)
         for angle in numpy.radians(angles):
@@ -304,9 +304,9 @@ class Judge:
 
     def _of_fixed(self, precision: Reals, jacobian: Reals, free_area: Reals, inlier: Reals, factor: float,
                   variances: Reals) -> Reals:
-        """Returns the share of the squared errors that comes from fixed sizes. It is 0 unless other values of these sizes would
-        fit better than chance allows. It consists of two parts: the shift of the unknowns in a fit with all sizes, and the
-        variance that this fit adds.
+        """Returns the share of the squared errors that comes from fixed sizes. The share is 0 if other values of the fixed sizes
+        do not fit better than chance allows. The share consists of two parts: the shift of the unknowns in a fit with all sizes,
+        and the variance that this fit adds.
 
         variances  the other share of the squared errors
         """
@@ -323,8 +323,8 @@ class Judge:
         full[:n, :n] = precision
         shares = numpy.linalg.solve(precision, full[:n, n:])
         alone = full[n:, n:] - full[n:, :n] @ shares
-        # The free unknowns are at rest only up to the precision of the search. A size with almost the same effect would feel
-        # this.
+        # The free unknowns are at rest only up to the precision of the search. A size with almost the same effect as an unknown
+        # would be sensitive to this precision.
         apart, of_area = columns - jacobian @ shares, n_area * (area - free_area @ shares)
         pull = -apart.T @ (weights * seen.residual) - of_area
 
@@ -347,8 +347,8 @@ class Judge:
         return found if evidence >= _LEAST_EVIDENCE else numpy.zeros(n)
 
     def _profile(self, errors: Reals, covariance: Reals, ratio: Reals) -> tuple[Reals, Reals | None]:
-        """Holds each parameter two standard errors away, and minimizes over the others. If the cost rises less than the standard
-        error predicts, the error is widened."""
+        """Holds each parameter two standard errors away, and minimizes over all other parameters. If the cost rises less than the
+        standard error predicts, the error is widened."""
         problem, loss = self.problem, self.mixture.loss(self.problem.whole)
         best = problem.cost(self.x, loss)
         errors, better, least = errors.copy(), None, -_LEAST_GAIN

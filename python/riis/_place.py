@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A valve's sizes and placement from a patient's landmarks. The program's own sources read them (docs/formats.md)."""
+"""A valve's sizes and placement from a patient's landmarks. The sources of the program read them (docs/formats.md)."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ WORDS_OF_UNITS = {name: words for name, (_, words) in units().items()}
 
 @dataclass(frozen=True)
 class PlaceResult:
-    """A placed valve. Its surface is Surface(result.valve, **result.placement). Lengths of the placement, residuals, noise and
+    """A placed valve. The surface is Surface(result.valve, **result.placement). Lengths of the placement, residuals, noise and
     position_error have the unit of the landmarks; parameters are in centimetres."""
 
     valve: Valve
@@ -55,7 +55,7 @@ class PlaceResult:
         return self._report
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the file of a placed valve, which each command of the program riis takes as --valve FILE.json."""
+        """Writes the file of a placed valve, which each command of the program riis accepts as --valve FILE.json."""
         Path(path).write_text(with_parameters(self._file, self.valve))
 
 
@@ -88,8 +88,8 @@ def place(
 
     The valve is copied. Raises InvalidArgumentError naming landmarks that are missing, in one place, collinear, mirrored, or not
     of the size of a heart valve in this unit. If landmarks are not at the nodes, the message says whether they would be there
-    with the axes LPS and RAS swapped, or in another unit. Raises InvalidParameterError for sizes that do not fit together, for
-    a folding warp, and for any warp of a bileaflet valve, which is rigid.
+    with LPS and RAS swapped, or in another unit. Raises InvalidParameterError for sizes that do not fit together, for a folding
+    warp, and for any warp of a bileaflet valve, which is rigid.
     """
     if warp not in ("none", "exact", "smoothed"):
         raise InvalidArgumentError(f"warp is {warp!r}; it must be none, exact or smoothed")

@@ -12,7 +12,7 @@ from riis._riis import PlacedFile, Valve, Warp
 
 
 class PlacedValve(NamedTuple):
-    """A placed valve from a file. Its surface is Surface(placed.valve, **placed.placement)."""
+    """A placed valve from a file. The surface is Surface(placed.valve, **placed.placement)."""
 
     valve: Valve  #: closed, and warped if the file has a warp
     placement: dict[str, Any]  #: scale, rotation_axis, rotation_angle (degrees) and translation
@@ -33,7 +33,7 @@ def read_placed(path: str | os.PathLike[str], unit: str | None = None) -> Placed
 
 
 def open_placed(path: str | os.PathLike[str], unit: str | None) -> tuple[PlacedFile, Valve]:
-    """Reads a placed valve as read_placed does. Returns the file's content and the valve."""
+    """Reads a placed valve as read_placed does. Returns the content of the file, and the valve."""
     name = os.fspath(path)
     file = PlacedFile(name, Path(path).read_text("utf-8-sig", "replace"), unit)
     try:

@@ -21,8 +21,8 @@ if TYPE_CHECKING:
     from riis._riis import Marks, Mesh, Surface
 
 
-# Blue, orange, bluish green, reddish purple, vermilion and sky blue: distinct for all kinds of colour vision (Okabe, Ito 2008).
-# The program's pictures have the same colours in the same order.
+# Blue, orange, bluish green, reddish purple, vermilion and sky blue can be distinguished with every kind of colour vision (Okabe,
+# Ito 2008). The program's pictures have the same colours in the same order.
 COLOURS = ("#0072b2", "#e69f00", "#009e73", "#cc79a7", "#d55e00", "#56b4e9")
 
 
@@ -61,7 +61,7 @@ def _look(plotter: Any, zoom: float) -> None:
 
 
 def round_length(limit: float) -> float:
-    """Returns the largest length of one digit, 1, 2 or 5, up to the limit."""
+    """Returns the largest length that has one digit, 1, 2 or 5, and is not above the limit."""
     power = 10.0 ** math.floor(math.log10(limit))
     return next((digit * power for digit in (5.0, 2.0) if digit * power <= limit), power)
 
@@ -69,8 +69,8 @@ def round_length(limit: float) -> float:
 class _ScaleBar:
     """A line of a round length at the lower left of a picture, with its length beside it, as in the program's pictures.
 
-    The length is true in the plane through the camera's focal point at right angles to the line of sight. It is computed
-    anew before each picture, because the camera or the window may have changed.
+    The length is true in the plane through the camera's focal point at right angles to the line of sight. The length of the bar
+    is computed anew before each picture, because the camera or the window may have changed.
     """
 
     def __init__(self) -> None:
@@ -134,7 +134,7 @@ _BARS: weakref.WeakKeyDictionary[Any, _ScaleBar] = weakref.WeakKeyDictionary()  
 
 
 def add_scale_bar(plotter: Any, unit: str | None, lift: float = 0.0) -> None:
-    """Adds a scale bar to a plotter, or gives its scale bar another unit. None or "" stands for mesh units. The bar is lifted by
+    """Adds a scale bar to a plotter, or changes the unit of its scale bar. None or "" stands for mesh units. The bar is lifted by
     this share of the picture's height."""
     bar = _BARS.setdefault(plotter, _ScaleBar())
     bar.unit, bar.lift = unit or "", lift
@@ -166,7 +166,8 @@ def _check_of_mesh(marks: Marks | None, mesh: Mesh | None) -> None:
 
 
 def point_size_of(n_marks: int, height: int) -> float:
-    """Returns the size of a marked node in pixels. Few nodes are drawn large, and many so small that they do not become one."""
+    """Returns the size of a marked node in pixels. Few nodes are drawn large. Many nodes are drawn so small that they do not
+    merge."""
     return max(2.0, min(11.0, 350.0 / max(n_marks, 1) ** 0.5)) * max(height, 1) / 768.0
 
 
@@ -304,8 +305,8 @@ def animate(
     plotter     a pyvista.Plotter(off_screen=True) with your own camera and objects, which is closed afterwards
     unit        of the mesh, such as "mm", for the scale bar. None stands for "mesh units"
 
-    Without plotter, the camera looks at the first frame obliquely from above. If a frame raises an exception, no file is left. A
-    movie needs imageio besides PyVista, .mp4 also imageio-ffmpeg.
+    Without plotter, the camera looks at the first frame, obliquely from above. If a frame raises an exception, no file is left. A
+    movie needs imageio in addition to PyVista. A .mp4 also needs imageio-ffmpeg.
     """
     pyvista = _pyvista()
     name = os.fspath(path)

@@ -219,7 +219,7 @@ class LeafletSizes(NamedTuple):
 
 
 class Orifice(NamedTuple):
-    """The area that a surface's triangles leave uncovered, seen along its axis. Lengths are in mesh units."""
+    """The area that a surface's triangles leave uncovered, as seen along its axis. Lengths are in mesh units."""
 
     area: float
     outline_area: float  #: area inside the outline

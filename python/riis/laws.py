@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Laws of opening: a valve's opening from the time, the pressure difference and the flow.
 
-The same arguments give the same bits, and no state is kept between calls. Times, pressures and flows have the solver's units.
-The pressure difference is upstream minus downstream pressure, and flow is positive downstream, so positive values of both open
-a valve. ``rate`` is the derivative of the opening by time. States are plain values, which can be kept in a restart file. To
-repeat a step, start from the earlier state.
+The same arguments give the same bits, and no state is kept between calls. Times, pressures and flows are in the solver's units.
+The pressure difference is upstream minus downstream pressure, and flow is positive in the downstream direction. Positive values
+of both open a valve. ``rate`` is the derivative of the opening by time. States are plain values, which can be kept in a restart
+file. To repeat a step, start from the earlier state.
 """
 
 from __future__ import annotations
@@ -96,7 +96,7 @@ class OpeningSwitchState:
 
 @dataclass(frozen=True)
 class OpeningSwitch:
-    """A valve that opens when the pressure difference exceeds open_above, and closes when the flow falls below close_below."""
+    """The valve opens when the pressure difference exceeds open_above, and closes when the flow falls below close_below."""
 
     opening_duration: float  #: time from closed to open
     closing_duration: float  #: time from open to closed

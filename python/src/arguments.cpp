@@ -14,7 +14,8 @@ bool is_text(nb::handle value) { return PyUnicode_Check(value.ptr()) || PyBytes_
 }  // namespace
 
 void refuse_mask(nb::handle value, const char *name) {
-  // Masked arrays have the attributes mask and filled. Both are checked, because objects of pandas also have a method mask.
+  // Masked arrays have the attributes mask and filled. Both attributes are checked, because objects of pandas also have a method
+  // mask.
   if (nb::hasattr(value, "mask") && nb::hasattr(value, "filled"))
     refuse_type(name, "is a masked array, and its mask would be lost; pass ", name, ".filled(...), or ", name,
                 ".data if the mask does not matter");

@@ -12,7 +12,7 @@ namespace riis_python {
 // Refuses a masked array, such as numpy.ma's, because its buffer contains values for hidden entries.
 void refuse_mask(nb::handle value, const char *name);
 
-// Returns whether a value has entries. An array without dimensions has none, because it counts as a number.
+// Returns whether a value has entries. An array without dimensions has no entries, because it counts as a number.
 bool has_entries(nb::handle value);
 
 // Returns a number. bool and text are refused.

@@ -78,7 +78,7 @@ struct Points {
   const double *x = nullptr, *y = nullptr, *z = nullptr;
   std::int64_t stride = 1;
 };
-// Returns the points of an array (n, 3). Its strides may be any positive whole numbers of doubles.
+// Returns the points of an array (n, 3). The strides of the array may be any positive whole numbers of doubles.
 Points points_of(nb::handle xyz, const char *name);
 // Returns the points of one array (n, 3), or of three arrays (n) with equal strides.
 Points points_of(nb::handle xyz, nb::handle y, nb::handle z);
@@ -88,7 +88,7 @@ nb::object new_array(const char *type, std::initializer_list<std::int64_t> shape
 // Returns a new numpy array of equal entries.
 nb::object new_filled_array(const char *type, std::initializer_list<std::int64_t> shape, nb::handle value);
 
-// Returns a read-only numpy array that shows memory without a copy. It keeps the memory's owner alive.
+// Returns a read-only numpy array that shows memory without a copy. The array keeps the memory's owner alive.
 template <class T>
 nb::object view_of(const T *data, std::initializer_list<std::size_t> shape, nb::handle owner) {
   static const T empty[1] = {};

@@ -41,8 +41,8 @@ template <class... Parts>
 // Throws the exception of a property's getter again. If it refuses the object, it also becomes an AttributeError.
 [[noreturn]] void raise_as_attribute_error(const nb::python_error &error);
 
-// Returns the getter of a property. Marks without the property's field, or a closed object, then answer hasattr and
-// inspect.getmembers, which expect an AttributeError.
+// Returns the getter of a property. If marks lack the property's field, or the object is closed, hasattr and inspect.getmembers
+// then work. They expect an AttributeError.
 template <class Result, class Self>
 auto attribute(Result (*get)(Self)) {
   return [get](Self self) -> Result {

@@ -12,7 +12,8 @@ std::atomic<int> n_inside{0};
 std::atomic<int> n_forks{0};
 std::atomic<bool> inside_at_fork{false};
 
-// In the child, no thread is inside the library. Other threads do not exist there, and the forking thread was not inside.
+// In the child process, no thread is inside the library. Other threads do not exist in the child process, and the thread that
+// forked was not inside.
 void begin_child() {
   inside_at_fork = n_inside.exchange(0) > 0;
   ++n_forks;

@@ -17,7 +17,7 @@ bool was_inside_at_fork() noexcept;
 int fork_number() noexcept;
 
 // Refuses to make a surface in a child process if another thread of the parent was inside the library at the fork. TBB would wait
-// for threads that the child lacks.
+// for threads that do not exist in the child.
 void check_surfaces_allowed(const char *name);
 
 // Records which threads use an object. All fields are read and written under the interpreter's lock.
@@ -122,7 +122,7 @@ inline void call_shortly(riis_status status) {
   if (status) raise_status(status, in_python(riis_last_error()));
 }
 
-// A handle of riis.h. The memory is destroyed with this object or, if arrays show it, with the last of these arrays.
+// A handle of riis.h. The memory is destroyed with the handle or, if arrays show it, with the last of these arrays.
 template <class C, void (*destroy)(C **)>
 struct Handle {
   Handle() = default;
@@ -148,10 +148,10 @@ struct Handle {
     return keeper_of(owner);
   }
 
-  // Returns whether anything else than this object uses the memory. In that case the memory must not be written.
+  // Returns whether anything other than this object uses the memory. In that case the memory must not be written.
   bool is_shared() const { return owner.use_count() > 1; }
 
-  // Takes the memory of another handle. This handle's own memory is left to the arrays that show it.
+  // Takes the memory of another handle. The memory of this handle is left to the arrays that show it.
   void take(Handle &other) {
     release();
     handle = std::exchange(other.handle, nullptr);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Laws of opening. riis/laws.py has the classes. The functions here take the classes' values one by one.
+// Laws of opening. riis/laws.py has the classes. The functions in laws.cpp receive the values of these classes one by one.
 #include "module.hpp"
 #include "surface.hpp"
 

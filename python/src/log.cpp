@@ -8,7 +8,7 @@ namespace {
 thread_local bool in_log_function = false;
 
 // The present log function. References to earlier functions are never released, because a thread may still be sending a message
-// to one of them. This pointer is replaced under the interpreter's lock.
+// to one of them. The pointer to the log function is replaced under the interpreter's lock.
 PyObject *log_function = nullptr;
 
 void forward(void *, std::int32_t level, const char *message) {

@@ -42,7 +42,8 @@ void update(Mesh &self, nb::handle xyz, nb::handle y, nb::handle z) {
   if (is_other_size) drop_adjacency(self);
 }
 
-// Calls the library with a grid. Its numbers are those of an array (len(x), len(y), len(z)), unless the caller gives strides.
+// Calls the library with a grid. The numbers of the grid's nodes are those of an array (len(x), len(y), len(z)), unless the
+// caller gives strides.
 void take_grid(Mesh &mesh, nb::handle x, nb::handle y, nb::handle z, nb::handle first, nb::handle stride,
                nb::handle n_nodes) {
   riis_grid grid;

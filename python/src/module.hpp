@@ -32,7 +32,7 @@ struct Keyframes : Handle<riis_keyframes, riis_keyframes_destroy> {
 struct Surface : Handle<riis_surface, riis_surface_destroy> {
   static constexpr const char *python_name = "Surface";
   riis_surface_options options{};  // the options in use
-  // Copies of arrays that the user requested. They are copies, because an update overwrites the library's memory.
+  // Copies of arrays that the user requested. The library's arrays are copied, because an update overwrites its memory.
   nb::object vertices, uv, velocities, triangles;
 
   void close(const char *name);
@@ -51,7 +51,7 @@ struct Mesh : Handle<riis_mesh, riis_mesh_destroy> {
   nb::object adjacency;     // an Adjacency whose rows are used, kept alive
   std::int64_t places = new_places();
 
-  // Returns a number for the nodes' present positions. It differs for every mesh, and after every update.
+  // Returns a number for the nodes' present positions. The number differs for every mesh, and after every update.
   static std::int64_t new_places();
 
   ~Mesh() { riis_mesh_destroy(&handle); }  // destroys the handle before the borrowed arrays
@@ -91,7 +91,7 @@ void add_method(nb::module_ &module, const char *type, const char *name, Functio
   nb::cpp_function_def(function, nb::scope(module.attr(type)), nb::name(name), nb::is_method(), extra...);
 }
 
-// Gives a valve the warps that these pickled states describe.
+// Gives a valve the warps that pickled states describe.
 void warp_as_pickled(nb::handle valve, nb::handle state);
 void add_warp(nb::module_ &module);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The program's rules for patients: files of landmarks and placed valves, units, and sizes that fit together. The program's own
-// sources read and judge them (src/program/CMakeLists.txt).
+// The program's rules for patients: files of landmarks and placed valves, units, and sizes that fit together. The sources of the
+// program read and judge them (src/program/CMakeLists.txt).
 #include <algorithm>
 #include <memory>
 #include <optional>
@@ -27,8 +27,8 @@ namespace {
 namespace program = riis::program;
 constexpr program::Reader reader = program::Reader::python;
 
-// Calls code of the program without the interpreter's lock, and throws its refusals as Python's exceptions. `subject` begins most
-// refusals. It may be a path, in which no words are replaced.
+// Calls code of the program without the interpreter's lock, and throws its refusals as Python's exceptions. `subject` is the
+// beginning of most refusals. The subject may be a path, whose words must not be replaced.
 template <class Call>
 void call_program(const std::string &subject, const Call &call) {
   check_not_logging();

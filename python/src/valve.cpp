@@ -242,8 +242,8 @@ void make_from_state(Valve *self, const nb::tuple &state) {
                                       nb::arg("leaflet_id") = patches[4], nb::arg("index_base") = patches[5]);
   Valve &valve = object<Valve>(made, "valve");
   if (!open.is_none()) {
-    // The library refuses an open state that does not fit the valve. So the valve first takes the open state's own values. Its
-    // real values come last, because only surfaces check whether they fit the open state.
+    // The library refuses an open state that does not fit the valve. The valve therefore first takes the values of the open
+    // state. The real values of the valve come last, because only surfaces check whether they fit the open state.
     set_all(valve, values_of(object<Valve>(open, "open")));
     set_open_state(valve, open);
     for (const nb::handle name : names_of(valve)) unset(valve, name);

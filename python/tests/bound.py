@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""bound.py ROOT: the Python package must bind every function and field of riis.h, or the list here must give a reason.
+"""bound.py ROOT: checks that the Python package binds every function and field of riis.h, or that the list here gives a reason.
 
-Every message of the library that names a part of riis.h must have a Python name for it. The check only reads sources, so it needs
-neither the package nor numpy.
+Also checks that every message of the library that names a part of riis.h has a Python name for it. The check only reads sources,
+so it needs neither the package nor numpy.
 """
 
 import pathlib

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
- * c_marks COORDINATES OUTPUT OFFSET: marks nodes in C, for comparison in the tests of the Python package.
- * Reads xyz as doubles. Marks nodes around the mitral valve, which moves from opening 0.3 to 0.4 in 0.05 s. Writes the marks as
- * raw arrays. The number of marked nodes, ids, distances, triangles, leaflets, normals and velocities come first. K and K u of
- * all nodes follow. With an offset, the heights of the marked nodes are last. */
+ * c_marks COORDINATES OUTPUT OFFSET: marks nodes in C. The tests of the Python package compare its marks with theirs. Reads xyz
+ * as doubles. Marks nodes around the mitral valve, which moves from opening 0.3 to 0.4 in 0.05 s. Writes the marks as raw arrays.
+ * The number of marked nodes, ids, distances, triangles, leaflets, normals and velocities come first. K and K u of all nodes
+ * follow. With an offset, the heights of the marked nodes come last. */
 #include <riis/riis.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -2,10 +2,10 @@
 """check_types.py FOLDER: checks the stubs of the installed package on every Python example, with mypy and with pyright.
 
 The programs are from docs/python.md, the notebook, the example for dolfinx, and typed.py. FOLDER gets the programs of the
-document and of the notebook as files. typed.py is strict in all respects. The examples have no annotations of their own, so that
-they read well. All other rules of mypy --strict hold for them, and the bodies of their functions are checked. Packages for
-pictures count as anything, and so do packages without types, such as dolfinx. The plug-in for ParaView is left out, because it
-passes options that ParaView collects at run time.
+document and of the notebook as files. typed.py is strict in all respects. The examples have no annotations, so that they read
+well. All other rules of mypy --strict hold for them, and the bodies of their functions are checked. Packages for pictures count
+as anything, and so do packages without types, such as dolfinx. The plug-in for ParaView is left out, because it passes options
+that ParaView collects at run time.
 """
 
 import json
@@ -18,7 +18,8 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
 def programs_of_the_document():
-    """Returns the programs by name. The first two belong together, and so do the next seven. The others stand alone."""
+    """Returns the programs by name. The first two programs belong together, and so do the next seven. All other programs stand
+    alone."""
     blocks = re.findall(r"```python\n(.*?)```", (ROOT / "docs/python.md").read_text(encoding="utf-8"), re.DOTALL)
     if len(blocks) != 11:
         raise SystemExit(f"check_types.py: docs/python.md has {len(blocks)} programs, not 11")

@@ -69,7 +69,7 @@ class Server:
         self.address, self.root, self.port, self.key = found[0], found[1], int(found[2]), found[3]
 
     def end(self):
-        """Ends the process as Ctrl C does. It must end by itself, without an error."""
+        """Ends the process as Ctrl C does. The process must end by itself, without an error."""
         self.process.send_signal(signal.SIGINT)
         assert self.process.wait(LIMIT) == 0, self.log.read_text(encoding="utf-8")
 

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Prints the time that the Python layer adds to riis_mark_nodes, for a million nodes and a prepared mesh.
 
-The library measures its own time within each call (stats.seconds). So every step compares times of the same run: the time of the
-call in Python, with views of ids and distances, minus the time of the C function. The printed times are medians over the steps.
+The library measures its own time within each call (stats.seconds). Every step therefore compares times of the same run: the time
+of the call in Python, with views of ids and distances, minus the time of the C function. The printed times are medians over the
+steps.
 """
 
 import statistics

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * embree_cost LIBRARY OTHER_LIBRARY: compares what riis does with Embree, single queries and updates, in two builds of libriis
- * that differ in their Embree (python/embree.sh cost). Both take turns in one process on one thread, and their processor time
- * counts. Their distances must have the same bits. */
+ * embree_cost LIBRARY OTHER_LIBRARY: compares two builds of libriis with different versions of Embree (python/embree.sh cost).
+ * The program compares everything that riis does with Embree: single queries and updates. Both builds take turns in one process
+ * on one thread, and their processor time counts. The distances of both builds must have the same bits. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <math.h>

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Fits random patients with riis.fit, and prints how many of the fits are wrong and not flagged (docs/design/fits.md)."""
+"""Fits random patients with riis.fit, and prints how many of the fits are wrong and have no doubt (docs/design/fits.md)."""
 
 import multiprocessing
 import sys
@@ -14,7 +14,7 @@ from riis._fit_problem import is_fixed_size
 
 
 class Studied(NamedTuple):
-    """How a kind of valve is studied."""
+    """Describes how a kind of valve is studied."""
 
     spreads: dict  # the free sizes, and how much each varies as a share of its default
     most_open: float
@@ -32,7 +32,7 @@ KINDS = {
                       {"AP_diameter": 3.3, "ALPM_diameter": 3.6, "anterior_length": 2.3, "opening": 0.3}),
     "bileaflet": Studied({"radius": 0.2}, 1.0, {"radius": 1.2, "opening": 0.3}),
 }
-# Other kinds have a known valve for fit_table.py, and no patients, so that each seed of the study keeps its patient.
+# Other kinds have a known valve for fit_table.py, but no patients. Each seed of the study therefore keeps its patient.
 NO_PATIENTS = {
     "bicuspid": {"root_radius": 1.3, "cusp_0.sector": 205.0, "cusp_1.sector": 155.0, "opening": 0.35},
     "quadricuspid": {"root_radius": 1.2, "effective_height": 0.95, "opening": 0.35},
@@ -68,7 +68,7 @@ class Patient:
 
 
 def points_on(random, surface, n, keep=None):
-    """Returns points that lie evenly on the triangles of a surface, and the normals there."""
+    """Returns points that are spread evenly over the triangles of a surface, and the normals there."""
     vertices, triangles = surface.vertices, surface.triangles
     a, b, c = (vertices[triangles.vertex_id[:, k]] for k in range(3))
     normal = numpy.cross(b - a, c - a)
@@ -154,7 +154,7 @@ def patient(seed):
 
 
 def rotation_of(vector):
-    """Returns the rotation around a vector by an angle that is the vector's length (Rodrigues)."""
+    """Returns the rotation about a vector by an angle that is the vector's length (Rodrigues)."""
     angle = numpy.linalg.norm(vector)
     x, y, z = vector / angle
     cross = numpy.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
@@ -162,7 +162,7 @@ def rotation_of(vector):
 
 
 def examine(one):
-    """Fits a patient and notes the errors of the sizes that are not flagged."""
+    """Fits a patient, and notes the errors of sizes without a doubt."""
     start = time.process_time()
     one.found = found = riis.fit(one.points, one.kind, **one.options)
     one.seconds = time.process_time() - start

@@ -15,7 +15,7 @@ CASES = ((0.0, 0, 0.0), (0.01, 0, 0.0), (0.02, 0, 0.0), (0.05, 0, 0.0), (0.02, 2
 
 
 def cloud(kind, n_points, noise, n_gaps=0, outliers=0.0, seed=0, placement=None):
-    """Returns points of a known valve, evenly distributed over its area. They have normal noise, gaps (balls of radius 0.5
+    """Returns points of a known valve, evenly distributed over its area. The points have normal noise, gaps (balls of radius 0.5
     without points) and outliers."""
     random = numpy.random.default_rng(seed)
     surface = riis.Surface(riis.Valve(kind, **VALVES[kind]), half_thickness=0.05, tolerance=0.02, **(placement or PLACEMENT))

@@ -163,7 +163,7 @@ def test_the_first_program_is_in_all_texts():
 
 @pytest.mark.parametrize("name, n_least, used", [("tutorial", 10, {"Mesh", "mark", "animate", "fit"}), ("inverse", 4, set())])
 def test_notebooks_are_committed_without_outputs(name, n_least, used):
-    """A notebook is committed without outputs, because nobody would check them. ./run python runs it."""
+    """A notebook is committed without outputs, because nobody would check them. ./run python runs the notebook."""
     notebook = json.loads((ROOT / f"examples/python/{name}.ipynb").read_text(encoding="utf-8"))
     assert notebook["cells"][0]["source"][0].startswith("<!-- SPDX-License-Identifier: Apache-2.0 -->")
     cells = [cell for cell in notebook["cells"] if cell["cell_type"] == "code"]

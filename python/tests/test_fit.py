@@ -45,7 +45,7 @@ def test_known_valves_are_found_again(kind):
         assert abs(found.parameters[name] - value) < 5.0 * found.standard_errors[name] < most, name
         assert found.valve[name] == found.parameters[name]
     assert 0.005 < found.rms < 0.02  # the noise along the normal is 0.01
-    # The fitted surface is the known one: points without noise have small distances from it.
+    # The fitted surface is the known surface: points without noise have small distances from it.
     clean = fit_table.cloud(kind, 500, 0.0, seed=1)
     surface = riis.Surface(found.valve, **found.placement)
     assert numpy.percentile(surface.closest_points(clean).distance, 90) < 0.02
@@ -302,7 +302,7 @@ def test_derivatives_by_fixed_sizes_are_those_of_new_closest_points():
 
 @pytest.mark.parametrize("thickness", [0.0, 0.2])
 def test_simulated_points_lie_on_the_surface_or_on_its_faces(thickness):
-    """Their residuals have the noise, and the problem keeps its own points."""
+    """The residuals of simulated points have the noise, and the problem keeps its own points."""
     points = numpy.random.default_rng(17).uniform(-1.5, 1.5, (50, 3))
     problem, x = problem_of("bileaflet", points, thickness=thickness)
     own = problem.look(x).residual
@@ -374,7 +374,7 @@ TRILEAFLET = {"root_radius": 1.15, "leaflet_height": 1.3, "opening": 0.2}
 
 @pytest.mark.parametrize("kind, whole", [("trileaflet", True), ("trileaflet", False), ("aortic", False)])
 def test_a_fit_to_one_leaflet_of_three_is_right_or_flagged(kind, whole):
-    """An earlier fault: the height had an error of 1.1 and a standard error of 0.0025."""
+    """An earlier version had this fault: the height had an error of 1.1 and a standard error of 0.0025."""
     true = {**TRILEAFLET} if kind == "trileaflet" else {"root_radius": 1.2, "leaflet_height": 1.1, "bending_height": 0.65}
     surface = riis.Surface(riis.Valve(kind, **true), half_thickness=0.05, tolerance=0.02)
     points, _ = fit_study.points_on(numpy.random.default_rng(7), surface, 400, lambda middle, leaflet_id: leaflet_id == 0)
@@ -385,8 +385,8 @@ def test_a_fit_to_one_leaflet_of_three_is_right_or_flagged(kind, whole):
 
 @pytest.mark.parametrize("whole", [True, False])
 def test_a_fit_to_an_attachment_is_right_or_flagged(whole):
-    """An earlier fault: the radius was 2.27 with a standard error of 0.15, although thirty points of an edge do not
-    determine the opening."""
+    """An earlier version had this fault: the radius was 2.27 with a standard error of 0.15, although thirty points of an edge do
+    not determine the opening."""
     surface = riis.Surface(riis.Valve("trileaflet", **TRILEAFLET))
     edges = surface.attachment.edges.mean(axis=1)
     one = known("trileaflet", TRILEAFLET, edges[numpy.random.default_rng(8).choice(len(edges), 30)], whole=whole)
@@ -396,7 +396,8 @@ def test_a_fit_to_an_attachment_is_right_or_flagged(whole):
 
 @pytest.mark.parametrize("whole", [True, False])
 def test_a_fifth_of_outliers_is_left_out(whole):
-    """An earlier fault: a size had an error of 0.9. Since the points cover the valve, the fit must have no doubts."""
+    """An earlier version had this fault: a size had an error of 0.9. Since the points cover the valve, the fit must have no
+    doubts."""
     random = numpy.random.default_rng(9)
     surface = riis.Surface(riis.Valve("trileaflet", **TRILEAFLET), half_thickness=0.05, tolerance=0.02)
     points, _ = fit_study.points_on(random, surface, 500)
@@ -428,22 +429,22 @@ def test_random_patients_are_right_or_flagged():
 @pytest.mark.parametrize("seed", [7020, 7039, 7053, 7254, 50047, 50249])
 def test_whole_valves_whose_sizes_were_undetermined(seed):
     """Cases from past faults. Patient 7020 starts with far too large roots (see also test_starts_are_near_enough). In patient
-    7053, three of 26 parts determine a length, with large residuals there by chance. In 7039 and 7254, a few points near the
-    edges of two closed disks pull as if the housing had other angles. In 50047, two root radii are equally likely. In
-    50249, a profile looked too far."""
+    7053, three of 26 parts determine a length. By chance, the points of these three parts have large residuals. In patients 7039
+    and 7254, a few points near the edges of two closed disks pull as if the housing had other angles. In patient 50047, two root
+    radii are equally likely. In patient 50249, a profile looked too far."""
     one = fit_study.examine(fit_study.patient(seed))
     assert one.found.doubts == () and one.found.undetermined == () and not one.wrong(), one.found.report()
 
 
 def test_a_pull_beyond_chance_leaves_a_size_undetermined():
-    """The fixed sizes of this valve are wrong. Simulated points do not explain their pull, so the doubt stays."""
+    """The fixed sizes of this valve are wrong. Simulated points do not explain the pull of these sizes, so the doubt stays."""
     one = fit_study.examine(fit_study.patient(1061))
     assert one.case == "other shape" and one.found.undetermined == ("root_radius",) and not one.wrong(), one.found.report()
 
 
 @pytest.mark.parametrize("seed", [104, 117, 134])
 def test_starts_are_near_enough(seed):
-    """With these seeds, at most one of 20 starts reaches this patient's fit if a start does not choose among valves."""
+    """With these seeds, a start that does not choose among valves reaches this patient's fit in at most one of 20 cases."""
     one = fit_study.patient(7020)
     one.options["seed"] = seed
     found = fit_study.examine(one).found
@@ -470,8 +471,8 @@ def test_sizes_without_influence_are_named(seed):
 
 
 def test_sizes_that_trade_with_the_placement_have_an_influence():
-    """A turn of the valve moves a single disk as the opening does. The data therefore determine neither, although each of
-    them moves the disk."""
+    """A rotation of the valve moves a single disk in the same way as the opening does. The data therefore determine neither
+    rotation nor opening, although each of them moves the disk."""
     valve = riis.Valve("bileaflet", opening=0.4)
     random, disk = numpy.random.default_rng(16), lambda middle, leaflet_id: leaflet_id == 0
     points, _ = fit_study.points_on(random, riis.Surface(valve), 400, disk)
@@ -509,7 +510,7 @@ def test_sectors_have_a_sum_of_360():
 
 
 def test_a_bump_is_fitted_at_a_known_place():
-    """How far a cusp opens at one place is found. The other bumps and the cusps' own sizes are no fixed sizes."""
+    """How far a cusp opens at one place is found. The other bumps and the sizes of the cusps are not fixed sizes."""
     place = {"bump_0.leaflet": 1, "bump_0.width": 0.3}
     true = riis.Valve("coapting", opening=0.9, **place, **{"bump_0.open": 0.4})
     points, _ = fit_study.points_on(numpy.random.default_rng(23), riis.Surface(true), 600, None)
@@ -570,7 +571,7 @@ def test_a_larger_scatter_than_the_stated_noise_is_doubted():
 
 
 def test_a_wrong_model_is_doubted_and_widens_the_errors():
-    """The fit keeps the bending height, and the known valve has another bending height than the start."""
+    """The fit keeps the bending height. The known valve has another bending height than the start."""
     true = {"root_radius": 1.2, "leaflet_height": 1.25, "opening": 0.3}
     found = []
     for height in (0.625, 0.85):  # the rule gives the first value, half of leaflet_height
@@ -585,8 +586,8 @@ def test_a_wrong_model_is_doubted_and_widens_the_errors():
 
 
 def test_two_places_that_fit_equally_are_rivals():
-    """The points lie on one of the two open disks, which are parallel. They fit both disks, so a shift by the distance of the
-    disks is a rival."""
+    """The points lie on one of the two open disks, which are parallel. The points fit both disks, so a shift by the distance of
+    the disks gives a rival."""
     valve = riis.Valve("bileaflet", opening=1.0, open_angle=90.0)
     surface = riis.Surface(valve)
     points, _ = fit_study.points_on(numpy.random.default_rng(13), surface, 200, lambda middle, leaflet_id: leaflet_id == 0)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Marks equal a C program's marks to the last bit, for any layout of the arrays and any search."""
+"""Marks are equal to those of a C program, to the last bit, for any layout of the arrays and any search."""
 
 import subprocess
 
@@ -173,8 +173,8 @@ def test_a_result_is_reused(surface, mesh, valve):
 def test_fields_equal_those_of_closest_points(grid):
     valve = riis.Valve("trileaflet", opening=0.5)
     before = riis.Valve("trileaflet", opening=0.4)
-    # The valve is shifted, so that no node lies in a plane of symmetry. In such a plane two leaflets would be equally near, and
-    # the velocity would be the mean of both.
+    # The valve is shifted, so that no node lies in a plane of symmetry. In a plane of symmetry two leaflets would be equally
+    # near, and the velocity would be the mean of both.
     surface = riis.Surface(valve, translation=(0.0123, 0.0217, 0.0))
     surface.update_moving(valve, before, 0.01)
     names = ["point", "normal", "barycentric", "side", "rim", "uv", "velocity", "patch_id"]

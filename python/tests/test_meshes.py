@@ -213,8 +213,9 @@ def test_what_a_valve_means_for_the_flow():
 
 @pytest.mark.parametrize("offset", [0.75, -0.6])
 def test_edges_that_leak_with_an_offset(offset):
-    """Random edges of 2 (1 - |o|) half thicknesses do not leak, and beside a sharp corner and a mitral valve no edges of
-    2 sqrt(1 - o^2). Of edges of almost 2 half thicknesses only some beside a rim do: riis size-field shortens the edges there."""
+    """Random edges of 2 (1 - |o|) half thicknesses do not leak, and beside a sharp corner and a mitral valve no edges of 2
+    sqrt(1 - o^2). Of edges of almost 2 half thicknesses, only some edges beside a rim leak: riis size-field shortens the edges
+    there."""
     random, half, n, n_leaks = numpy.random.default_rng(59), 0.16, 50_000, 0
     options = {"half_thickness": half, "offset": offset}
     surfaces = [riis.Surface(riis.Valve(kind, opening=0.5), **options) for kind in ("trileaflet", "mitral")]
@@ -267,8 +268,8 @@ def test_find_by_area():
 
 
 def test_areas_over_time_become_a_cycle():
-    """The areas of a beat come back within 1e-6 with the fixed triangulation, and the openings with them. The effective areas
-    with an offset are larger than without."""
+    """The openings from the areas of a beat give these areas within 1e-6, with the fixed triangulation. With an offset, the
+    effective areas are larger."""
     time = numpy.linspace(0.0, 0.3, 4)
     law = riis.OpeningTable(time, numpy.array([0.0, 0.35, 0.8, 0.0]))
     valve = riis.Valve("coapting")

@@ -11,7 +11,7 @@ import riis
 
 pytest.importorskip("sklearn", reason="scikit-learn is missing; ./run python installs it")
 
-# This program marks nodes and clusters points, in the order of its arguments, and prints both results.
+# The child program marks nodes and clusters points, in the order of its arguments, and prints both results.
 PROGRAM = """
 import ctypes, pathlib, sys
 import numpy
@@ -60,7 +60,8 @@ def test_both_results_are_those_of_each_alone(order, monkeypatch):
 
 
 def test_the_module_needs_few_names_of_openmp():
-    """Any libgomp since gcc 4.9 has these functions. The module binds all of them when it is loaded, so it uses one run-time."""
+    """Any libgomp since gcc 4.9 has the functions of the test. The module of riis binds all of these functions when it is loaded,
+    so it uses one run-time."""
     module = pathlib.Path(riis._riis.__file__)
     answer = subprocess.run(["nm", "-D", "--undefined-only", module], capture_output=True, text=True, check=True)
     names = {line.split()[-1].split("@")[0] for line in answer.stdout.splitlines()}

@@ -53,7 +53,7 @@ def test_least_squares(seed):
     # proportion to the residuals.
     numpy.testing.assert_allclose(list(found.standard_errors.values()), errors, rtol=1e-2)
     assert found.worst == found.residuals.max() and found.worst_landmark == NAMES[int(found.residuals.argmax())]
-    # The residuals belong to the placement: the landmarks' places are where the result puts them.
+    # The residuals belong to the placement, because the landmarks' places are where the result puts them.
     at = found.placement
     axis, degrees = numpy.array(at["rotation_axis"]), at["rotation_angle"]
     local = trileaflet(*got) + found.valve["translation"]
@@ -171,7 +171,7 @@ def test_warps(kind, tmp_path):
     surface = riis.Surface(exact.valve, **exact.placement)
     nearest = numpy.linalg.norm(surface.vertices[:, None] - points, axis=2).min(0)
     assert nearest.max() < 1e-9
-    # The places are on the valve before the warp, as far from the landmarks as the residuals say.
+    # The places are on the valve before the warp. The distances of the places from the landmarks are the residuals.
     numpy.testing.assert_allclose(numpy.linalg.norm(exact.places - points, axis=1), exact.residuals, atol=1e-9)
     smoothed = riis.place(named, kind, unit="mm", warp="smoothed", noise=0.3)
     assert 0.02 < numpy.sqrt((smoothed.warped_residuals**2).mean()) < 0.6 and smoothed.warp_noise == 0.3
@@ -193,7 +193,7 @@ def test_warps(kind, tmp_path):
     assert numpy.linalg.norm(attachment - further["attachment"][0], axis=1).min() < 0.5
     with pytest.raises(riis.InvalidArgumentError, match="it must be none, exact or smoothed"):
         riis.place(named, kind, unit="mm", warp="yes")
-    # A point of the attachment may be equal to another landmark. It is refused if it is only near.
+    # A point of the attachment may be equal to another landmark. A point that is only near another landmark is refused.
     at = named["commissure_left_non"]
     twice = riis.place({**named, "attachment": [at, at]}, kind, unit="mm", warp="exact")
     assert (twice.places[6:] == twice.places[list(named).index("commissure_left_non")]).all()
@@ -274,7 +274,7 @@ def test_refused_placed_valves(tmp_path):
 def test_warps_that_fold_are_refused():
     named = dict(zip(NAMES, 10 * trileaflet(1.1, 1.05, 1.4), strict=True))
     # Two points of one cusp's attachment are far apart, across the attachment. No smooth map without folds moves the valve to
-    # both.
+    # both points.
     torn = named | {"attachment_right_1": (21, 2, 1), "attachment_right_2": (1, -2, 1)}
     with pytest.raises(riis.InvalidParameterError, match='the warp folds near ".*its determinant is -'):
         riis.place(torn, "coapting", unit="mm", warp="exact")

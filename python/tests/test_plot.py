@@ -33,7 +33,7 @@ def test_a_picture_shows_the_leaflets_and_the_marks(surface, mesh, marks, tmp_pa
     background = pictures[0][0]
     drawn = [numpy.count_nonzero((picture != background).any(axis=1)) for picture in pictures]
     assert drawn[0] > 10_000 and drawn[1] > 1.1 * drawn[0]  # the band is wider than the leaflets
-    # The nodes are seen: beside the leaflets, more pixels than there are nodes differ strongly from the background.
+    # The nodes are visible. In addition to the leaflets, more pixels than there are nodes differ strongly from the background.
     is_beside = (pictures[0] == background).all(axis=1)
     assert numpy.count_nonzero(is_beside & (abs(pictures[1] - background).sum(axis=1) > 500)) > len(marks)
     with pytest.raises(riis.InvalidArgumentError, match="marks: must be given together with mesh"):

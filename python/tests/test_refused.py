@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Bad input is refused with an exception. Its class tells the kind of fault, and its text names the argument."""
+"""Bad input is refused with an exception. The class of the exception tells the kind of fault, and its text names the argument."""
 
 import inspect
 import math

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Threads mark at the same time. One thread writes an object while no other uses it. The log reaches Python."""
+"""Threads mark at the same time. One thread writes an object while no other thread uses it. The log reaches Python."""
 
 import threading
 import time
@@ -55,7 +55,7 @@ def test_the_lock_is_released(surface, xyz):
     end = time.perf_counter()
     is_over.set()
     thread.join()
-    # Python code must run while the call runs. This would be impossible if the call held the interpreter's lock.
+    # Python code must run while the call runs. Python code could not run if the call held the interpreter's lock.
     middle = [t for t in ticks if begin + 0.25 * (end - begin) < t < begin + 0.75 * (end - begin)]
     assert middle
 

@@ -236,7 +236,7 @@ def test_cusps_follow_the_valve_until_they_are_set():
 @pytest.mark.parametrize("kind, leaflets", [("bicuspid", [0, 1]), ("quadricuspid", [0, 1, 2, 3]), ("mitral_coapting", [0, 1]),
                                             ("tricuspid", [0, 1, 2])])
 def test_leaflets_and_skirts_have_ids(kind, leaflets):
-    """A skirt's id is the largest cusp's and one more, and at least 3."""
+    """The id of a skirt is one more than that of the last cusp, and at least 3."""
     assert [one.leaflet_id for one in riis.Surface(riis.Valve(kind)).leaflets()] == leaflets
     with_skirt = riis.Surface(riis.Valve(kind, skirt_length=0.2))
     assert [one.leaflet_id for one in with_skirt.leaflets()] == [*leaflets, max(3, len(leaflets))]

@@ -119,7 +119,8 @@ def faces_alone(cells, faces):
 
 
 def test_the_wall_is_the_boundary(small, random):
-    """The wall of tetrahedra with a hole inside, and of hexahedra, has normals outwards. It encloses the volume of the cells."""
+    """The wall of tetrahedra with a hole inside, and of hexahedra, has normals outwards. The wall encloses the volume of the
+    cells."""
     points, tetrahedra = small
     n = 5
     axis = numpy.linspace(-1.0, 1.0, n)
@@ -329,7 +330,7 @@ def test_the_first_click_is_for_cusp_0(kind):
 
 @pytest.mark.parametrize("kind", view.KINDS)
 def test_clicks_anywhere_on_a_circle(kind, random):
-    """The circle through any three clicks becomes the annulus. Its axis points to the side of the given axis."""
+    """The circle through any three clicks becomes the annulus. The axis of the annulus points to the side of the given axis."""
     model = view.Model(numpy.zeros((1, 3)), unit="mm")
     i = model.add(kind)
     for _ in range(5):
@@ -377,7 +378,7 @@ def test_landmarks(random):
 
 
 def test_undo_is_exact(small, random):
-    """Random changes are undone and made again, and compared with a list of snapshots."""
+    """Random changes are undone and redone, and compared with a list of snapshots."""
     model = view.Model(*small, unit="cm")
     history, at = [model.valves], 0
     for _ in range(60):
@@ -609,8 +610,8 @@ def test_a_thin_band_and_its_cure(small):
 
 
 def test_an_offset_is_judged_with_its_band(fine):
-    """The offset does not open a valve without a gap. It opens a wider gap, and shortens the band beyond the rim. The edges that
-    leak are those of the shifted band."""
+    """The offset does not open a valve without a gap. The offset opens a wider gap, and shortens the band beyond the rim. The
+    edges that leak are those of the shifted band."""
     model = view.Model(*fine, unit="cm")
     i = model.add("coapting")
     model.set(i, "annulus", 2.55)
@@ -686,7 +687,7 @@ def share_outside(surface, radius):
 
 
 def test_the_light_inside_is_green_up_to_two_percent(fine):
-    """The valve is shifted step by step. The light turns where the share of the area outside the cylinder passes 2 %."""
+    """The valve is shifted step by step. The light changes where the share of the area outside the cylinder passes 2 %."""
     model = view.Model(*fine, unit="cm")
     i = model.add("coapting")
     model.set(i, "half_thickness", 0.16)
@@ -702,7 +703,8 @@ def test_the_light_inside_is_green_up_to_two_percent(fine):
 
 
 def two_cubes(path, version, groups):
-    """Writes two cubes, one above the other, in these groups: version 2.2 of gmsh has a cube once for each of its groups."""
+    """Writes two cubes, one above the other, in the given groups. Version 2.2 of gmsh contains a cube once for each of its
+    groups."""
     nodes = [(x, y, z) for z in range(3) for y in range(2) for x in range(2)]
     cubes = [[1, 2, 4, 3, 5, 6, 8, 7], [5, 6, 8, 7, 9, 10, 12, 11]]
     lines = ["$MeshFormat", f"{version} 0 8", "$EndMeshFormat", "$PhysicalNames", "4", '3 1 "all"', '3 2 "lumen"', '2 3 "lid"']
@@ -725,7 +727,7 @@ def two_cubes(path, version, groups):
 
 @pytest.mark.parametrize("version", ["2.2", "4.1"])
 def test_cells_of_two_physical_groups_are_read_once(tmp_path, version):
-    """The wall of the view would otherwise be missing. All groups of a cell can be chosen."""
+    """Without the check for repeated cells, the view would have no wall. All groups of a cell can be chosen."""
     pytest.importorskip("pyvista", reason="PyVista is missing; ./run python installs it")
     pytest.importorskip("meshio", reason="meshio is missing; ./run python installs it")
     path = tmp_path / "twice.msh"
@@ -1054,7 +1056,7 @@ def test_a_case_that_moves(tmp_path, small):
 @pytest.mark.parametrize("unit", ["m", "cm", "mm"])
 @pytest.mark.parametrize("scale", [1.0, 0.97])
 def test_r_is_in_kilograms_metres_and_seconds(tmp_path, small, unit, scale):
-    """The command, the case, the script and the dictionary give one K, also where a scale hides the unit from the program."""
+    """The command, the case, the script and the dictionary give the same K, even if a scale hides the unit from the program."""
     pyvista = pytest.importorskip("pyvista", reason="PyVista is missing; ./run python installs it")
     program = program_riis()
     metres = {"m": 1.0, "cm": 1e-2, "mm": 1e-3}[unit]

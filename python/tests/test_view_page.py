@@ -146,7 +146,7 @@ def test_a_browser_needs_a_desktop(monkeypatch):
 
 
 def test_a_page_loses_nothing(tmp_path):
-    """Undo, refusals, and changes while a movie is being written leave the page as it was."""
+    """Undo, refusals, and changes during the writing of a movie leave the page as it was."""
     pytest.importorskip("imageio_ffmpeg", reason="imageio-ffmpeg is missing; ./run python installs it")
     try:
         scene.check_of_graphics()
@@ -364,8 +364,8 @@ def test_leaflets_and_bumps_have_sliders(tmp_path):
 
 
 def test_a_patient_on_the_page(tmp_path, capsys):
-    """From a wall and clicks on it to a placed valve with a skirt, in a mesh that is opened last. The copied command gives the
-    marks on the screen, and each refusal is a message."""
+    """Leads from a wall and clicks on it to a placed valve with a skirt, in a mesh that is opened last. The copied command gives
+    the marks on the screen, and each refusal is a message."""
     try:
         scene.check_of_graphics()
     except RuntimeError as missing:
@@ -438,7 +438,7 @@ def test_a_patient_on_the_page(tmp_path, capsys):
         assert page.model.valves[0].resistance == pytest.approx(2e4) and state.resistance == "20000"
         assert "resistance" in tell(page._on_set, "resistance", "much")
 
-        # The skirt, and then the mesh: the valve, the wall and the landmarks stay.
+        # The skirt is set, and then the mesh is opened. The valve, the wall and the landmarks stay the same.
         page._on_skirt(True, None)
         assert state.skirt_on and page.model.valves[0].skirt > 0.5
         assert "longest" in tell(page._on_skirt, True, "0.2") and page.model.valves[0].skirt > 0.5
@@ -467,7 +467,7 @@ def test_a_patient_on_the_page(tmp_path, capsys):
             assert numpy.array_equal(numpy.flatnonzero(made["riis_marked"]), shown.marked)
             assert numpy.array_equal(made["riis_distance"][shown.marked], shown.distance)
 
-        # A picture has the size that is asked for, and no lights in it.
+        # A picture has the requested size, and shows no lights.
         state.picture_width, state.picture_height = "700", "300"
         page.scene.show_lights(page.model.lights())
         seen = page.scene._actors["riis handle"].GetVisibility()
@@ -514,7 +514,8 @@ def test_a_patient_on_the_page(tmp_path, capsys):
 
 
 def test_a_heartbeat_pauses_without_a_browser(tmp_path, monkeypatch):
-    """A slow browser, which has not shown a picture yet, does not pause a heartbeat. The end of the last browser does."""
+    """A slow browser that has not yet shown a picture does not pause a heartbeat. When the last browser ends, the heartbeat
+    pauses."""
     try:
         scene.check_of_graphics()
     except RuntimeError as missing:

@@ -264,7 +264,7 @@ def test_refused_landmarks_say_what_helps(patient, wall, tmp_path):
         model.save_landmarks(tmp_path / "x.mrk.json")
     with pytest.raises(riis.InvalidArgumentError, match="must end in .mrk.json or .json"):
         model.save_landmarks(tmp_path / "x.txt")
-    # The landmarks of the other axes are far from the wall. The message says so.
+    # The landmarks with the other axes are far from the wall. The message says so.
     turned = model_of(patient, wall)
     turned.set_axes("RAS")
     turned.read_landmarks(patient / "landmarks.mrk.json")
@@ -278,7 +278,7 @@ def test_refused_landmarks_say_what_helps(patient, wall, tmp_path):
 
 
 def test_a_valve_is_placed_from_the_wall_and_landmarks(patient, wall, mesh, tmp_path):
-    """The placed valve is that of riis.place. Undo takes it back as one step, with its residuals."""
+    """The placed valve is that of riis.place. Undo reverts it in one step, including its residuals."""
     model = model_of(patient, wall, mesh)
     i = model.add("coapting")
     model.read_landmarks(patient / "landmarks.mrk.json")
@@ -320,7 +320,7 @@ def test_a_placed_file_opens_and_is_written(patient, wall, mesh, tmp_path):
         (tmp_path / "again.json").write_text(model.placed_file(i))
         again = riis.read_placed(tmp_path / "again.json")
         assert numpy.array_equal(riis.Surface(again.valve, **options).vertices, model.surface(i).vertices)
-        # A valve that is moved by hand takes its warp along: all its points make the same move.
+        # If a valve is moved by hand, its warp moves with it: all its points make the same move.
         before, origin = model.surface(i).vertices.copy(), numpy.array(model.valves[i].origin)
         model.place(i, origin + factor * numpy.array([1.0, -2.0, 3.0]))
         moved = model.surface(i).vertices - before
@@ -335,8 +335,8 @@ def test_a_placed_file_opens_and_is_written(patient, wall, mesh, tmp_path):
 
 
 def test_a_skirt_reaches_the_wall(patient, wall):
-    """The outer rim of the skirt lies on the wall, at each opening it stays, and undo removes it. Without a mesh nothing is
-    marked, and the lights judge the valve in the wall."""
+    """The outer rim of the skirt lies on the wall. The rim stays on the wall at each opening, and undo removes the skirt. Without
+    a mesh nothing is marked, and the lights judge the valve in the wall."""
     model = model_of(patient, wall)
     i = model.add("coapting")
     model.read_landmarks(patient / "landmarks.mrk.json")

@@ -178,7 +178,7 @@ assert sorted(shell.user_ns["Out"]) == [3, 4, 7, 8]
 
 
 def test_what_a_notebook_shows_is_not_in_the_way(tmp_path):
-    """IPython keeps every displayed object, in Out and _. This must not prevent later calls."""
+    """IPython keeps every displayed object, in Out and _. The kept objects must not prevent later calls."""
     pytest.importorskip("IPython", reason="IPython is missing; ./run python installs it")
     environment = {**os.environ, "IPYTHONDIR": str(tmp_path)}
     answer = subprocess.run([sys.executable, "-B", "-c", NOTEBOOK], env=environment, capture_output=True, text=True, check=False)

@@ -3,7 +3,7 @@
 
 import numpy
 
-# A cube is cut into six tetrahedra around its diagonal. They fit the tetrahedra of neighbouring cubes.
+# A cube is cut into six tetrahedra around its diagonal. The tetrahedra of a cube fit those of neighbouring cubes.
 _SIX = ((0, 1, 2, 6), (0, 2, 3, 6), (0, 3, 7, 6), (0, 7, 4, 6), (0, 4, 5, 6), (0, 5, 1, 6))
 
 

@@ -13,7 +13,7 @@
 
 BEGIN_C_DECLS
 
-/* These objects are made in the first time step. */
+/* The objects of riis are made in the first time step. */
 static riis_valve *valve, *valve_before;
 static riis_surface *surface;
 static riis_mesh *mesh;
@@ -147,7 +147,7 @@ static void create_valve(void) {
 static void advance_law(void) {
   const cs_mesh_quantities_t *q = cs_glob_mesh_quantities;
   const cs_real_3_t *u = (const cs_real_3_t *)CS_F_(vel)->val;
-  /* The slab's volume, and the integrals of pressure and velocity over it. */
+  /* The volume of a slab, and the integrals of pressure and velocity over it. */
   double upstream[3] = {0}, downstream[2] = {0};
   for (cs_lnum_t c = 0; c < cs_glob_mesh->n_cells; ++c) {
     const double z = q->cell_cen[3 * c + 2], v = q->cell_vol[c], p = CS_F_(p)->val[c];
@@ -169,8 +169,8 @@ static void advance_law(void) {
   check(riis_opening_switch_advance(&law, &state, time, drop, flow, &state));
 }
 
-/* Refuses a valve that left the mesh. Outside the mesh no cell would be marked, and the flow would pass as if there were no
- * valve. The attachment of an open valve is up to a half thickness outside the wall. */
+/* Refuses a valve that has left the mesh. No cell would then be marked, and the flow would pass as if there were no valve. The
+ * attachment of an open valve is up to a half thickness outside the wall. */
 static void check_place(void) {
   riis_surface_info info;
   check(riis_surface_get_info(surface, &info, sizeof info));

@@ -18,7 +18,7 @@ subroutine cs_f_user_boundary_conditions(nvar, nscal, icodcl, itrifb, itypfb, iz
       real(c_double) :: value
     end function setting
   end interface
-  ! The pressure of the ventricle minus the pressure of the aorta, in Pa, at times of a beat, in s.
+  ! The pressure difference between ventricle and aorta in Pa, at times of a beat in s.
   double precision, parameter :: key_time(6) = [0d0, 0.02d0, 0.04d0, 0.1d0, 0.14d0, 0.3d0]
   double precision, parameter :: key_difference(6) = [-4d2, -4d2, 4d2, 4d2, -4d2, -4d2]
   integer, allocatable :: faces(:)

@@ -35,7 +35,8 @@ static cs_gnum_t global_number(int64_t cell) {
   return numbers != NULL ? numbers[cell] : (cs_gnum_t)cell + 1;
 }
 
-/* Mixes the bits of a number, so that a sum over cells depends on all cells but not on their order (finaliser of MurmurHash3). */
+/* Mixes the bits of a number, so that a sum over cells depends on all cells but not on their order. The function is the last step
+ * of MurmurHash3. */
 static cs_gnum_t mix(cs_gnum_t x) {
   x ^= x >> 33;
   x *= 0xff51afd7ed558ccdULL;

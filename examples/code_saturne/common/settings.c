@@ -14,7 +14,7 @@ static const struct {
     /* The number of the last time step, which counts from the start even after a restart. */
     {"RUN_STEPS", 10, 1, 1e6},
     {"RUN_DT", 0.002, 1e-9, 1}, /* s */
-    /* A time step after which a checkpoint is written, besides the last one. */
+    /* A time step after which a checkpoint is written, in addition to the last time step. */
     {"RUN_CHECKPOINT", 0, 0, 1e6},
     {"RUN_INFLOW", 0, 0, 10},                 /* m/s at the inlet; 0: pressures at the inlet and the outlet */
     {"RUN_CELLS_EVERY", 0, 0, 1e6},           /* steps from one list of marked cells to the next; 0: none */

@@ -2,7 +2,7 @@
 ! Puts a heart valve into code_saturne 6.0, by a momentum source, in Fortran. The momentum equation gets the source -K (u -
 ! u_surface). -K is its implicit part, and K u_surface its explicit part. The pressure equation of code_saturne does not take this
 ! source into account. The pressure drop therefore builds up over several time steps, and stays too small. The head losses in ../c
-! avoid this.
+! avoid this delay.
 module valve_in_root
   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_int64_t, c_null_char, c_ptr
   use riis
@@ -10,7 +10,7 @@ module valve_in_root
   private
   public :: advance_valve, write_checkpoint, record_step, coefficient, momentum, present_valve
 
-  ! These objects are made in the first time step.
+  ! The objects of riis are made in the first time step.
   type(riis_valve), save :: valve, valve_before
   type(riis_surface), save :: surface
   type(riis_mesh), save :: cells
@@ -142,7 +142,7 @@ contains
     call check(status)
     call valve%copy(valve_before, status=status)
     call check(status)
-    ! The valve is in centimetres, the mesh in metres. Each processor has a rank of its own, so one thread is enough.
+    ! The valve is in centimetres, the mesh in metres. Each processor runs one rank, so one thread is enough.
     call surface%create(valve, half_thickness=setting('VALVE_HALF_THICKNESS'//c_null_char), scale=0.01d0, &
       translation=[0d0, 0d0, setting('VALVE_Z'//c_null_char)], n_threads=1, status=status)
     call check(status)
@@ -191,7 +191,7 @@ contains
     call check(status)
   end subroutine advance_law
 
-  ! Refuses a valve that left the mesh. Its cells would not be marked, and the flow would pass as if there were no valve. The
+  ! Refuses a valve that has left the mesh. No cells would then be marked, and the flow would pass as if there were no valve. The
   ! attachment of an open valve is up to a half thickness outside the wall.
   subroutine check_place()
     type(riis_surface_info) :: info

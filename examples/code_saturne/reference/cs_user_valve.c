@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Makes the reference of ./run code_saturne: a head-loss zone of the solver's own, without riis. The zone's cells and their
- * K are read from the file named by REFERENCE_CELLS. This file contains all cells_*.csv of a run with the valve. */
+ * Makes the reference of ./run code_saturne: the solver's own head-loss zone, without riis. The zone's cells and their K are read
+ * from the file named by REFERENCE_CELLS. This file contains all the files cells_*.csv of a run with the valve. */
 #include "cs_defs.h"
 #include "cs_headers.h"
 #include "record.h"

@@ -80,7 +80,7 @@ contains
     drop_of = fluid%mean_pressure(fluid%h * 1.5_dp) - fluid%mean_pressure(fluid%h * (fluid%n(3) - 1.5_dp))
   end function drop_of
 
-  ! (a) A pressure difference drives a steady flow through a square duct. The closed form is a series of cosines.
+  ! (a) A pressure difference drives a steady flow through a square duct. The exact formula is a series of cosines.
   subroutine check_duct()
     integer, parameter :: sizes(3) = [6, 12, 24]
     real(dp), parameter :: side = 0.01_dp, gradient = 0.01_dp ! the flow is so slow that inertia is negligible
@@ -127,7 +127,7 @@ contains
     call demand(all(abs(order - 2) < 0.2_dp), 'both are of second order')
   end subroutine check_duct
 
-  ! (b) A plate closes a duct with a given flow. The next step must have the whole drop, for every size of the time step.
+  ! (b) A plate closes a duct with a given flow. The next step must have the whole drop, whatever the size of the time step.
   subroutine check_drop()
     real(dp), parameter :: h = 1e-3_dp, R = 1e4_dp, eps = 1.5_dp * h, u = 0.1_dp
     type(flow) :: fluid
@@ -154,8 +154,8 @@ contains
     call demand(worst < 0.05_dp, 'each is within 5 % of (R/eps) u')
   end subroutine check_drop
 
-  ! (b) A plate closes the same duct, but the pressure equation has no K. The drop of each face then lacks the share (1 +
-  ! rho/(K dt))^-steps.
+  ! (b) A plate closes the same duct, but the pressure equation does not contain K. Each face in the band then lacks the share
+  ! (1 + rho/(K dt))^-steps of its drop.
   subroutine check_slow_drop()
     real(dp), parameter :: h = 1e-3_dp, R = 1e4_dp, eps = 1.5_dp * h, u = 0.1_dp, dt = 1e-3_dp
     integer, parameter :: seen(5) = [1, 10, 100, 1000, 10000]
@@ -229,7 +229,7 @@ contains
     call demand(fits, 'both are within their bounds')
   end subroutine check_balance
 
-  ! (d) A plate that moves through a duct must take the fluid along like a piston. Without u_surface it does not.
+  ! (d) A plate that moves through a duct must move the fluid like a piston. Without u_surface the fluid stays at rest.
   subroutine check_u_surface()
     real(dp), parameter :: h = 1e-3_dp, R = 1e4_dp, eps = 1.5_dp * h, w = 0.1_dp, dt = 1e-3_dp
     type(flow), target :: fluid
@@ -271,10 +271,9 @@ contains
       'with K u_surface the plate and the leaflets move the fluid, without K u_surface the fluid rests')
   end subroutine check_u_surface
 
-  ! (g) An explicit K makes the flow grow without limit where K dt/rho is too large. The scheme is
-  ! sum over j of a(j) u(n+1-j) = -(K dt/rho) sum over j of b(j) u(n+1-j), with b(0) = 0. From a history whose sign changes in
-  ! each step, the check finds by bisection the largest K dt/rho at which u decays. Algebra gives the value at which the scheme
-  ! has the root -1.
+  ! (g) With an explicit K, the flow grows without limit where K dt/rho is too large. The scheme is sum over j of a(j) u(n+1-j) =
+  ! -(K dt/rho) sum over j of b(j) u(n+1-j), with b(0) = 0. The history changes its sign in each step. The check finds by
+  ! bisection the largest K dt/rho at which u decays. Algebra gives the value at which the scheme has the root -1.
   subroutine check_explicit()
     integer, parameter :: n_schemes = 6
     character(len=33), parameter :: names(n_schemes) = [character(len=33) :: 'forward Euler', 'BDF2, EXT2', &
@@ -322,9 +321,9 @@ contains
     decays = maxval(abs(u(1:3))) < 1
   end function decays
 
-  ! (i) The leak of a closed valve hardly depends on the offset. Rims are cut, and a skirt leads into the wall. The half thickness
-  ! is 1 mm, and a cell has the size h in mm. The walls of the first rows are straight. In a root the band steps into the sinuses,
-  ! where it has more area. The last root is that of the trileaflet valve, which the other checks take.
+  ! (i) The leak of a closed valve hardly depends on the offset. Rims are cut, and a skirt extends into the wall. The half
+  ! thickness is 1 mm, and a cell has the size h in mm. The walls of the first rows are straight. In a root, the offset moves the
+  ! band into the sinuses, where it has more area. The last root is that of the trileaflet valve, which the other checks also use.
   subroutine check_closed(h, n_rows)
     real(dp), intent(in) :: h
     integer, intent(in) :: n_rows
@@ -432,7 +431,7 @@ contains
     end do
   end subroutine study
 
-  ! In step 3 the law of opening gets a pressure that is not a number. The library must refuse it.
+  ! In step 3 the law of opening receives a pressure that is not a number. The library must refuse it.
   subroutine feed_nan()
     type(riis_opening_switch) :: law = riis_opening_switch(opening_duration=0.04d0, closing_duration=0.04d0)
     type(riis_opening_switch_state) :: state

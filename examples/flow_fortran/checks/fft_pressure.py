@@ -23,7 +23,7 @@ def distance(kind, x, y, z):
 
 
 def coefficients(kind, contrast):
-    """Returns 1/(1 + K dt/rho) at the inner faces across each axis. The largest K dt/rho is the contrast."""
+    """Returns 1/(1 + K dt/rho) at the inner faces across each axis. The largest K dt/rho is called the contrast."""
     for axis in range(3):
         points = [(np.arange(n) + 0.5) * H for n in SHAPE]
         points[axis] = np.arange(1, SHAPE[axis]) * H

@@ -89,7 +89,7 @@ contains
     anywhere = all(x > -huge(x))
   end function anywhere
 
-  !> Makes a duct of n cells of side h. Its lower corner is at 0.
+  !> Makes a duct of n cells of side h. The lower corner of the duct is at 0.
   subroutine make_duct(fluid, n, h, imposed)
     type(flow), intent(inout) :: fluid
     integer, intent(in) :: n(3)

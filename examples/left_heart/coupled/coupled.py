@@ -26,7 +26,7 @@ TABLE = ("time", "volume", "flow", "pressure", "wall", "residual", "slope", "tri
 
 
 def isovolumetric(rows, valves):
-    """Returns the row after which both valves of the heart without space are closed, in its contraction."""
+    """Returns the row after which both valves of the 0D model are closed, during its contraction."""
     mitral, aortic = (rows[:, 5 + i] == valve.orifice.rest for i, valve in enumerate(valves))
     closed = np.flatnonzero((rows[:, 0] < zero_d.SYSTOLE) & mitral & aortic)
     if not len(closed):
@@ -67,7 +67,8 @@ def tables(case, mitral, aortic, beats=3):
 
 
 def naive_tables(case, coupled_case, start):
-    """Writes the amplitude of the naive variant. It goes on from a time of the coupled run, with the volumes of zero_d.py."""
+    """Writes the amplitude of the naive variant. The naive variant continues from a time of the coupled run, with the volumes of
+    zero_d.py."""
     times, volumes = np.loadtxt(pathlib.Path(case) / "constant" / "zeroDVolume").T
     run = run_of(coupled_case)
     at = np.abs(run["time"] - float(start)).argmin()
@@ -142,7 +143,7 @@ def check(case, mitral, aortic):
 
 
 def naive(case, coupled_case):
-    """The same valves with volumes of the heart without space."""
+    """The same valves, with the volumes of the 0D model."""
     pressure, run = prescribed.pressure_of(case, "ventricle"), run_of(coupled_case)
     off = np.abs(pressure[:, 1] - np.interp(pressure[:, 0], run["time"], run["pressure"])).max()
     print(f"prescribed volumes, valves that switch: {pressure[:, 1].min():.0f} to {pressure[:, 1].max():.0f} mmHg "

@@ -1,7 +1,7 @@
 # shellcheck shell=bash
 # SPDX-License-Identifier: Apache-2.0
 # The steps of ./run heart --coupled: the valves open by the pressures of the flow, and the wall moves by its elastance. heart.sh
-# sources this file. It makes the mesh and the tables of both valves first.
+# sources this file. The command makes the mesh and the tables of both valves first.
 
 heart_coupled() {
   heart_python coupled/study.py "$of_work/left_heart/libvolumeSearch.so" | tee "$of_out/coupled_study.txt"
@@ -17,21 +17,21 @@ heart_coupled() {
   cat "$of_out/refusals.txt"
 }
 
-# heart_coupled_case NAME: the case with the files of the coupled heart over it.
+# heart_coupled_case NAME: makes the case, and copies the files of the coupled heart over it.
 heart_coupled_case() {
   heart_case "$1" && cp -r "$heart_here"/coupled/case/. "$of_cases/$1" &&
     heart_band "$1" mitral "$heart_offset" &&
     heart_python coupled/coupled.py tables "$of_cases/$1" "$of_out/mitral.csv" "$of_out/aortic.csv"
 }
 
-# heart_coupled_again NAME [TIME]: the files of the coupled run, with its state at this time.
+# heart_coupled_again NAME [TIME]: copies the files of the coupled run, with its state at this time.
 heart_coupled_again() {
   local coupled=$of_cases/coupled
   rm -rf "${of_cases:?}/$1"
   mkdir "$of_cases/$1" && cp -r "$coupled"/{0,constant,system} ${2:+"$coupled/$2"} "$of_cases/$1"
 }
 
-# The coupled run at 0.04 s, with both valves closed, goes on with the volumes of the heart without space and the same valves.
+# The coupled run at 0.04 s, with both valves closed, continues with the volumes of the 0D model and the same valves.
 heart_naive() {
   local naive=$of_cases/naive
   heart_coupled_again naive 0.04 && cp "$heart_here/case/constant/dynamicMeshDict" "$naive/constant" &&
@@ -42,7 +42,7 @@ heart_naive() {
     of_set naive system/controlDict endTime 0.12 && of_run naive 1
 }
 
-# The coupled run at 0.08 s goes on for 20 steps, in which the aortic valve opens: on 2 ranks, and on one.
+# The coupled run at 0.08 s continues for 20 steps, in which the aortic valve opens: on 2 ranks, and on one rank.
 heart_coupled_ranks() {
   local name
   for name in coupled-2 coupled-restart; do
@@ -53,7 +53,7 @@ heart_coupled_ranks() {
     of_logged coupled-2 pimpleFoam timeout 3600 mpirun -n 2 "${of_with[@]}" pimpleFoam -case "$of_cases/coupled-2" -parallel
 }
 
-# heart_coupled_refused NAME WORDS FILE ENTRY VALUE: the coupled case with this entry must end with these words.
+# heart_coupled_refused NAME WORDS FILE ENTRY VALUE: checks that the coupled case with this entry ends with these words.
 heart_coupled_refused() {
   local folder=refused-${1// /_}
   heart_coupled_again "$folder" && of_set "$folder" "$3" "$4" "$5" && of_refused "$1" "$folder" "$2"

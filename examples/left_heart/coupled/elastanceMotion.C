@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Moves the wall of a ventricle by its elastance: the pressure of the blood on the wall equals E(t) (V - V0).
 //
-// elastanceMotion is a motion solver. In each outer corrector volumeSearch.H says which volume to try. The amplitude
-// of the motion then gives the mesh this volume. elastance is an fvOption that adds nothing to the equations. It
-// takes the pressure after each pressure equation. By the residual `elastance` in residualControl it tells PIMPLE
-// when the step is solved. elastanceTable is a function object that writes a row for each step.
+// elastanceMotion is a motion solver. In each outer corrector volumeSearch.H says which volume to try. The amplitude of the
+// motion then gives the mesh this volume. elastance is an fvOption that adds nothing to the equations. This fvOption reads the
+// pressure after each pressure equation. By the residual `elastance` in residualControl, it tells PIMPLE when the step is solved.
+// elastanceTable is a function object that writes a row for each step.
 //
-// p is the pressure that does the wall's work: the sum of p_f dV_f over the sum of dV_f. dV_f is the volume that the face f
-// sweeps if the amplitude grows, relative to the base. The work of the blood on the wall is therefore exactly the integral of p
-// dV, without the work that the whole heart's descent takes.
+// The pressure p does the work of the wall: it is the sum of p_f dV_f over the sum of dV_f. dV_f is the volume that the face f
+// sweeps, relative to the base, if the amplitude grows. The work of the blood on the wall is therefore exactly the integral of p
+// dV. It does not include the work of the descent of the whole heart.
 #include "Function1.H"
 #include "IOdictionary.H"
 #include "OSspecific.H"
@@ -68,7 +68,7 @@ class elastanceMotion : public points0MotionSolver {
 
   scalar cavity(scalar amplitude) const { return rest_ + meshVolume(amplitude) - meshAtRest_; }
 
-  // Finds the amplitude of a volume by secants.
+  // Finds the amplitude for a volume by secants.
   void reach(scalar volume) {
     scalar before = amplitude_ + 1e-3, a = amplitude_, missBefore = cavity(before) - volume;
     for (int i = 0; i < 30; ++i) {
@@ -191,7 +191,7 @@ class elastanceMotion : public points0MotionSolver {
          << " m3/s, Z " << search_.slope << " Pa s/m3" << endl;
   }
 
-  // Takes the pressure on the wall from the field p.
+  // Computes the pressure on the wall from the field p.
   void measure(const volScalarField &p) {
     scalar work = 0, volume = 0;
     for (const fvPatchScalarField &values : p.boundaryField()) {

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tries volumeSearch.H in a heart without space: prints the pressures and the trials of each variant of the search.
+"""Tries volumeSearch.H in a 0D model of the heart: prints the pressures and the trials of each variant of the search.
 
     python3 study.py LIBRARY         # LIBRARY: libvolumeSearch.so
 
-The blood of this heart answers as OpenFOAM does. It tells the pressure that a volume has. The valves move once in a step. Each
-outer corrector uses the flows of the corrector before.
+The blood of this model responds as in OpenFOAM. The model gives the pressure that belongs to a volume. The valves move once in
+each step. Each outer corrector uses the flows of the previous corrector.
 """
 import ctypes
 import math
@@ -36,7 +36,7 @@ def atrium(time):  # mmHg
 
 
 class Valve:
-    """The law `switch`: opens above 3 mmHg, closes when the flow turns, and takes 40 ms each time."""
+    """The law `switch`: the valve opens above 3 mmHg, closes when the flow reverses, and takes 40 ms for each motion."""
 
     def __init__(self, name):
         self.name, self.flow, self.progress, self.opens, self.turned = name, 0.0, 0.0, False, -1.0
@@ -47,7 +47,7 @@ class Valve:
         self.progress = min(1, max(0, self.progress + (STEP if self.opens else -STEP) / 0.04))
 
     def conductance(self, flow):
-        """The mean flow over the pressure difference, ml/s/mmHg."""
+        """The mean flow divided by the pressure difference, in ml/s/mmHg."""
         opening = self.progress ** 2 * (3 - 2 * self.progress)
         share = max(0, (opening - DEAD[self.name]) / (1 - DEAD[self.name]))
         area = ORIFICE[self.name] * 1e-4 * share ** 1.5  # m2
@@ -55,7 +55,7 @@ class Valve:
 
 
 class Blood:
-    """The valves and the vessels. `pressure` answers with the pressure of the cavity for its flow dV/dt over the step."""
+    """The valves and the vessels. `pressure` returns the pressure of the cavity for its flow dV/dt over the step."""
 
     def __init__(self):
         self.valves = [Valve("mitral"), Valve("aortic")]
@@ -134,7 +134,7 @@ def coupled(search, beats, most, safeguards):
 
 
 def prescribed(volumes):
-    """The naive variant: volumes from elsewhere, and valves that switch at the pressures of this heart."""
+    """The naive variant has volumes from another model, and valves that open and close by the pressures of this heart."""
     blood, rows, before = Blood(), [], volumes[0]
     pressure = elastance(START) * (before - UNSTRESSED)
     for step, volume in enumerate(volumes):

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The search for Python: study.py tries it in a heart without space, and tests/solvers/test_left_heart.py in invented blood.
+// The search for Python. study.py tries it in a 0D model of the heart, and tests/solvers/test_left_heart.py tries it with an
+// invented model of the blood.
 #include "volumeSearch.H"
 
 extern "C" {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Moves the wall of a ventricle as wallMotion.H says, with the amplitude from a table. The motion starts from the points of the
-// first time step, so it does not add up rounding, and a restart is exact.
+// first time step. Rounding errors therefore do not add up, and a restart is exact.
 #include "Function1.H"
 #include "Time.H"
 #include "addToRunTimeSelectionTable.H"

@@ -1,3 +1,4 @@
 # SPDX-License-Identifier: Apache-2.0
-# svMultiPhysics asks for all of VTK, and Debian's VTK then asks for Qt and more. These are the modules that it uses.
+# svMultiPhysics requests all of VTK, and Debian's VTK then requests Qt and more. These are the modules of VTK that the solver
+# uses.
 find_package(VTK CONFIG COMPONENTS CommonCore CommonDataModel FiltersGeometry IOXML)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The annulus of a valve, and its placement by three points on it.
 
-The three points lie on one circle. The valve is moved, turned and scaled in proportion until this circle passes through three
-points of its own annulus.
+The three points lie on one circle. The valve is moved, rotated and scaled in proportion until this circle passes through three
+points of the patient's annulus.
 """
 
 from __future__ import annotations
@@ -70,7 +70,7 @@ def annulus_of(state: ValveState) -> Annulus:
 
 
 def _thirds(valve: Valve, radius: str, first: float) -> Reals:
-    """Returns three points on the valve's circle, a third of a turn apart. The first lies at this angle in degrees."""
+    """Returns three points on the valve's circle, a third of the circle apart. The first point lies at this angle in degrees."""
     turn = numpy.radians(first + numpy.array([0.0, 120.0, 240.0]))
     shift = numpy.array(valve["translation"]) if "translation" in valve else numpy.zeros(3)
     return numpy.asarray(shift + valve[radius] * numpy.column_stack([numpy.cos(turn), numpy.sin(turn), numpy.zeros(3)]))
@@ -97,7 +97,7 @@ def _anterior(attachment: Attachment) -> Reals:
     made = []
     for turn in (0.0, 2.0 * math.pi / 3.0, -2.0 * math.pi / 3.0):
         off = numpy.angle(numpy.exp(1j * (around - first - turn)))
-        # One edge has its ends on both sides of this direction.
+        # One edge has one end on each side of the wanted direction.
         k = int(numpy.argmax((off.min(axis=1) <= 0.0) & (off.max(axis=1) > 0.0) & (numpy.ptp(off, axis=1) < math.pi)))
         a, b = off[k]
         made.append(edges[k, 0] + a / (a - b) * (edges[k, 1] - edges[k, 0]))
@@ -138,7 +138,7 @@ def placed_by(state: ValveState, points3: Any) -> dict[str, Any]:
             f"points3: are on a circle of radius {radius:.3g}, and that of the valve is {state.scale * known.radius:.3g}: "
             "choose the mesh's unit first, or click on the annulus"
         )
-    # Two frames with the circles' normals; x is towards the first point.
+    # The two rotations are frames with the circles' normals; x is towards the first point.
     frames = []
     for origin, up, points in ((known.centre, known.normal, known.points), (centre, normal, clicks)):
         x = points[0] - origin
@@ -158,7 +158,7 @@ def placed_by(state: ValveState, points3: Any) -> dict[str, Any]:
 
 
 def _mean_turn(known: Annulus, own: Reals, centre: Reals, frame: Reals, clicks: Reals) -> float:
-    """Returns the turn about the axis after which the nadirs are nearest to the clicks. The first click tells which cusp is
+    """Returns the rotation about the axis after which the nadirs are nearest to the clicks. The first click shows which cusp is
     meant."""
 
     def angles(points: Reals, middle: Reals, axes: Reals) -> Reals:
@@ -167,13 +167,13 @@ def _mean_turn(known: Annulus, own: Reals, centre: Reals, frame: Reals, clicks: 
 
     cusps, places = angles(known.points, known.centre, own), angles(clicks, centre, frame)
     cusps[0] = places[0] = 0.0
-    # Both lists go in the same direction from the first.
+    # Clicks and nadirs continue in the same direction.
     off = numpy.sort(places) - numpy.sort(cusps)
     return float(off.mean())
 
 
 def _grown(state: ValveState, growth: float) -> ValveState:
-    """Returns the valve with all lengths multiplied. A length that follows a rule and was not set follows without being set."""
+    """Returns the valve with all lengths multiplied. A length that follows a rule and was not set changes without being set."""
     valve = state.valve()
     assert valve is not None
     wanted = {}

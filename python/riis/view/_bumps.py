@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The bumps of the valves of a model, which are disease at one place of a free edge (docs/theory/bumps.md), and their places."""
+"""The bumps of the valves of a model, and their places. A bump is a disease at one place of a free edge
+(docs/theory/bumps.md)."""
 
 from __future__ import annotations
 
@@ -19,7 +20,7 @@ _N_POINTS = 25  # of a drawn line
 
 
 class Bump(NamedTuple):
-    """A bump that has a place. It lies on a leaflet or at a commissure, and the other number is -1."""
+    """A bump that has a place. The bump lies on a leaflet or at a commissure, and the number of the other place is -1."""
 
     number: int  #: the n of bump_n
     leaflet: int
@@ -27,7 +28,7 @@ class Bump(NamedTuple):
 
 
 class BumpPlace(NamedTuple):
-    """Where a bump lies in the mesh."""
+    """The position of a bump in the mesh."""
 
     point: Reals  #: (3,), on the free edge
     lines: list[Reals]  #: (n, 3) each: the parts of free edges on which the bump acts
@@ -59,7 +60,7 @@ def _points_of(control: Reals) -> Reals:
 
 
 def _joined(pieces: list[Reals]) -> list[Reals]:
-    """Returns lines in the order and in the directions in which they make one line."""
+    """Returns lines in the order and in the directions in which they form one line."""
     chain, rest = [pieces[0]], list(pieces[1:])
     while rest:
         # Each line may continue the chain at either end, in either direction.
@@ -154,7 +155,7 @@ class BumpedValves(Valves):
         return bumps_of(self._valve_of(i)[1])
 
     def add_bump(self, i: int) -> int:
-        """Gives a valve a bump in the middle of its first leaflet, which changes nothing yet. Returns its number."""
+        """Adds a bump in the middle of the first leaflet of a valve. The bump changes nothing yet. Returns its number."""
         _, valve = self._valve_of(i)
         used = {bump.number for bump in bumps_of(valve)}
         free = [number for number in range(most_bumps(valve)) if number not in used]
@@ -171,7 +172,7 @@ class BumpedValves(Valves):
         self._replace(i, ("bump", i, number), parameters=values_that_were_set(valve))
 
     def remove_bump(self, i: int, number: int) -> None:
-        """Takes a bump away, and all its numbers with it."""
+        """Removes a bump, and all its numbers."""
         _, valve = self._valve_of(i)
         for name in list(valve):
             if name.startswith(f"bump_{number}."):

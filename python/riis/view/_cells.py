@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The mesh of the view: its volume cells, the part of it near the valves, and its wall.
 
-In: arrays of nodes and cells, as a reader of meshes gives them. Out: marked and partly marked cells, edges, paths and the wall.
+The input is arrays of nodes and cells, as a reader of meshes returns them. The output is marked and partly marked cells, edges,
+paths and the wall.
 """
 
 from __future__ import annotations
@@ -29,7 +30,7 @@ _VOLUMES = {
 VOLUME_TYPES = tuple(_VOLUMES)
 _KIND_OF_SIZE = {4: _TETRA, 5: _PYRAMID, 6: _WEDGE, 8: _HEXAHEDRON}
 _SURFACES = {5: "triangles", 6: "triangle strips", 7: "polygons", 8: "pixels", 9: "quads", 22: "triangles", 23: "quads"}
-# The faces of a cell by its number of corners. A face of three nodes repeats its last node.
+# The faces of a cell by its number of corners. A face of three nodes contains its last node twice.
 _FACES = {
     4: ((0, 1, 3, 3), (1, 2, 3, 3), (2, 0, 3, 3), (0, 2, 1, 1)),
     5: ((0, 3, 2, 1), (0, 1, 4, 4), (1, 2, 4, 4), (2, 3, 4, 4), (3, 0, 4, 4)),
@@ -148,10 +149,10 @@ def _order_of(numbers: AnyIds) -> AnyIds:
 
 
 def _alone(quads: Ids) -> Ids:
-    """Returns the rows of the faces that only one cell has. A face of three nodes has its last node twice."""
+    """Returns the rows of the faces that belong to only one cell. A face of three nodes has its last node twice."""
     key = numpy.sort(quads, axis=1)
     is_triangle = quads[:, 2] == quads[:, 3]
-    # The three least nodes identify a face. For a triangle these are its nodes, each once.
+    # The three smallest nodes identify a face. For a triangle the three smallest nodes are its nodes, each once.
     second = numpy.where(is_triangle & (key[:, 0] == key[:, 1]), key[:, 2], key[:, 1])
     third = numpy.where(is_triangle, key[:, 3], key[:, 2])
     order = numpy.lexsort((third, second, key[:, 0]))
@@ -174,7 +175,7 @@ class _Incidence:
         numpy.cumsum(numpy.bincount(flat, minlength=n_nodes), out=self.start[1:])
 
     def rows_at(self, nodes: AnyIds) -> AnyIds:
-        """Returns the rows of all these nodes. A row occurs as often as it has one of them."""
+        """Returns the rows of the cells at all given nodes. A row occurs as often as it contains one of the given nodes."""
         first = self.start[nodes]
         count = self.start[nodes + 1] - first
         total = int(count.sum())
@@ -223,7 +224,7 @@ def _rows_of(blocks: list[Block], n_nodes: int) -> Rows:
 class Region:
     """The nodes and cells with which the view works: the whole mesh, or the part near the valves.
 
-    Nodes have local numbers; ``node_ids`` has the caller's, or is None if they are the same.
+    Nodes have local numbers. ``node_ids`` contains the caller's numbers, or is None if they are the same.
     """
 
     def __init__(
@@ -328,10 +329,10 @@ class Region:
         return self._wall
 
     def _may_be_wall(self) -> Bools:
-        """Returns the nodes that may be on the boundary. The others are certainly not.
+        """Returns the nodes that may lie on the boundary. All other nodes certainly lie inside.
 
         The tetrahedra around an inner node cover a sphere about it. By Euler's formula, their number is 2 n - 4 if the node has n
-        neighbours. At a boundary node they cover a part of the sphere, with fewer triangles.
+        neighbours. Around a boundary node, they cover only a part of the sphere, with fewer triangles.
         """
         made = numpy.ones(len(self.points), numpy.bool_)
         if len(self.blocks) == 1 and self.blocks[0].nodes.shape[1] == 4:

@@ -22,7 +22,7 @@ _MOST_LISTED = 10
 def chosen_cells(grid: Any, where: str, names: Mapping[str, float]) -> Any:
     """Returns the cells with certain values in a cell array, and their nodes, as pyvista.UnstructuredGrid.
 
-    Nodes and cells keep their order. The arrays riis_node_id and riis_cell_id have their numbers in the whole mesh.
+    Nodes and cells keep their order. The arrays riis_node_id and riis_cell_id contain their numbers in the whole mesh.
 
     where  NAME=VALUES, such as "region=1,2"
     names  the numbers of gmsh's groups of volumes by name

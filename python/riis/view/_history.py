@@ -21,7 +21,7 @@ _MOST_STEPS = 200  # of undo
 
 @dataclasses.dataclass
 class Placed:
-    """A valve's state, with the objects that are made from it."""
+    """The state of a valve, with the objects that are made from it."""
 
     state: ValveState
     surface: Surface
@@ -48,7 +48,7 @@ class Placed:
 
 
 class Snapshot(NamedTuple):
-    """What a change can change."""
+    """Everything that a change can change."""
 
     valves: tuple[ValveState, ...]
     unit: str | None
@@ -110,7 +110,7 @@ class Valves:
         return tuple(made)
 
     def _take(self, placed: tuple[Placed, ...], after: Snapshot | None = None) -> None:
-        """Takes surfaces, with what else has changed."""
+        """Adopts surfaces, together with everything else that has changed."""
         self._placed = placed
         if after is not None:
             self._unit, self._landmarks, self._wall = after.unit, after.landmarks, after.wall
@@ -140,7 +140,7 @@ class Valves:
             self._is_dragging, self._drag = False, None
 
     def forget_steps(self) -> None:
-        """Makes the present valves the first ones, so there is nothing to undo or redo."""
+        """Makes the present valves the first ones, so that there is nothing to undo or redo."""
         self._undo.clear()
         self._redo.clear()
 
@@ -153,11 +153,11 @@ class Valves:
         return bool(self._redo)
 
     def undo(self) -> bool:
-        """Takes the last change back. Returns whether there was one."""
+        """Undoes the last change. Returns whether there was one."""
         return self._step(self._undo, self._redo)
 
     def redo(self) -> bool:
-        """Makes the change again that was undone last. Returns whether there was one."""
+        """Redoes the change that was undone last. Returns whether there was one."""
         return self._step(self._redo, self._undo)
 
     def _step(self, from_: list[Snapshot], to: list[Snapshot]) -> bool:
@@ -172,7 +172,7 @@ class Valves:
 
     @contextmanager
     def one_step(self) -> Iterator[None]:
-        """During this context, all changes are one step of undo. If one is refused, none of them stays."""
+        """During this context, all changes are one step of undo. If one of these changes is refused, none of them remains."""
         before, undo, redo = self._now(), list(self._undo), list(self._redo)
         try:
             yield

@@ -42,7 +42,7 @@ class Role(NamedTuple):
 
 
 class LandmarkSet(NamedTuple):
-    """Landmarks in the mesh's unit, with what their file states besides."""
+    """Landmarks in the mesh's unit, and the other statements of their file."""
 
     points: Mapping[str, Vector] = MappingProxyType({})
     axes: Axes | None = None  #: of the mesh and the wall. None: nobody has said them yet
@@ -141,7 +141,7 @@ def next_name(role: Role, points: Mapping[str, Any]) -> str:
 
 
 def missing(kind: str, points: Mapping[str, Any]) -> list[str]:
-    """Returns the names of the landmarks that place still needs."""
+    """Returns the names of the landmarks that riis.place still needs."""
     names: list[str] = []
     for role in roles_of(kind):
         if role.is_needed and not role.is_list and role.name not in points:
@@ -163,7 +163,7 @@ class ReadLandmarks(NamedTuple):
 
 
 def read_file(path: str | os.PathLike[str], unit: str | None, axes: str | None) -> ReadLandmarks:
-    """Reads a file of landmarks. unit and axes belong to the mesh. By default the file's apply."""
+    """Reads a file of landmarks. unit and axes belong to the mesh. By default, those of the file apply."""
     name = os.fspath(path)
     turned = axes if axes in ("LPS", "RAS") else None
     found = read_landmarks(name, Path(path).read_text("utf-8-sig", "replace"), unit, turned)

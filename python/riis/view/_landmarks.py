@@ -50,11 +50,11 @@ class LandmarkedValves(Valves):
 
     @property
     def wall(self) -> Wall | None:
-        """The wall around the valve. Without one, the boundary of the mesh's cells is the wall of the lights."""
+        """The wall around the valve. Without this wall, the lights use the boundary of the mesh's cells as the wall."""
         return self._wall
 
     def set_wall(self, wall: Wall | None) -> None:
-        """Takes a wall, to which skirts lead. None: no wall, and no skirts to it."""
+        """Adopts a wall, to which skirts lead. None: no wall, and no skirts to it."""
         states = self.valves if wall is not None else tuple(_changed(state, skirt=0.0) for state in self.valves)
         self._change_to(self._now()._replace(wall=wall, valves=states))
 
@@ -95,7 +95,7 @@ class LandmarkedValves(Valves):
     def gap_ribbon(self, i: int) -> tuple[Reals, Ids]:
         """Returns points (n, 3) and triangles (m, 3) of the gap between a valve and the wall: the skirt that would close it.
 
-        There are none without a wall, where the wall is missed, and for a valve with a skirt.
+        The gap has no triangles without a wall, if the wall is missed, or if the valve has a skirt.
         """
         state, none = self._at(i).state, (numpy.empty((0, 3)), numpy.empty((0, 3), numpy.int64))
         valve = state.valve()
@@ -162,7 +162,7 @@ class LandmarkedValves(Valves):
         self._set_landmarks(LandmarkSet(axes=self._landmarks.axes))
 
     def set_axes(self, axes: Any) -> None:
-        """Says the axes of the mesh and the wall: LPS, RAS or mesh, for other axes. The landmarks stay where they are."""
+        """States the axes of the mesh and the wall: LPS, RAS or mesh, for other axes. The landmarks themselves do not move."""
         if axes not in files.AXES:
             raise refuse(f"axes: are {axes!r}; they must be {', '.join(files.AXES)}")
         self._set_landmarks(self._landmarks._replace(axes=axes))
@@ -173,7 +173,8 @@ class LandmarkedValves(Valves):
         return [] if state.surface is not None else missing(state.kind, self._landmarks.points)
 
     def read_landmarks(self, path: str | os.PathLike[str]) -> str:
-        """Takes the landmarks of a file in place of the present ones. They are converted to the unit and the axes of the mesh.
+        """Takes the landmarks of a file in place of the present ones. The landmarks of the file are converted to the unit and the
+        axes of the mesh.
 
         If the unit of the mesh is not known, it becomes that of the file. If the axes are not known, they become those of the
         file. Returns the kind of valve that the file names, or "".
@@ -204,7 +205,7 @@ class LandmarkedValves(Valves):
     # ---- Units ----
 
     def set_unit(self, unit: str | None) -> None:
-        """Says the unit of the mesh and the wall. Valves and landmarks keep their sizes in the mesh, and valves get the unit's
+        """States the unit of the mesh and the wall. Valves and landmarks keep their sizes in the mesh, and valves get the unit's
         scale."""
         if unit is not None and unit not in UNITS:
             raise refuse(f"unit: is {unit!r}; it must be {', '.join(UNITS)}")
@@ -273,9 +274,9 @@ class LandmarkedValves(Valves):
         return points, options
 
     def fit_of(self, i: int, points: Any, *, free: Sequence[str] | None = None, **options: Any) -> Callable[[], FitResult]:
-        """Returns a function that fits a valve to the points of its segmented leaflets, as riis.fit does, with its options. It
-        starts from the present sizes and placement. It changes nothing, so it may run on another thread; take_fit takes its
-        result.
+        """Returns a function that fits a valve to the points of its segmented leaflets, as riis.fit does, with its options. The
+        fit starts from the present sizes and placement. The function changes nothing, so it may run on another thread; take_fit
+        takes its result.
 
         points  (n, 3), in the mesh's unit, or what riis.fit takes
         free    names of the sizes to fit. Without names, ``sizes_to_fit`` chooses them
@@ -345,8 +346,8 @@ class LandmarkedValves(Valves):
         )
 
     def placed_file(self, i: int) -> str:
-        """Returns the file of the placed valve, which each command of the program takes as --valve FILE.json. It has the sizes,
-        the placement and the warp. The opening, the half thickness and a skirt are options of the commands."""
+        """Returns the file of the placed valve, which each command of the program takes as --valve FILE.json. The file contains
+        the sizes, the placement and the warp. The opening, the half thickness and a skirt are options of the commands."""
         state = self._at(i).state
         valve = state.valve()
         if valve is None:
@@ -386,8 +387,8 @@ def _changed(state: ValveState, **changes: Any) -> ValveState:
 
 
 def _in_unit(before: Snapshot, unit: str | None) -> Snapshot:
-    """Returns what a model has after the mesh's unit is known better. Valves get the unit's scale, and other lengths in the mesh
-    stay as they are."""
+    """Returns the state of a model after the mesh's unit has become known. Valves get the unit's scale, and other lengths in the
+    mesh stay as they are."""
     if unit is None or unit == before.unit:
         return before._replace(unit=unit)
     states = []

@@ -37,7 +37,7 @@ _NO_EDGES = numpy.empty((0, 2, 3))
 
 @dataclass(frozen=True)
 class Light:
-    """A light says whether one thing about the valves is right, with numbers. If it is wrong, the light says what to do."""
+    """A light says, with numbers, whether one property of the valves is right. If it is wrong, the light says what to do."""
 
     name: str  #: one of "unit", "inside", "half_thickness", "crossing", "wall" and "sealed"
     level: str  #: "good", "warn", "bad", or "off" if the light does not apply
@@ -52,7 +52,7 @@ class Light:
 
 @dataclass
 class Scene:
-    """One valve in the mesh, as the lights see it."""
+    """A valve in the mesh, as the lights judge it."""
 
     number: int
     state: ValveState
@@ -77,7 +77,7 @@ class Scene:
 
     @property
     def word(self) -> str:
-        """The word for the box."""
+        """The word for what the box encloses."""
         return "wall" if self.whole.is_missing else "mesh"
 
     def length(self, value: float) -> str:
@@ -220,7 +220,7 @@ def half_thickness(scene: Scene) -> Light:
 
 
 def crossing(scene: Scene) -> Light:
-    """Judges whether leaflets go through each other. Contacts do not count, and neither do hinges in their housing."""
+    """Judges whether leaflets go through each other. Contacts do not count, and hinges in their housing do not count either."""
     surface, state = scene.surface, scene.state
     info = surface.info
     if state.kind == "bileaflet":
@@ -311,7 +311,7 @@ def _reach(scene: Scene, text: str, given: Wall) -> Light:
 
 
 def _beyond_rim(state: ValveState) -> float:
-    """Returns how far the band reaches beyond a rim, along the leaflet. With an offset it is a chord of the band's round end."""
+    """Returns how far the band extends beyond a rim, along the leaflet. With an offset it is a chord of the band's round end."""
     return state.half_thickness * math.sqrt(1.0 - state.offset**2)
 
 
@@ -340,7 +340,7 @@ def _ring(scene: Scene, boundary: Surface) -> Light:
 
 
 def sealed(scene: Scene) -> Light:
-    """Judges whether unmarked nodes join the two sides of the valve, and shows the way."""
+    """Judges whether unmarked nodes connect the two sides of the valve, and shows the path."""
     if not scene.region.has_edges:
         return Light("sealed", "off", _no_edges(scene, "whether the valve seals"), valve=scene.number)
     if len(scene.marks) == 0:
@@ -389,8 +389,8 @@ def sealed(scene: Scene) -> Light:
 
 
 def _sides(scene: Scene) -> tuple[int, int] | None:
-    """Returns an unmarked node on each side of the valve near its axis: one below the least z of the valve, and one above the
-    largest."""
+    """Returns an unmarked node on each side of the valve near its axis: one below the smallest z of the valve, and one above the
+    largest z."""
     matrix, origin = scene.state.matrix, numpy.array(scene.state.origin)
     valve = (numpy.array(scene.surface.vertices) - origin) @ matrix
     middle = (valve[:, :2].min(axis=0) + valve[:, :2].max(axis=0)) / 2.0

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Numbers as people write them: -1084 and 0.35, without an exponent for the sizes that valves and meshes have."""
+"""Numbers as people write them, such as -1084 and 0.35, without an exponent for the usual sizes of valves and meshes."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def shown(value: float, digits: int = 3) -> str:
 
 
 def with_unit(value: float, unit: str | None) -> str:
-    """Returns a length with its unit, if that is known."""
+    """Returns a length with its unit, if the unit is known."""
     return shown(value) + (f" {unit}" if unit else "")
 
 

@@ -22,7 +22,7 @@ _N_DIRECTIONS = 720  # directions in which the outline is known, if it is no dis
 def _outline(points: Reals, faces: NDArray[numpy.int64]) -> Reals:
     """Returns the outline of triangles in the plane as edges (n, 2, 2): the boundary's farthest point in each direction.
 
-    The directions are seen from the middle of the boundary. Edges of only one triangle are the boundary.
+    The directions are those from the middle of the boundary. Edges of only one triangle are the boundary.
     """
     _, place = numpy.unique(points, axis=0, return_inverse=True)
     sides = numpy.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
@@ -115,8 +115,8 @@ def _loops(free: Bools) -> list[NDArray[numpy.int64]]:
 
 
 def outline_of(surface: Surface, centre: Reals) -> list[Reals]:
-    """Returns the closed lines (n, 3) around the free orifice, in mesh units. There are none if the orifice is closed or has no
-    outline.
+    """Returns the closed lines (n, 3) around the free orifice, in mesh units. The list is empty if the orifice is closed or has
+    no outline.
 
     centre  a point on the axis of the valve's disc
     """
@@ -154,7 +154,7 @@ def outline_of(surface: Surface, centre: Reals) -> list[Reals]:
 
 
 def _raised(flat: Reals, seen: Reals) -> Reals:
-    """Gives each point of an outline the height of the vertex that is nearest to it, as seen along the axis."""
+    """Gives each point of an outline the height of the vertex nearest to it, as seen along the axis."""
     height = numpy.empty(len(flat))
     for k in range(0, len(flat), 256):
         part = flat[k : k + 256]

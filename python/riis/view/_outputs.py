@@ -23,7 +23,7 @@ from riis.view._valves import KINDS, Value, ValveState, refuse
 from riis.view._walls import Wall
 
 class Facts(NamedTuple):
-    """What the files say besides the valves."""
+    """Everything in the written files except the valves."""
 
     unit: str | None
     path: str | None  #: of the mesh
@@ -33,12 +33,12 @@ class Facts(NamedTuple):
 
 
 def has_unit(states: Iterable[ValveState], unit: str | None) -> bool:
-    """Returns whether the unit gives the scale of all valves. If so, files may state the unit."""
+    """Returns whether the scale of all valves follows from the unit. If so, files may state the unit."""
     return unit is not None and all(state.scale == UNITS[unit] for state in states)
 
 
 def _resistance(state: ValveState, unit: str | None) -> float:
-    """Returns R in the units of the mesh. The state has it in kg/(m s) if the mesh has a unit."""
+    """Returns R in the units of the mesh. The state stores R in kg/(m s) if the mesh has a unit."""
     return state.resistance if unit is None else state.resistance * resistance_units(unit)[0]
 
 
@@ -136,7 +136,7 @@ def _numbers(values: Iterable[float]) -> str:
 
 
 def is_from_its_file(state: ValveState, facts: Facts) -> bool:
-    """Returns whether a command names the file of the placed valve. The valve may have other sizes than there."""
+    """Returns whether a command names the file of the placed valve. The valve may have other sizes than those in the file."""
     source = state.placed
     return source is not None and has_unit([state], facts.unit) and source.unit == facts.unit and source.places(state)
 

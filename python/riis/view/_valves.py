@@ -115,7 +115,7 @@ class WarpState:
         return made
 
     def in_own_frame(self, placement: Mapping[str, Any]) -> WarpState:
-        """Returns the same warp in the valve's own frame. A valve that is moved by hand takes its warp along."""
+        """Returns the same warp in the valve's own frame. If a valve is moved by hand, its warp moves with it."""
         if not self.is_in_mesh:
             return self
         scale, origin = float(placement["scale"]), numpy.array(placement["translation"])
@@ -139,7 +139,7 @@ class WarpState:
 
 @dataclass(frozen=True, eq=False)
 class PlacedSource:
-    """The file of a placed valve that was opened, with what it says of the valve."""
+    """The file of a placed valve that was opened, with its statements about the valve."""
 
     path: str
     kind: str
@@ -157,7 +157,7 @@ class PlacedSource:
 
 @dataclass(frozen=True)
 class ValveState:
-    """A valve in the view. It is a snapshot, because the model makes a new one for each change.
+    """A valve in the view. A valve is a snapshot, because the model makes a new one for each change.
 
     The placement takes a point x of the valve to scale * rotation * x + origin. ``axis`` and ``reference`` are the directions of
     the valve's z and x axes in the mesh.
@@ -194,7 +194,7 @@ class ValveState:
 
     @property
     def flow(self) -> Vector:
-        """The direction of the blood. The z axis of a valve into a ventricle points to the atrium, against the flow."""
+        """The direction of the blood. For a valve into a ventricle, the z axis points to the atrium, against the flow."""
         return vector(-self.matrix[:, 2] if is_atrioventricular(self.kind) else self.matrix[:, 2])
 
     @property
@@ -222,7 +222,7 @@ class ValveState:
         return made
 
     def valve(self) -> Valve | None:
-        """Makes the valve, without its skirt to the wall. A surface from a file has none."""
+        """Makes the valve, without its skirt to the wall. A surface from a file has no valve."""
         if self.surface is not None:
             return None
         made = Valve(self.kind)
@@ -253,7 +253,7 @@ class ValveState:
         return all(getattr(self, name) == getattr(other, name) for name in names)
 
     def made_surface(self, keyframes: Keyframes | None = None, valve: Valve | None = None) -> Surface:
-        """Makes the surface, of a valve with its skirt if that is given."""
+        """Makes the surface, from a valve with its skirt if that is given."""
         source = self.surface
         valve = self.valve() if valve is None else valve
         if valve is not None:
@@ -358,7 +358,7 @@ def has_cusps(kind: str) -> bool:
 
 
 def is_atrioventricular(kind: str) -> bool:
-    """Returns whether a valve lets the blood into a ventricle. Its leaflets hang from an annulus."""
+    """Returns whether a valve lets the blood into a ventricle. The leaflets of such a valve hang from an annulus."""
     return kind not in (SURFACE, "bileaflet") and not has_cusps(kind)
 
 
@@ -481,7 +481,8 @@ def _unit(value: Reals, name: str) -> Reals:
 
 
 def turned(matrix: Reals, axis: Any, reference: Any) -> Reals:
-    """Returns a rotation whose z axis is along axis. Without a reference, it is the smallest turn from the given rotation."""
+    """Returns a rotation whose z axis is along axis. Without a reference, it is the smallest rotation from the given
+    orientation."""
     if axis is None and reference is None:
         return matrix
     z = matrix[:, 2] if axis is None else _unit(point(axis, "axis"), "axis")

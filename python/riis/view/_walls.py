@@ -63,7 +63,7 @@ class Wall:
 
     @property
     def outward(self) -> Surface:
-        """The wall with normals outwards. A file may have all triangles turned inwards."""
+        """The wall with normals outwards. In some files, all triangles point inwards."""
         if self._outward is None:
             a, b, c = (self.points[self.triangles[:, k]] - self.points.mean(axis=0) for k in range(3))
             volume = float(numpy.einsum("ij,ij->", a, numpy.cross(b, c)))
@@ -72,7 +72,7 @@ class Wall:
 
 
     def _near(self, surface: Surface) -> Surface:
-        """Returns the part of the wall around a valve, in which a gap is found sooner."""
+        """Returns the part of the wall around a valve, in which a gap is found faster."""
         info = surface.info
         margin = _MARGIN * float((info.upper - info.lower).max())
         lower, upper = info.lower - margin, info.upper + margin

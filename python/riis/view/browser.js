@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The picture of riis view in the browser: it hands gestures to the server and acknowledges pictures. Gestures add up while the
+// The picture of riis view in the browser. It sends gestures to the server, and acknowledges pictures. Gestures add up while the
 // server answers, so that a slow server skips pictures and never lags behind the hand.
 "use strict";
 (() => {
@@ -44,7 +44,7 @@
     sendGesture();
   }
 
-  // The picture keeps its shape: if another browser has set its size, there are stripes beside it or above and below it.
+  // The picture keeps its proportions. If another browser has set its size, there are stripes beside it, or above and below it.
   function shape() {
     const scale = Math.min(image.clientWidth / image.naturalWidth, image.clientHeight / image.naturalHeight);
     const width = scale * image.naturalWidth, height = scale * image.naturalHeight;

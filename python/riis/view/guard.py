@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Who may see the page: the key, the addresses, and the life of the server.
 
-The server listens on 127.0.0.1 only, so other machines never reach it. Other users and other pages on this machine can
-reach it, and these rules keep them out:
+The server listens on 127.0.0.1 only, so other machines never reach it. Other users and other pages on this machine could reach
+the server, and these rules keep them out:
 
 - A random key of 256 bits opens the WebSocket, over which all data of the mesh pass. The key is in a file and a folder that only
   this user can read, and in the printed address. - The key is in no command line, because the browser's command line has only the
@@ -10,8 +10,8 @@ reach it, and these rules keep them out:
 - In the address the key stands behind '#', which browsers send to no server. The first page keeps it in the tab's session
   storage, which pages of other origins, and therefore of other ports, cannot read.
 - The WebSocket opens only for a request with the key. The first message must contain the key again, as trame requires.
-- A request must name this machine as its host, and a page of another origin is refused. A foreign page can therefore not reach
-  the server through a name that it resolves to 127.0.0.1.
+- A request must name this machine as its host, and a page of another origin is refused. A foreign page therefore cannot reach the
+  server through a name that it resolves to 127.0.0.1.
 - The files that need no key are the page's own programs and styles, which anybody can get from PyPI. They have no mesh data.
 """
 
@@ -44,9 +44,9 @@ _HEADERS = {
     "X-Frame-Options": "DENY",
 }
 
-# The first page takes the key from the address, and passes it to trame's page. A page that was reloaded finds it in the
-# storage. If the key is wrong, the server answers with the first page again. This page then forgets the key, because it may
-# belong to an earlier server.
+# The first page takes the key from the address, and passes it to trame's page. A page that was reloaded finds it in the storage.
+# If the key is wrong, the server answers with the first page again. The first page then deletes the key, because it may belong to
+# an earlier server.
 _FIRST_PAGE = """<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8"><title>riis view</title></head>
 <body><p id="text">riis view needs the whole address that it printed in its terminal, with the part behind #.</p>
@@ -85,8 +85,8 @@ def has_desktop() -> bool:
 
 
 class Guard:
-    """The server of a page while it runs. Its folder, with the key, exists as long as the guard. It calls on_sockets with the
-    number of open WebSockets, that is of browsers, whenever one opens or closes."""
+    """The server of a page while it runs. The guard's folder, with the key, exists as long as the guard. The guard calls
+    on_sockets with the number of open WebSockets, that is of browsers, whenever one opens or closes."""
 
     def __init__(self, server: Any, on_sockets: Callable[[int], None]):
         self.server = server
@@ -186,5 +186,5 @@ class Guard:
         print("The address is a key to your mesh: do not pass it on. Ctrl C ends riis view.", flush=True)
         if browser and has_desktop():
             # A command line is visible to every user of the machine, so the browser gets the path of a file. Some browsers keep
-            # their caller waiting, so a separate thread calls them.
+            # their caller waiting, so a separate thread calls the browser.
             threading.Thread(target=webbrowser.open, args=(opener.as_uri(),), daemon=True).start()

@@ -56,7 +56,7 @@ class Hand(Part):
     def _move(self, change: Callable[[], Any], what: Any) -> None:
         """Makes a change. Changes of the same thing in one drag, or in quick succession, are one step of undo.
 
-        The time is counted from the last picture, because a slow server answers late to a hand that still moves.
+        The time is counted from the last picture, because a slow server responds late to a hand that still moves.
         """
         self._need_model()
         now = time.monotonic()
@@ -256,7 +256,7 @@ class Hand(Part):
         self._moved.set()
 
     def _look_at_all(self) -> None:
-        """Looks at the whole mesh or wall, in which the valve is not yet placed."""
+        """Shows the whole mesh or wall, in which the valve is not yet placed."""
         lower, upper = self.model.bounds if self.model.wall is None else (self.model.wall.lower, self.model.wall.upper)
         valve = self._valve()
         reach = 0.45 * float(numpy.linalg.norm(upper - lower))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The model of the view: everything but the pictures.
+"""The model of the view, which contains everything except the pictures.
 
     model = Model(points, cells, unit="mm", path="root.vtu")
     i = model.add("coapting")
@@ -117,10 +117,10 @@ class Model(BumpedValves, LandmarkedValves):
 
     @classmethod
     def near(cls, points: Any, cells: Any = None, **options: Any) -> Model:
-        """Makes a model of a large mesh. It keeps the whole mesh, and works with the cells near the valves.
+        """Makes a model of a large mesh. The model keeps the whole mesh, and works with the cells near the valves.
 
-        The marks equal the whole mesh's marks. If a valve leaves the cells near it, the next update finds new cells, which takes
-        about a second for 5 million nodes.
+        The marks are equal to those of the whole mesh. If a valve leaves the cells near it, the next update finds new cells,
+        which takes about a second for 5 million nodes.
         """
         return cls(points, cells, _near=True, **options)
 
@@ -231,8 +231,8 @@ class Model(BumpedValves, LandmarkedValves):
         self._change(tuple(state for number_of, state in enumerate(self.valves) if number_of != i), self._unit)
 
     def change_kind(self, i: int, kind: str) -> None:
-        """Turns a valve into one of another kind, with this kind's default sizes. Its placement, half thickness and cycle
-        stay."""
+        """Turns a valve into a valve of another kind, with the default sizes of this kind. The valve keeps its placement, half
+        thickness and cycle."""
         state = self._at(i).state
         if state.surface is not None:
             raise refuse(f"i: valve {i} is a surface from a file, which has no kind")
@@ -245,10 +245,9 @@ class Model(BumpedValves, LandmarkedValves):
         """Sets a parameter of a valve, or "opening", "half_thickness", "offset", "resistance", "scale", "triangulation", "name".
 
         Lengths of parameters are in centimetres, the half thickness is in mesh units. The offset is in half thicknesses. The
-        resistance is in kg/(m s) if the mesh
-        has a unit, and a text such as "1e5 g/(cm s)" then has its own. Otherwise it is in mesh units. A surgeon's name, such as
-        "annulus", sets the parameter that it stands for. Refuses a value that is out of range, and sizes that do not fit
-        together.
+        resistance is in kg/(m s) if the mesh has a unit, and a text such as "1e5 g/(cm s)" then has its own. Without a unit, the
+        resistance is in mesh units. A surgeon's name, such as "annulus", sets the parameter that it stands for. Refuses a value
+        that is out of range, and sizes that do not fit together.
         """
         state = self._at(i).state
         key = ("set", i, name)
@@ -340,11 +339,10 @@ class Model(BumpedValves, LandmarkedValves):
         """Places and sizes a valve by three points of the annulus, so that its annulus passes through them.
 
         The first point determines the turn of the valve. For three cusps the points are the nadirs, the lowest points of the
-        attachment. The first nadir belongs to cusp 0, the right cusp of an aortic valve. For two or four cusps the first point
-        is the nadir of cusp 0, and for mitral and tricuspid valves it is the middle of the anterior leaflet. The other points
-        are then anywhere on the annulus. For a bileaflet valve the first
-        point is at an end of the hinges. The valve's axis keeps its side. ``flip`` turns the axis over. Lengths of the valve
-        grow in proportion.
+        attachment. The first nadir belongs to cusp 0, the right cusp of an aortic valve. For two or four cusps the first point is
+        the nadir of cusp 0, and for mitral and tricuspid valves it is the middle of the anterior leaflet. The other points are
+        then anywhere on the annulus. For a bileaflet valve the first point is at an end of the hinges. The valve's axis keeps its
+        side, and ``flip`` reverses the axis. Lengths of the valve grow in proportion.
         """
         state = self._at(i).state
         if state.surface is not None:
@@ -394,7 +392,7 @@ class Model(BumpedValves, LandmarkedValves):
         return self._region().ids_of(marks.ids), marks.distance.copy(), marks.leaflet_id.copy()
 
     def orifice(self, i: int) -> list[Reals]:
-        """Returns the outline of a valve's free orifice as closed lines (n, 3). A closed orifice has none."""
+        """Returns the outline of a valve's free orifice as closed lines (n, 3). The list is empty for a closed orifice."""
         placed = self._at(i)
         return outline_of(placed.surface, self._disc_centre(placed.state))
 
@@ -409,9 +407,10 @@ class Model(BumpedValves, LandmarkedValves):
     # ---- Lights ----
 
     def lights(self) -> list[Light]:
-        """Judges the valves: unit, inside, half_thickness, crossing, wall and sealed. Of several valves, the worst counts.
+        """Judges the valves: unit, inside, half_thickness, crossing, wall and sealed. With several valves, the worst one counts.
 
-        This takes longer than the marks, about half a second for 100,000 nodes, so a page calls it when the hand rests.
+        Judging the valves takes longer than the marks, about half a second for 100,000 nodes, so a page calls it when the hand
+        rests.
         """
         if self._lights is None:
             self.update()
@@ -454,7 +453,7 @@ class Model(BumpedValves, LandmarkedValves):
             else:
                 self.set(i, "skirt_length", light.value)
         else:
-            # A new half thickness changes the triangles a little, so the light is read again.
+            # A new half thickness changes the triangles slightly, so the light is read again.
             length = light.value
             for _ in range(6):
                 self.set(i, "half_thickness", length)
@@ -507,7 +506,7 @@ class Model(BumpedValves, LandmarkedValves):
         self._change(states, self._unit)
 
     def at(self, time: float) -> None:
-        """Moves all valves with a cycle, and surfaces that move, to a time. This is not a step of undo."""
+        """Moves all valves with a cycle, and surfaces that move, to a time. The move to a time is not a step of undo."""
         moment = number(time, "time")
         states = tuple(_moved(state, moment) for state in self.valves)
         self._take(self._made(states, self._wall))
@@ -515,7 +514,7 @@ class Model(BumpedValves, LandmarkedValves):
 
     @contextmanager
     def kept(self) -> Iterator[None]:
-        """Restores the time and the openings that the valves had before, regardless of ``at``."""
+        """Restores the time and the openings that the valves had before, whatever ``at`` does."""
         states, moment = self.valves, self._time
         try:
             yield
@@ -543,8 +542,8 @@ class Model(BumpedValves, LandmarkedValves):
 
     @property
     def span(self) -> tuple[float, float]:
-        """The first and the last time of the motion. It has the longest period, and begins with the first frame of surfaces that
-        move. Both are 0 if nothing moves."""
+        """The first and the last time of the motion. The motion has the longest period, and begins with the first frame of
+        surfaces that move. Both times are 0 if nothing moves."""
         parts = []
         for k, state in enumerate(self.valves):
             source, length = state.surface, self.period(k)
@@ -606,11 +605,11 @@ class Model(BumpedValves, LandmarkedValves):
     def command(
         self, *, case: str = "case.json", output: str = "marked.vtu", program: str = "riis", warp: str = "warp.json"
     ) -> str:
-        """Returns the command that gives the present marks. It needs the files of ``command_files``, under their names.
+        """Returns the command that gives the present marks. The command needs the files of ``command_files``, under their names.
 
-        Several valves need a case. A warp that is in no placed file needs a file of its own. If one of several valves is a
-        surface that moves, the output is a .pvd file, whose first step has the present marks. Without a mesh the command writes
-        the surface that is seen, as .vtp.
+        Several valves need a case. If a warp is in no placed file, it needs a separate file. If one of several valves is a
+        surface that moves, the output is a .pvd file, whose first step has the present marks. Without a mesh, the command writes
+        the surface that the page shows, as .vtp.
         """
         self._check_skirts()
         return _outputs.command_of(self.valves, self._facts(), case, output, program, warp)
@@ -632,12 +631,12 @@ class Model(BumpedValves, LandmarkedValves):
         return _outputs.Facts(self._unit, self._path, self._cells_where, self._wall, self._mesh.is_missing)
 
     def openfoam(self, density: float = 1060.0) -> str:
-        """Returns fvOptions of OpenFOAM, in metres and kilograms. A mesh without a unit is taken as it is, and so is its R."""
+        """Returns fvOptions of OpenFOAM, in metres and kilograms. For a mesh without a unit, lengths and R are written
+        unchanged."""
         return _outputs.openfoam_of(self.valves, self._unit, density)
 
     def save(self, path: str | os.PathLike[str], page: Mapping[str, Any] | None = None) -> None:
-        """Writes the session. ``load`` opens it as it was. A page adds further data that it shows, such as its camera, as
-        JSON."""
+        """Writes the session. ``load`` opens it as it was. A page adds further data, such as its camera, as JSON."""
         text = _sessions.session_of(self.valves, self._facts(), len(self.points), self._time, self._landmarks, page)
         Path(path).write_text(text, encoding="utf-8")
 

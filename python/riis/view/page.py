@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """The page of riis view: a server on 127.0.0.1 with the picture of a Model, its sliders, lights and files.
 
-The page is page.html, a template of Vue. Its variables are the state of this server. browser.js hands the gestures on the
-picture to the functions that begin with _on_. Everything runs on one thread, except that a separate thread reads a mesh.
-hand.py, details.py, heartbeat.py and saving.py have the parts of the page that change the valves, play them and write files.
+The page is page.html, a template of Vue. The template's variables are the state of this server. browser.js hands the gestures on
+the picture to the functions that begin with _on_. Everything runs on one thread, except that a separate thread reads a mesh.
+hand.py, details.py, heartbeat.py and saving.py contain the parts of the page that change the valves, play them and write files.
 """
 
 from __future__ import annotations
@@ -188,7 +188,7 @@ class Page(Hand, Details, Heartbeat, Patient, saving.Files):
         return told
 
     def _tell_fault(self, error: Exception) -> None:
-        """Tells a fault of the page itself. The server lives on."""
+        """Reports a fault of the page itself. The server continues to run."""
         traceback.print_exc()
         self._say(f"{type(error).__name__}: {error} (this is a fault of riis view; its terminal has the details)")
 
@@ -277,8 +277,8 @@ class Page(Hand, Details, Heartbeat, Patient, saving.Files):
             self._renew_all()
 
     async def _read(self, path: str | None = None, **others: str | None) -> None:
-        """On a thread, reads a mesh or a wall and the other Sources, and shows the progress. If one of them is refused, nothing
-        changes."""
+        """On a thread, reads a mesh or a wall and the other Sources, and shows the progress. If one of the files is refused,
+        nothing changes."""
         sources = Sources(path, **others)
         parts = {"part": -1.0}
         name = os.path.basename(sources.path or sources.wall or sources.saved or "")
@@ -383,14 +383,14 @@ class Page(Hand, Details, Heartbeat, Patient, saving.Files):
         self._say(f"opened {path}", "success")
 
     def _as_saved(self) -> dict[str, Any]:
-        """Returns what the page shows besides the valves, for a saved view."""
+        """Returns everything that the page shows except the valves, for a saved view."""
         state = self.state
         return {
             "current": state.current, "wall": state.wall, "cells": state.cells, "speed": state.speed, "view": self.scene.view(),
         }  # fmt: skip
 
     def _show_as_saved(self, shown: dict[str, Any]) -> None:
-        """Shows the content of a saved view. Views that the library or an older release saved lack these entries."""
+        """Shows the content of a saved view. Views that the library or an older release has saved lack these entries."""
         if not shown:
             return
         with self.state as state:
@@ -533,7 +533,8 @@ class Page(Hand, Details, Heartbeat, Patient, saving.Files):
         self._orifice_at = time.monotonic()
 
     def _settle(self) -> None:
-        """Renews the parts that take longer than a move: the lights, the cut through the mesh, the handle, a sharper picture."""
+        """Renews the parts that take longer than a move: the lights, the cut through the mesh, the handle, and a sharper
+        picture."""
         self._unsettled = False
         if not self._held:
             self._end_drag()
@@ -555,7 +556,7 @@ class Page(Hand, Details, Heartbeat, Patient, saving.Files):
             state.fresh = state.at_rest = True
 
     async def _pictures(self) -> None:
-        """Draws and sends pictures one at a time, each after a browser has shown the last."""
+        """Draws and sends pictures one at a time, each after a browser has shown the previous one."""
         while True:
             try:
                 await asyncio.wait_for(self._moved.wait(), REST if self._unsettled else None)

@@ -55,7 +55,7 @@ class Patient(Part):
     # landmarks
 
     def _on_landmark(self, name: str) -> None:
-        """Chooses a landmark: the next click on the wall sets it. The second press lets it go."""
+        """Chooses a landmark. The next click on the wall sets this landmark. A second press releases it."""
         self._need_model()
         with self.state as state:
             is_chosen = state.tool == PLACING and state.landmark == name
@@ -147,7 +147,7 @@ class Patient(Part):
         self._begin_task(self._fit(work, self.state.current, self._valve()))
 
     async def _fit(self, work: Any, i: int, valve: Any) -> None:
-        """Fits on a thread, and gives the result to the valve unless it has changed in the meantime."""
+        """Fits on a thread. The valve gets the result, if it has not changed in the meantime."""
         with self._alone("a fit is running"):
             try:
                 with self.state as state:
@@ -178,7 +178,8 @@ class Patient(Part):
     # the skirt
 
     def _on_skirt(self, is_on: Any, value: Any = None) -> None:
-        """Gives the valve a skirt to the wall, or takes it away. Without a length, the skirt is long enough at all openings."""
+        """Gives the valve a skirt to the wall, or removes the skirt. Without a length, the skirt is long enough at all
+        openings."""
         self._begin_change()
         if not is_on:
             self.model.set_skirt(self.state.current, 0.0)
@@ -193,7 +194,7 @@ class Patient(Part):
         self._renew_all()
 
     def _need_wall(self) -> None:
-        """Takes the boundary of the mesh as the wall if there is no other one."""
+        """Uses the boundary of the mesh as the wall if there is no other wall."""
         if self.model.wall is None:
             self.model.set_wall(reading.read_wall(self.state.path))
 

@@ -29,8 +29,8 @@ class Refusal(Exception):
 def read_mesh(path: str, progress: dict[str, float] | None = None, *, cells_where: str | None = None) -> Any:
     """Returns a mesh of volume cells as pyvista.UnstructuredGrid. progress["part"] grows from 0 to 1.
 
-    Nodes and cells keep the file's order, and points keep its precision. So the program riis finds the same marks. cells_where
-    chooses cells, as the program's --cells-where: "region=1,2".
+    Nodes and cells keep the file's order, and points keep its precision. The program riis therefore finds the same marks.
+    cells_where chooses cells, as the program's option --cells-where: "region=1,2".
     """
     import pyvista
 

@@ -110,7 +110,7 @@ def _number(value: float) -> str:
 
 
 def _range_of(parameter: Any, factor: float) -> str:
-    """Returns a range in words. The library's widest ranges only keep out numbers that overflow."""
+    """Returns a range in words. The widest ranges of the library only keep out numbers that overflow."""
     least, greatest = factor * parameter.least, factor * parameter.greatest
     if parameter.greatest < 1e8:
         return f"{_number(least)} to {_number(greatest)}"
@@ -179,7 +179,7 @@ def _by_number(name: str) -> tuple[str, int]:
 
 
 def found_of(found: Any, unit: str) -> dict[str, Any]:
-    """Returns the table of a placing or of a fit: a head, the rows, and what a person should know about them."""
+    """Returns the table of a placing or of a fit: a head, the rows, and remarks that a person should read."""
     if found is None:
         return {}
     words = f" {unit}" if unit else ""

@@ -26,7 +26,8 @@ _WRITE_ENDINGS = {"view": ".view.json", "landmarks": ".mrk.json", "mesh": ".vtu"
 FILMING = "a movie is being written"
 _NO_FILMS = "a movie needs imageio and imageio-ffmpeg: pip install imageio imageio-ffmpeg"
 
-# Errors that a person's input causes. Their message goes to the page. Other exceptions are faults of the page itself.
+# Errors that a person's input causes. The message of such an error goes to the page. All other exceptions are faults of the page
+# itself.
 REFUSALS = (riis.Error, OSError, ImportError, reading.Refusal)
 
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The picture of a Model: the mesh, the leaflets, the cells around them, and the places that the lights report.
 
-A scene draws into a PyVista plotter without a window, or into a plotter of a notebook. Its objects stay in place while a valve
-moves, and only their points and cells change. All calls of a scene must come from one thread.
+A scene draws into a PyVista plotter without a window, or into a plotter of a notebook. The objects of a scene stay in place while
+a valve moves, and only their points and cells change. All calls of a scene must come from one thread.
 """
 
 from __future__ import annotations
@@ -125,7 +125,7 @@ class Scene:
     # the wall and the mesh
 
     def renew_wall(self) -> None:
-        """Draws the wall of the model, or else the boundary of the mesh."""
+        """Draws the wall of the model. If the model has none, draws the boundary of the mesh."""
         given = self.model.wall
         if self._wall is not None and given is self._given_wall:
             return
@@ -166,9 +166,10 @@ class Scene:
             self._actors["riis cut"].SetVisibility(self._how == "cut")
 
     def freeze(self) -> None:
-        """Cuts the wall itself. Otherwise a plane hides the half towards the camera, but vtk.js knows no such plane.
+        """Cuts the wall itself. In other cases a plane hides the half towards the camera, but vtk.js does not support such a
+        plane.
 
-        vtk.js knows no scale bar either.
+        vtk.js does not support a scale bar either.
         """
         drop_scale_bar(self.plotter)
         if self._plane is not None and self._wall is not None:
@@ -187,7 +188,7 @@ class Scene:
         self.show_cut()
 
     def cut_here(self, origin: Any, axis: Any) -> None:
-        """Cuts the mesh along the valve's axis, and takes away the half towards the camera."""
+        """Cuts the mesh along the valve's axis, and removes the half towards the camera."""
         if self._plane is None:
             return
         towards = numpy.subtract(self.plotter.camera.position, self.plotter.camera.focal_point)
@@ -204,7 +205,8 @@ class Scene:
         self._placed = None
 
     def show_cut(self) -> None:
-        """Draws the cells' edges in the plane of the cut. This takes longer than a move of a leaflet, so call it at rest."""
+        """Draws the cells' edges in the plane of the cut. Drawing the edges takes longer than a move of a leaflet, so call it
+        when the mouse rests."""
         if self._plane is None or self._how != "cut" or self.grid is None:
             return
         place = (self._plane.GetOrigin(), self._plane.GetNormal())
@@ -230,7 +232,7 @@ class Scene:
     # what moves
 
     def _put(self, name: str, data: Any, **how: Any) -> None:
-        """Draws data under this name. If an object has this name already, gives it these data."""
+        """Draws data as an object with a name. If an object has the name already, gives it the data."""
         if name in self._data:
             self._data[name].shallow_copy(data)
             self._actors[name].SetVisibility(data.n_points > 0)
@@ -246,7 +248,8 @@ class Scene:
         self.plotter.remove_actor(name, reset_camera=False)
 
     def show(self, shown: Any, quick: bool = False) -> None:
-        """Draws what Model.update() returned: leaflets and cells near them. In a quick show, very many cells wait for rest()."""
+        """Draws what Model.update() returned: leaflets and cells near them. In a quick show, very many cells are drawn only by
+        rest()."""
         self._shown = shown
         add_scale_bar(self.plotter, self.model.unit, lift=0.03)  # above the page's legend
         self._waiting = quick and len(shown.cells_marked) + len(shown.cells_partly) > MANY_MARKED
@@ -267,7 +270,7 @@ class Scene:
         self._show_cells()
 
     def rest(self) -> None:
-        """Draws what a quick show left out, and the mesh in the plane of the cut."""
+        """Draws what a quick show has left out, and the mesh in the plane of the cut."""
         if self._waiting:
             self._waiting = False
             self._show_cells()
@@ -351,7 +354,7 @@ class Scene:
             self._put("riis gap", data, color=GAP, opacity=0.75, ambient=0.5, pickable=False)
 
     def show_landmarks(self, landmarks: Mapping[str, Any], chosen: str = "") -> None:
-        """Draws landmarks as points with their names. The chosen one is red."""
+        """Draws landmarks as points with their names. The chosen landmark is red."""
         for name in ("riis landmarks", "riis chosen landmark"):
             self._drop(name)
         for label in self._labels:
@@ -419,7 +422,7 @@ class Scene:
     # the camera
 
     def look(self, how: str, origin: Any = None, axis: Any = None, reference: Any = None, reach: float | None = None) -> None:
-        """Looks at the valve obliquely, from the tip of its z axis ("top") or from the side. Without a valve, looks at
+        """Looks at the valve obliquely, from the tip of its z axis ("top") or from the side. Without a valve, the camera looks at
         everything."""
         if how not in LOOKS:
             raise refuse(f"look: is '{how}'; it must be one of {', '.join(LOOKS)}")
@@ -446,7 +449,7 @@ class Scene:
         return {name: [float(x) for x in place] for name, place in places.items()}
 
     def set_view(self, view: Mapping[str, Any]) -> None:
-        """Looks and cuts as view() described."""
+        """Sets the camera and the cut as view() described them."""
         places = places_of(view)
         for name in ("position", "focal_point", "up"):
             setattr(self.plotter.camera, name, tuple(places[name].tolist()))
@@ -573,7 +576,7 @@ class Scene:
         return memoryview(writer.GetResult()).tobytes()
 
     def save_picture(self, path: str, size: tuple[int, int] | None = None) -> None:
-        """Writes the picture as .png, without what helps to place the valve: lights, the gap, the axis and clicked points.
+        """Writes the picture as .png, without the aids for placing the valve: lights, the gap, the axis and clicked points.
 
         size  width and height in pixels, by default the page's. Lines, points and letters grow with the height
         """
@@ -597,7 +600,7 @@ class Scene:
             self.resize(*before)
 
     def hide_helpers(self) -> list[Any]:
-        """Hides what helps to place the valve. Returns the actors that were visible."""
+        """Hides the aids for placing the valve. Returns the actors that were visible."""
         hidden = [actor for name, actor in self._actors.items() if name.startswith(_HELPERS) and actor.GetVisibility()]
         for actor in hidden:
             actor.SetVisibility(False)
