@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A 0D model of the left heart, without space. The model writes the motion of the wall, both end pressures and the openings for
-the flow in space.
+"""A 0D model of the left heart writes the motion of the wall, both end pressures and the openings for the flow in space.
 
     python3 zero_d.py CASE MITRAL.csv AORTIC.csv [--beats N] [--dilated] [--out TABLE.csv]
 
