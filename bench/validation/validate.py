@@ -160,10 +160,6 @@ def page_values(rows, about, committed, plots):
             values[f"c_{kind}_{rim}"] = f"{row['extrapolated']:.2f}"
             for at in (0, 1):
                 values[f"less_{at}_{kind}_{rim}"] = f"{row['extrapolated'] - row['grids'][at]['value']:.2f}"
-            orders = [r["order"] for r in rows if r["id"].startswith(f"stokes_{kind}_{rim}_") and r["order"]]
-            values[f"order_h_{kind}_{rim}"] = f"{min(orders):.1f} to {max(orders):.1f}" if orders else "none"
-            order = by_id[f"stokes_{kind}_{rim}"]["order"]
-            values[f"order_eps_{kind}_{rim}"] = f"{order:.2f}" if order else "none"
             some = [r for r in rows if r["id"].startswith(f"stokes_{kind}_{rim}_")]
             values[f"range_{kind}_{rim}"] = f"{min(r['c'] for r in some):.2f} to {max(r['c'] for r in some):.2f}"
     rims = [[f"Stokes, {kind}", rim, values[f"c_{kind}_{rim}"], "ε = a/4 to a/16: " + values[f"range_{kind}_{rim}"]]
@@ -177,7 +173,6 @@ def page_values(rows, about, committed, plots):
         values[f"cells_{at}"] = grid["n"].split()[-1]
     jets = [row for row in rows if row["id"].startswith("jet_")]
     values["jet_finest"] = f"{max(100 * (row['grids'][-1]['value'] / row['reference'] - 1) for row in jets):.0f}"
-    values["jet_worst"] = f"{max(abs(100 * row['deviation']) for row in jets):.1f}"
     values["committed"] = committed and {**committed, "command": f"`{committed['command']}`"}
     return values
 
