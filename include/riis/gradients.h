@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  * gradients.h - gradients: derivatives of distances, of K and of areas by parameters, landmarks and the placement.
- * riis.h includes this file, and has the rules that hold for every call.
+ * The header riis.h includes this file, and has the rules that hold for every call.
  */
 /* clang-format off: argument lists in comments are laid out by hand */
 #ifndef RIIS_GRADIENTS_H

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  * marks.h - marks: the nodes near a surface, with their distances and their resistance K.
- * riis.h includes this file, and has the rules that hold for every call.
+ * The header riis.h includes this file, and has the rules that hold for every call.
  */
 /* clang-format off: argument lists in comments are laid out by hand */
 #ifndef RIIS_MARKS_H
@@ -118,7 +118,7 @@ enum {
   RIIS_LIST_WITHIN_LIMIT = 1 /* the nodes within the distance limit, marked or not. Without a limit: the marked nodes */
 };
 /* A list of nodes, ascending by node_id. Lengths are in mesh units. The arrays from `point` on are NULL if options.fields did not
- * request them. riis_closest_point gives the same values, to the last bit. */
+ * request them. The call riis_closest_point gives the same values, to the last bit. */
 typedef struct riis_mark_list {
   int64_t n_nodes;            /* in the list */
   const int64_t *node_id;     /* (n_nodes) */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  * measures.h - measures of a valve for a flow: leaflets, orifice and its inverse, coaptation, leak, first passage, cells across,
  * swept volume.
- * riis.h includes this file, and has the rules that hold for every call.
+ * The header riis.h includes this file, and has the rules that hold for every call.
  */
 /* clang-format off: argument lists in comments are laid out by hand */
 #ifndef RIIS_MEASURES_H

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  * queries.h - queries of a surface: the closest points of any points, and places where the surface goes through itself.
- * riis.h includes this file, and has the rules that hold for every call.
+ * The header riis.h includes this file, and has the rules that hold for every call.
  */
 /* clang-format off: argument lists in comments are laid out by hand */
 #ifndef RIIS_QUERIES_H

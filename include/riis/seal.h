@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  * seal.h - whether the marks close the surface on a mesh: leaks, open regions, and the widest passage.
- * riis.h includes this file, and has the rules that hold for every call.
+ * The header riis.h includes this file, and has the rules that hold for every call.
  */
 /* clang-format off: argument lists in comments are laid out by hand */
 #ifndef RIIS_SEAL_H

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The flat parts of a wall, at which vessels may have been cut. A flat part consists of connected triangles in one plane. The
-// angle of the wall beside the part is also measured. riis patient chooses ends among the parts, and pictures leave the parts
-// out.
+// angle of the wall beside the part is also measured. The command riis patient chooses ends among the parts, and pictures leave
+// the parts out.
 #pragma once
 
 #include <cmath>

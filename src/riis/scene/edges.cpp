@@ -278,8 +278,8 @@ Vector<std::int64_t> vertices_on(const TriangleSet &set, std::int64_t begin, std
   return found;
 }
 
-// Returns for each patch the side that choose(patch, rim) returns. `rim` holds the patch's bits of PatchRim. choose() returns
-// 0 for a patch without such a side.
+// Returns for each patch the side that choose(patch, rim) returns. `rim` holds the patch's bits of PatchRim. The function
+// choose() returns 0 for a patch without such a side.
 template <class Choose>
 std::vector<SideLine> sides(const TriangleSet &set, const Choose &choose) {
   std::vector<SideLine> lines;

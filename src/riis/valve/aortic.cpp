@@ -91,7 +91,8 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
 
 // clang-format off
 ValveKind make_kind() {
-  // The limits of lengths suit a valve in any unit from kilometres to micrometres. check_together checks ratios of lengths.
+  // The limits of lengths suit a valve in any unit from kilometres to micrometres. The ratios of lengths are checked by
+  // check_together.
   constexpr double shortest = 1e-9, longest = 1e9;
   const char *length = "length", *degree = "degree", *number = "1";
   ValveKind kind{"aortic", {

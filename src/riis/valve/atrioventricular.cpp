@@ -534,7 +534,8 @@ void check_values(const ParameterValues &values, const ValveKind &kind, std::siz
   }
 }
 
-// The sizes in which the kinds differ. Lengths are in centimetres. docs/theory/atrioventricular.md has the sources of the values.
+// The sizes in which the kinds differ. Lengths are in centimetres. The sources of the values are in
+// docs/theory/atrioventricular.md.
 struct KindSizes {
   Vector<ParameterSpec> of_leaflets;
   ParameterSpec width, depth, flat_ratio;

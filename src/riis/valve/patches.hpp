@@ -121,9 +121,9 @@ struct MaterialPoints {
   }
 };
 
-// The places to which the map takes points inside a warped patch. In a patch of arcs, these are the middles of the arcs that
-// begin at the even shares. In another patch, they are the four points with u and v of 1/3 or 2/3. The points with v = 1/3 come
-// first.
+// The places to which the map takes points inside a warped patch. In a patch of arcs, the places belong to the middles of the
+// arcs that begin at the even shares. In another patch, the places belong to the four points with u and v of 1/3 or 2/3. The
+// points with v = 1/3 come first.
 struct MappedInside {
   bool of_arcs;
   std::array<Vec3, n_material> points;

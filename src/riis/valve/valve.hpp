@@ -99,8 +99,9 @@ struct ValveKind {
 // Adds the parameter "skirt_length" to a kind.
 ValveKind with_skirt(ValveKind kind, SkirtAxis axis);
 
-// The kinds of valves that are defined by parameters. Each kind is in a file of its name, with two exceptions. valve/coapting.cpp
-// has the kinds with two to four coapting cusps. valve/atrioventricular.cpp has the kinds with coapting leaflets on an annulus.
+// The kinds of valves that are defined by parameters. Each kind is in a file of its name, with two exceptions. The kinds with two
+// to four coapting cusps are in valve/coapting.cpp. The kinds with coapting leaflets on an annulus are in
+// valve/atrioventricular.cpp.
 const ValveKind &aortic_valve_kind();
 const ValveKind &bicuspid_valve_kind();
 const ValveKind &bileaflet_valve_kind();
