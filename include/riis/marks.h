@@ -149,8 +149,8 @@ typedef struct riis_mark_list {
                                       closest point, as a point of the triangle triangle_id. On the surface the derivative is 0,
                                       because the distance has a kink there. The distance also has a kink at nodes with several
                                       nearest places */
-  const double *K_gradient;   /* (n_directions, n_nodes): the derivative of K for constant R and half thickness. This derivative
-                                 is 0 beyond the half thickness and beyond a cut rim; NULL without a resistance. With an offset,
+  const double *K_gradient;   /* (n_directions, n_nodes): the derivative of K for constant R and half thickness. The derivative of
+                                 K is 0 beyond the half thickness and beyond a cut rim; NULL without a resistance. With an offset,
                                  on the surface n is the surface's normal, and at a rim the normal turns too */
   const double *height;       /* (n_nodes): with an offset, the signed distance s of riis_surface_create; at a rim n.(x - p).
                                  NULL without an offset */

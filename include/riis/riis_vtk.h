@@ -85,7 +85,7 @@ RIIS_API riis_status riis_vtk_mesh_create_adjacency(const riis_vtk_mesh *mesh, i
 RIIS_API riis_status riis_vtk_mesh_get_volume_cells(const riis_vtk_mesh *mesh, int64_t *n_volume_cells,
                                                     int64_t *n_cells_left_out);
 
-/* Copies the cells in the file's order. Call it twice: the first call gives the number of node ids as its last offset.
+/* Copies the cells in the file's order. Call this function twice: the first call gives the number of node ids as its last offset.
  *   `n_cells`: the number of cells, as riis_vtk_mesh_get_nodes gives it.
  *   `offsets` (n_cells + 1): cell i has the nodes node_ids[offsets[i]] to node_ids[offsets[i + 1] - 1]; NULL if not wanted.
  *   `types` (n_cells): VTK's numbers of the types, such as 10 for a tetrahedron; NULL if not wanted.
@@ -256,9 +256,9 @@ typedef struct riis_vtk_surface riis_vtk_surface;
  *   `path`: ends in .vtp or .vtk (faces only), .vtu (faces, also quadratic; errors name other cells), .stl, .obj or .ply.
  *   `leaflets`: the name of the cell array of leaflet ids, one whole number >= 0 for each cell. The array must exist. NULL stands
  *     for riis_leaflet, which may be missing.
- * The point array riis_attached, if the file has it, becomes riis_surface_arrays.attached. This array has one number for each
- * point. A quad is cut from its first corner to its third. If this line runs outside a concave quad, the cut goes from the second
- * corner to the fourth, with the same winding.
+ * The point array riis_attached, if the file has it, becomes riis_surface_arrays.attached. The array riis_attached has one number
+ * for each point. A quad is cut from its first corner to its third. If this cut runs outside a concave quad, the cut goes from
+ * the second corner to the fourth, with the same winding.
  * Errors: RIIS_FILE_ERROR naming the file, and the cell with its value or the arrays that exist. */
 RIIS_API riis_status riis_vtk_surface_read(const char *path, const char *leaflets, riis_vtk_surface **surface);
 /* Makes a surface of the faces that only one volume cell of the mesh has. This surface is the wall around the blood, and its

@@ -55,7 +55,8 @@ struct Part {
 // surface may be open.
 class Finder {
  public:
-  // `faces_outwards` is true if the triangles face outwards. If it is false, the wall beside a part counts as behind the part.
+  // `faces_outwards` is true if the triangles face outwards. If `faces_outwards` is false, the wall beside a part counts as
+  // behind the part.
   Finder(const Triangles &triangles, bool faces_outwards);
 
   // Returns the flat parts that may be ends, the largest first. The result includes `parts`, which are already known.

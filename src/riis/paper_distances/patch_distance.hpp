@@ -151,7 +151,8 @@ class SampleSet final : public PatchDistance {
  private:
   static constexpr std::int64_t samples_per_leaf = 64;
 
-  // A box around the samples of a leaf, or around two other nodes of the tree. In the array, the first child follows its parent.
+  // A box around the samples of a leaf, or around two other nodes of the tree. In the array of nodes, the first child follows its
+  // parent.
   struct Node {
     Bounds box;
     std::int32_t second = -1;  // the position of the second node, or -1 in a leaf

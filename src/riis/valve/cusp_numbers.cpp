@@ -270,9 +270,9 @@ EdgeLength::Value EdgeLength::at(double depth) const {
   return value;
 }
 
-// The length is a growing and convex function of the depth. Newton's method starts at a depth that is too large. Newton's method
-// therefore descends to the solution and never passes it. A half is at least as long as the line between its ends. At the
-// starting depth, the line of one half alone has the whole length, so this depth is large enough.
+// The length of the free edge is a growing and convex function of its depth. Newton's method starts at a depth that is too large.
+// Newton's method therefore descends to the solution and never passes it. A half is at least as long as the line between its
+// ends. At the starting depth, the line of one half alone has the whole length, so this depth is large enough.
 double edge_depth(const CuspNumbers &cusp) {
   Vector<EdgeLength> halves(cusp.begin(), cusp.end());
   const double wanted = total_length(cusp), first_top = cusp.front().edge_top;
