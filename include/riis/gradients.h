@@ -42,7 +42,7 @@ typedef struct riis_direction {
 /* Gives the rates of a surface's vertices along a direction, until the surface's next update or its destruction.
  *   `direction_id`: 0 for the first riis_surface_add_direction after the last update, 1 for the second, and so on.
  * From the rates a caller computes derivatives of other numbers that depend on the triangles (docs/theory/gradients.md). The
- * rates belong to the triangles, whatever the surface's measure is.
+ * rates belong to the triangles, also if the surface's measure is not RIIS_MEASURE_TRIANGLES.
  * Errors: RIIS_INVALID_ARGUMENT for a direction that the surface lacks. */
 RIIS_API riis_status riis_surface_get_direction(const riis_surface *surface, int64_t direction_id,
                                                 riis_direction *direction, int64_t struct_size);

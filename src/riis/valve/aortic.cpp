@@ -37,7 +37,7 @@ constexpr CuspOpening default_opening{0.75, 0.05};
 std::size_t position_of(std::size_t cusp, OfCusp parameter) { return n_general + cusp * n_of_cusp + parameter; }
 
 // The rules for rotations that the caller did not set. If the sum of the leaflet angles is 180 degrees, all neighbours meet
-// at their commissures. With another sum, the three gaps between neighbours, or the three overlaps, are equal.
+// at their commissures. If the sum is not 180 degrees, neighbours have three equal gaps or three equal overlaps between them.
 double leaflet_angle_of(const ParameterValues &values, std::size_t cusp) {
   return values[position_of(cusp, leaflet_angle)][0];
 }

@@ -30,7 +30,8 @@ constexpr double least_sine_to_axis = 0.2;
 // does. Beside a flatter side the skirt leans less, and beside a side in the plane across the axis the skirt does not lean.
 constexpr double least_rise = 0.5;
 // If a skirt is turned at rest, small turns by the warp are added to its place at rest. If the warp turns the skirt by
-// `most_turn_as_at_rest` or more, the whole turn counts. In between, the skirt changes gradually from one rule to the other.
+// `most_turn_as_at_rest` or more, the whole turn counts. For turns between small turns and `most_turn_as_at_rest`, the skirt
+// changes gradually from one rule to the other.
 constexpr double most_turn_as_at_rest = pi / 4;
 // A disc about the axis has `n_corners` corners when it is warped.
 constexpr int n_corners = 24;
