@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  * base.h - results and messages of calls, the log, and points in the caller's arrays.
- * riis.h includes this file, and has the rules that hold for every call.
+ * The header riis.h includes this file, and has the rules that hold for every call.
  */
 /* clang-format off: argument lists in comments are laid out by hand */
 #ifndef RIIS_BASE_H

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  * gradients.h - gradients: derivatives of distances, of K and of areas by parameters, landmarks and the placement.
- * riis.h includes this file, and has the rules that hold for every call.
+ * The header riis.h includes this file, and has the rules that hold for every call.
  */
 /* clang-format off: argument lists in comments are laid out by hand */
 #ifndef RIIS_GRADIENTS_H
@@ -42,7 +42,7 @@ typedef struct riis_direction {
 /* Gives the rates of a surface's vertices along a direction, until the surface's next update or its destruction.
  *   `direction_id`: 0 for the first riis_surface_add_direction after the last update, 1 for the second, and so on.
  * From the rates a caller computes derivatives of other numbers that depend on the triangles (docs/theory/gradients.md). The
- * rates belong to the triangles, whatever the surface's measure is.
+ * rates belong to the triangles, also if the surface's measure is not RIIS_MEASURE_TRIANGLES.
  * Errors: RIIS_INVALID_ARGUMENT for a direction that the surface lacks. */
 RIIS_API riis_status riis_surface_get_direction(const riis_surface *surface, int64_t direction_id,
                                                 riis_direction *direction, int64_t struct_size);

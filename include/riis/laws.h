@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  * laws.h - laws of opening: a valve's opening from the time, the pressure difference and the flow.
- * riis.h includes this file, and has the rules that hold for every call.
+ * The header riis.h includes this file, and has the rules that hold for every call.
  */
 /* clang-format off: argument lists in comments are laid out by hand */
 #ifndef RIIS_LAWS_H
@@ -37,7 +37,7 @@ typedef struct riis_opening_table {
   int32_t reserved;      /* 0 */
 } riis_opening_table;
 RIIS_API riis_status riis_opening_table_init(riis_opening_table *table, int64_t struct_size); /* the defaults */
-/* Gives the opening of a table at a time. opening and rate may be NULL.
+/* Gives the opening of a table at a time. Both `opening` and `rate` may be NULL.
  *   `time`: magnitude at most 1e30.
  * Errors: RIIS_INVALID_ARGUMENT naming the field, the key and its value. */
 RIIS_API riis_status riis_opening_from_table(const riis_opening_table *table, double time, double *opening,
@@ -57,7 +57,7 @@ typedef struct riis_opening_times {
   double period;          /* > 0: the valve opens and closes once in each period. Default 0: only once */
 } riis_opening_times;
 RIIS_API riis_status riis_opening_times_init(riis_opening_times *times, int64_t struct_size); /* the defaults */
-/* Gives the opening at a time by the times of the ramps. opening and rate may be NULL.
+/* Gives the opening at a time by the times of the ramps. Both `opening` and `rate` may be NULL.
  *   `time`: magnitude at most 1e30.
  * Errors: RIIS_INVALID_ARGUMENT naming the field and its value. */
 RIIS_API riis_status riis_opening_from_times(const riis_opening_times *times, double time, double *opening,

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  * loads.h - loads: the forces of the leaflets at the nodes of the tissue that holds them.
- * riis.h includes this file, and has the rules that hold for every call.
+ * The header riis.h includes this file, and has the rules that hold for every call.
  */
 /* clang-format off: argument lists in comments are laid out by hand */
 #ifndef RIIS_LOADS_H

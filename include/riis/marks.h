@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  * marks.h - marks: the nodes near a surface, with their distances and their resistance K.
- * riis.h includes this file, and has the rules that hold for every call.
+ * The header riis.h includes this file, and has the rules that hold for every call.
  */
 /* clang-format off: argument lists in comments are laid out by hand */
 #ifndef RIIS_MARKS_H
@@ -118,7 +118,7 @@ enum {
   RIIS_LIST_WITHIN_LIMIT = 1 /* the nodes within the distance limit, marked or not. Without a limit: the marked nodes */
 };
 /* A list of nodes, ascending by node_id. Lengths are in mesh units. The arrays from `point` on are NULL if options.fields did not
- * request them. riis_closest_point gives the same values, to the last bit. */
+ * request them. The call riis_closest_point gives the same values, to the last bit. */
 typedef struct riis_mark_list {
   int64_t n_nodes;            /* in the list */
   const int64_t *node_id;     /* (n_nodes) */
@@ -149,8 +149,8 @@ typedef struct riis_mark_list {
                                       closest point, as a point of the triangle triangle_id. On the surface the derivative is 0,
                                       because the distance has a kink there. The distance also has a kink at nodes with several
                                       nearest places */
-  const double *K_gradient;   /* (n_directions, n_nodes): the derivative of K for constant R and half thickness. This derivative
-                                 is 0 beyond the half thickness and beyond a cut rim; NULL without a resistance. With an offset,
+  const double *K_gradient;   /* (n_directions, n_nodes): the derivative of K for constant R and half thickness. The derivative of
+                                 K is 0 beyond the half thickness and beyond a cut rim; NULL without a resistance. With an offset,
                                  on the surface n is the surface's normal, and at a rim the normal turns too */
   const double *height;       /* (n_nodes): with an offset, the signed distance s of riis_surface_create; at a rim n.(x - p).
                                  NULL without an offset */

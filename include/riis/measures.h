@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  * measures.h - measures of a valve for a flow: leaflets, orifice and its inverse, coaptation, leak, first passage, cells across,
  * swept volume.
- * riis.h includes this file, and has the rules that hold for every call.
+ * The header riis.h includes this file, and has the rules that hold for every call.
  */
 /* clang-format off: argument lists in comments are laid out by hand */
 #ifndef RIIS_MEASURES_H
@@ -193,9 +193,9 @@ typedef struct riis_first_passage {
  *   `valve`: its own opening is ignored.
  *   `mesh`: must have an adjacency, and need not have been marked.
  *   `ends`: as for riis_find_passage; each end must be outside the band at each tried opening.
- * The call tries the openings 0, 1/8, 2/8, ... until a passage is open. Then the call halves the last step until opening and
- * closed_opening differ by at most the tolerance. A valve that opens further may close a passage again, so the call may miss a
- * passage that ends before the next multiple of 1/8.
+ * The call tries the openings 0, 1/8, 2/8, ... until a passage is open. After that, the call halves the last step until opening
+ * and closed_opening differ by at most the tolerance. A valve that opens further may close a passage again, so the call may miss
+ * a passage that ends before the next multiple of 1/8.
  * Errors: the errors of riis_surface_create and riis_find_passage, with the opening. RIIS_INVALID_PARAMETER for a
  * valve with only one state. */
 RIIS_API riis_status riis_find_first_passage(const riis_valve *valve, const riis_mesh *mesh,

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  * mesh.h - meshes: the nodes that are marked, and their neighbours.
- * riis.h includes this file, and has the rules that hold for every call.
+ * The header riis.h includes this file, and has the rules that hold for every call.
  */
 /* clang-format off: argument lists in comments are laid out by hand */
 #ifndef RIIS_MESH_H
@@ -69,7 +69,7 @@ RIIS_API riis_status riis_grid_init(riis_grid *grid, int64_t struct_size); /* th
  *   `grid`: the axes, which are copied. The grid's n_nodes is the n_nodes of the mesh in every other call.
  * Errors: RIIS_INVALID_MESH naming the axis, the index and the value. RIIS_LIMIT_EXCEEDED for numbers from 2^40 on. */
 RIIS_API riis_status riis_mesh_create_grid(const riis_grid *grid, riis_mesh **mesh);
-/* Gives a mesh other axes, or turns a mesh of points into a grid. riis_mesh_update turns a grid into points.
+/* Gives a mesh other axes, or turns a mesh of points into a grid. The call riis_mesh_update turns a grid into points.
  * Errors: as riis_mesh_create_grid; the mesh then keeps its nodes. */
 RIIS_API riis_status riis_mesh_update_grid(riis_mesh *mesh, const riis_grid *grid);
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  * obstacle.h - the obstacle in the caller's arrays: K and K u_surface, the forces of the flow on the surface, and sums beside it.
- * riis.h includes this file, and has the rules that hold for every call.
+ * The header riis.h includes this file, and has the rules that hold for every call.
  */
 /* clang-format off: argument lists in comments are laid out by hand */
 #ifndef RIIS_OBSTACLE_H
@@ -26,7 +26,8 @@ typedef struct riis_resistance_arrays {
 /* Fills *arrays with the defaults. */
 RIIS_API riis_status riis_resistance_arrays_init(riis_resistance_arrays *arrays, int64_t struct_size);
 /* Adds K and K u_surface to the caller's arrays, which then hold sums over several valves. The solver's term is
- * (sum of K) u - (sum of K u_surface). Nodes may be cell centres or quadrature points. riis_mark_list also has K and K u_surface.
+ * (sum of K) u - (sum of K u_surface). Nodes may be cell centres or quadrature points. The struct riis_mark_list also has K and K
+ * u_surface.
  *   `resistance`: RIIS_RIM_CUT needs RIIS_FIELD_RIM, and K_u_surface needs RIIS_FIELD_VELOCITY.
  * Errors: RIIS_INVALID_ARGUMENT also for marks that no marking has filled, and for a field that the marks lack. */
 RIIS_API riis_status riis_marks_add_resistance(const riis_marks *marks, const riis_resistance *resistance,

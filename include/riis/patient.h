@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  * patient.h - valves of a patient: sizes and placement from landmarks, a warp that meets them, and a skirt that reaches the wall.
- * riis.h includes this file, and has the rules that hold for every call.
+ * The header riis.h includes this file, and has the rules that hold for every call.
  */
 /* clang-format off: argument lists in comments are laid out by hand */
 #ifndef RIIS_PATIENT_H

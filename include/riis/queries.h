@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  * queries.h - queries of a surface: the closest points of any points, and places where the surface goes through itself.
- * riis.h includes this file, and has the rules that hold for every call.
+ * The header riis.h includes this file, and has the rules that hold for every call.
  */
 /* clang-format off: argument lists in comments are laid out by hand */
 #ifndef RIIS_QUERIES_H
@@ -96,9 +96,9 @@ RIIS_API void riis_crossings_destroy(riis_crossings **crossings); /* destroys th
  *   `crossings`: its content is replaced.
  * The depth of a pair is the length of the shortest translation of one triangle after which the triangles only touch
  * (docs/theory/crossings.md). Triangles that touch or lie in one plane have depth 0. Triangles of one leaflet that share a vertex
- * (equal placed coordinates) are neighbours, not a pair. The call uses the triangles, whatever the surface's measure is. Where
- * smooth leaflets touch, their triangles may cross by up to twice riis_surface_info.error_bound. A log function (riis_set_log)
- * gets warnings of deeper crossings even without this call.
+ * (equal placed coordinates) are neighbours, not a pair. The call uses the triangles, also if the surface's measure is not
+ * RIIS_MEASURE_TRIANGLES. Where smooth leaflets touch, their triangles may cross by up to twice riis_surface_info.error_bound. A
+ * log function (riis_set_log) gets warnings of deeper crossings even without this call.
  * Errors: RIIS_INVALID_ARGUMENT naming the field. */
 RIIS_API riis_status riis_find_crossings(const riis_surface *surface, const riis_crossing_options *options,
                                          riis_crossings *crossings);

@@ -42,7 +42,7 @@ class Error : public std::runtime_error {
   riis_status status_;
 };
 
-// Throws an Error if the status is not RIIS_OK. Call it on the thread that made the refused call.
+// Throws an Error if the status is not RIIS_OK. Call check() on the thread that made the refused call.
 inline void check(riis_status status) {
   if (status != RIIS_OK) throw Error(status, riis_last_error());
 }

@@ -32,7 +32,7 @@ extern "C" {
 typedef struct riis_vtk_mesh riis_vtk_mesh;
 
 /* Reads a mesh, which may have no cells. The mesh's nodes and cells keep the file's order, and cells of second order get VTK's
- * order of nodes. docs/formats.md has the limits of each format.
+ * order of nodes. The limits of each format are in docs/formats.md.
  *   `path`: a file, whose ending tells its format, or a folder of OpenFOAM: .vtu (VTK XML), .vtk (legacy VTK), .vti, .vtr or .vts
  *     (structured grids of VTK), .vtm (blocks, whose shared nodes are joined), .msh (gmsh), .xdmf or .xmf, .e, .exo, .ex2 or
  *     .exii (Exodus), .foam, a case, its time folder, or a polyMesh.
@@ -61,7 +61,7 @@ RIIS_API riis_status riis_vtk_mesh_get_nodes(const riis_vtk_mesh *mesh, int64_t 
 /* Gives the axes of a mesh whose nodes are a rectilinear grid, for riis_mesh_create_grid. Such a mesh comes from a .vti or .vtr
  * file, or from a legacy file of these kinds. The mesh has two or more nodes along each axis, and coordinates that strictly
  * ascend. The cells are hexahedra. Coordinates and cells are stored only after a call that needs them, such as
- * riis_vtk_mesh_get_nodes. riis_vtk_mesh_set_marks and the other calls for arrays do not need them.
+ * riis_vtk_mesh_get_nodes. The calls for arrays, such as riis_vtk_mesh_set_marks, do not need them.
  *   `grid`: ni, nj and nk are 0 for any other mesh, and after riis_vtk_mesh_use_centers or riis_vtk_mesh_choose_cells. x, y and z
  *     are valid until the mesh is destroyed. */
 RIIS_API riis_status riis_vtk_mesh_get_axes(const riis_vtk_mesh *mesh, riis_grid *grid, int64_t struct_size);
@@ -85,7 +85,7 @@ RIIS_API riis_status riis_vtk_mesh_create_adjacency(const riis_vtk_mesh *mesh, i
 RIIS_API riis_status riis_vtk_mesh_get_volume_cells(const riis_vtk_mesh *mesh, int64_t *n_volume_cells,
                                                     int64_t *n_cells_left_out);
 
-/* Copies the cells in the file's order. Call it twice: the first call gives the number of node ids as its last offset.
+/* Copies the cells in the file's order. Call this function twice: the first call gives the number of node ids as its last offset.
  *   `n_cells`: the number of cells, as riis_vtk_mesh_get_nodes gives it.
  *   `offsets` (n_cells + 1): cell i has the nodes node_ids[offsets[i]] to node_ids[offsets[i + 1] - 1]; NULL if not wanted.
  *   `types` (n_cells): VTK's numbers of the types, such as 10 for a tetrahedron; NULL if not wanted.
@@ -256,9 +256,9 @@ typedef struct riis_vtk_surface riis_vtk_surface;
  *   `path`: ends in .vtp or .vtk (faces only), .vtu (faces, also quadratic; errors name other cells), .stl, .obj or .ply.
  *   `leaflets`: the name of the cell array of leaflet ids, one whole number >= 0 for each cell. The array must exist. NULL stands
  *     for riis_leaflet, which may be missing.
- * The point array riis_attached, if the file has it, becomes riis_surface_arrays.attached. This array has one number for each
- * point. A quad is cut from its first corner to its third. If this line runs outside a concave quad, the cut goes from the second
- * corner to the fourth, with the same winding.
+ * The point array riis_attached, if the file has it, becomes riis_surface_arrays.attached. The array riis_attached has one number
+ * for each point. A quad is cut from its first corner to its third. If this cut runs outside a concave quad, the cut goes from
+ * the second corner to the fourth, with the same winding.
  * Errors: RIIS_FILE_ERROR naming the file, and the cell with its value or the arrays that exist. */
 RIIS_API riis_status riis_vtk_surface_read(const char *path, const char *leaflets, riis_vtk_surface **surface);
 /* Makes a surface of the faces that only one volume cell of the mesh has. This surface is the wall around the blood, and its
@@ -338,7 +338,7 @@ RIIS_API riis_status riis_vtk_motion_read_displacements(const char *path, const 
  * Errors: RIIS_INVALID_ARGUMENT for a bad time_step. */
 RIIS_API riis_status riis_vtk_motion_read_frames(const char *path, double time_step, const char *leaflets,
                                                  riis_vtk_motion **motion);
-/* Adds the faces of another motion with the same times. Each motion is one leaflet, as in riis_vtk_surface_append.
+/* Adds the faces of another motion with the same times. Each motion is one leaflet, as in riis_vtk_surface_append. The call
  * riis_vtk_motion_get_files then gives the files of both. `other` stays.
  * Errors: RIIS_INVALID_ARGUMENT naming the frame with another time. */
 RIIS_API riis_status riis_vtk_motion_append(riis_vtk_motion *motion, const riis_vtk_motion *other);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  * seal.h - whether the marks close the surface on a mesh: leaks, open regions, and the widest passage.
- * riis.h includes this file, and has the rules that hold for every call.
+ * The header riis.h includes this file, and has the rules that hold for every call.
  */
 /* clang-format off: argument lists in comments are laid out by hand */
 #ifndef RIIS_SEAL_H
@@ -30,9 +30,9 @@ RIIS_API void riis_leaks_destroy(riis_leaks **leaks); /* destroys the leaks and 
  * do not leak (docs/meshes.md). With an offset o, edges of at most 2 (1 - |o|) half thicknesses do not leak. Longer edges may
  * leak beside rims, but seldom if they are at most 2 sqrt(1 - o^2) half thicknesses long. With an offset, an edge does not leak
  * if both of its nodes are off rims and on the same side, because it only cuts the corner of a fold. If the same triangles are
- * marked again with the half thickness of riis_leak_list, no edge leaks. Only RIIS_SEARCH_PAPER may still leave leaks. But
- * riis_surface_update with that half thickness moves a valve's triangles by up to tolerance * half_thickness. Search for leaks
- * again after such an update.
+ * marked again with the half thickness of riis_leak_list, no edge leaks. Only RIIS_SEARCH_PAPER may still leave leaks. However,
+ * riis_surface_update with the half thickness of riis_leak_list moves a valve's triangles by up to tolerance * half_thickness.
+ * Search for leaks again after such an update.
  * Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, and for marks that no marking has filled, or that
  * have another number of nodes or half thickness. RIIS_INVALID_MESH as riis_mark_nodes. */
 RIIS_API riis_status riis_find_leaks(const riis_surface *surface, const riis_mesh *mesh,

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  * valve.h - valves: a kind and its parameters, or the caller's own patches.
- * riis.h includes this file, and has the rules that hold for every call.
+ * The header riis.h includes this file, and has the rules that hold for every call.
  */
 /* clang-format off: argument lists in comments are laid out by hand */
 #ifndef RIIS_VALVE_H
@@ -14,7 +14,7 @@ extern "C" {
 
 /* ---- Valve: named parameters (paper, tables "Aortic valve parameters" and "Mitral valve parameters"), or patches */
 
-/* A parametric valve: its kind and its parameters' values. riis_surface_create makes the geometry. */
+/* A parametric valve: its kind and its parameters' values. The geometry is made by riis_surface_create. */
 typedef struct riis_valve riis_valve;
 
 /* Makes a valve with the default parameter values. The defaults of "aortic" and "mitral" are the paper's.
@@ -30,7 +30,7 @@ RIIS_API riis_status riis_valve_copy(const riis_valve *valve, riis_valve **copy)
 /* Destroys the valve. Surfaces made from this valve do not change, and valves whose open state is this valve do not change. */
 RIIS_API void riis_valve_destroy(riis_valve **valve);
 
-/* Sets a parameter by its name in the paper. riis_surface_create checks whether all values fit together.
+/* Sets a parameter by its name in the paper. Whether all values fit together is checked by riis_surface_create.
  *   `name`: such as "root_radius". Names such as "right.leaflet_angle", "commissure_0.fusion" and "bump_0.open" mean the
  *     parameter of one part. The name "leaflet_angle" means this parameter of all parts, or the valve's own parameter if the
  *     valve itself has it.
@@ -61,8 +61,8 @@ RIIS_API riis_status riis_valve_get(const riis_valve *valve, const char *name, i
  *     quadricuspid).
  *   `effective_height`: the height of the free edges above the annulus, leaflet_height (aortic, trileaflet). The other kinds with
  *     cusps have it as a parameter, for the middle of the edges.
- * Some parameters have a rule: until they are set, they follow from other parameters. The order of calls does not matter.
- * riis_valve_get gives the present values of such parameters. Copies and open states remember which parameters were set. */
+ * Some parameters have a rule: until they are set, they follow from other parameters. The order of calls does not matter. The
+ * call riis_valve_get gives the present values of such parameters. Copies and open states remember which parameters were set. */
 
 /* Returns a parameter to the value that its rule gives, or to its default if it has no rule.
  *   `name`: as in riis_valve_set.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The flat parts of a wall, at which vessels may have been cut. A flat part consists of connected triangles in one plane. The
-// angle of the wall beside the part is also measured. riis patient chooses ends among the parts, and pictures leave the parts
-// out.
+// angle of the wall beside the part is also measured. The command riis patient chooses ends among the parts, and pictures leave
+// the parts out.
 #pragma once
 
 #include <cmath>
@@ -55,7 +55,8 @@ struct Part {
 // surface may be open.
 class Finder {
  public:
-  // `faces_outwards` is true if the triangles face outwards. If it is false, the wall beside a part counts as behind the part.
+  // `faces_outwards` is true if the triangles face outwards. If `faces_outwards` is false, the wall beside a part counts as
+  // behind the part.
   Finder(const Triangles &triangles, bool faces_outwards);
 
   // Returns the flat parts that may be ends, the largest first. The result includes `parts`, which are already known.

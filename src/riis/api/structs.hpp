@@ -84,7 +84,7 @@ void check_struct_size(std::int64_t size, const char *name) {
          " knows ", first_size, " to ", size_here, ": use its init function, and a header no newer than the library");
 }
 
-// Copies the first `size` bytes of a struct. check_struct_size must have accepted the size.
+// Copies the first `size` bytes of a struct. Call check_struct_size before, which must accept the size.
 inline void copy_bytes(void *to, const void *from, std::int64_t size) {
   std::memcpy(to, from, static_cast<std::size_t>(size));
 }

@@ -56,8 +56,8 @@ class Keyframes {
   void at(double time, double dt, std::vector<double> &xyz, std::vector<double> &velocity) const;
 
   const UserFaces &faces() const { return faces_; }
-  // Returns the faces, so that the edges of the skirt can be found in the first frame. first_frame returns the vertices of this
-  // frame.
+  // Returns the faces, so that the edges of the skirt can be found in the first frame. The vertices of this frame are returned by
+  // first_frame.
   UserFaces &faces() { return faces_; }
   riis_surface_arrays first_frame() const;
 

@@ -53,8 +53,8 @@ double arc_length(const Bezier &curve, double t0 = 0.0, double t1 = 1.0);
 // Returns the two parts left and right of t, by de Casteljau's algorithm.
 std::pair<Bezier, Bezier> split(const Bezier &curve, double t);
 
-// Returns the t in [0,1] for which the curve from 0 to t has the length `behind`, with 0 <= behind <= curve_length. curve_length
-// is the length of the whole curve. For a curve of length 0, t is 0.
+// Returns the t in [0,1] for which the curve from 0 to t has the length `behind`, with 0 <= behind <= curve_length.
+// `curve_length` is the length of the whole curve. For a curve of length 0, t is 0.
 double parameter_at_length(const Bezier &curve, double curve_length, double behind);
 
 // Writes to t the results of parameter_at_length for ascending lengths `behind`. The function goes over the curve once, which

@@ -272,7 +272,7 @@ double Bulge::linear_error(const Place &from, const Place &to, double enough) co
   const Vector<Bezier> edge = edge_.length() > 0 ? edge_.spans_between(from.on_edge, to.on_edge) : edge_.spans();
   const OffsetBounds bounds = bound_offset({base, edge, base_.length(), edge_.length(), to.u - from.u}, factor_);
   // If the bound on |O''| is too large, O is evaluated at a few points, and the bound is used only between neighbouring points.
-  // With eight parts, the bound then contributes only 1/64 as much.
+  // With eight parts, the error from the bound is only 1/64 of the error for the whole range.
   double error = error_between(from.u, to.u, 1, bounds.second);
   if (!(error <= enough)) error = sampled_error(from, to) + error_between(from.u, to.u, 8, bounds.second);
   return error <= bounds.largest ? error : bounds.largest;  // an error that is NaN also gives way to this bound

@@ -11,7 +11,7 @@
 
 namespace riis {
 
-// Each side of a patch is named after the parameter that is constant on it. side_v0 and side_v1 run along u, and side_u0 and
+// Each side of a patch is named after the parameter that is constant on it. Thus side_v0 and side_v1 run along u, and side_u0 and
 // side_u1 run along v. A collapsed side has length 0.
 struct PatchSides {
   const Polyline *side_v0, *side_v1, *side_u0, *side_u1;
@@ -81,8 +81,8 @@ struct ArcLimits {
 };
 
 // Returns the grid lines of the two sides side_v0 and side_v1. Adds lines until O is linear between neighbouring lines up to
-// max_error, or until there are more than max_lines. offset_u0 and offset_u1 are O at the two ends, with the same bits as in the
-// neighbouring patches. If O has no direction, fails with RIIS_INVALID_PARAMETER.
+// max_error, or until there are more than max_lines. `offset_u0` and `offset_u1` are O at the two ends, with the same bits as in
+// the neighbouring patches. If O has no direction, fails with RIIS_INVALID_PARAMETER.
 ArcLines make_arc_lines(const PatchSides &sides, const Bulge &bulge, Vec3 offset_u0, Vec3 offset_u1,
                         const ArcLimits &limits);
 

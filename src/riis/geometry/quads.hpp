@@ -20,7 +20,7 @@ struct Quad {
   Vec3 at(double s, double t) const { return mix(mix(p00, p10, s), mix(p01, p11, s), t); }
 };
 
-// Returns kappa_quad, the distance between the middle of the bilinear quad and the middle of its diagonal p00 p11. kappa_quad
+// Returns kappa_quad, the distance between the middle of the bilinear quad and the middle of its diagonal p00 p11. This number
 // bounds the distance between the quad and its two triangles at the same (u,v).
 inline double quad_flatness(const Quad &quad) { return 0.25 * length((quad.p00 - quad.p10) + (quad.p11 - quad.p01)); }
 

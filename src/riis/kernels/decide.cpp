@@ -381,8 +381,8 @@ RIIS_INLINE Direction direction(Doubles3 v, Doubles3 otherwise) {
 
 constexpr int halves = triangles_per_group / Doubles::n;
 
-// Lowers a lower bound by more than rounding to single precision can change a number. The result is therefore also a lower bound
-// of rounded numbers.
+// Lowers a lower bound by a little more than the largest error of rounding to single precision. The result is therefore also a
+// lower bound of rounded numbers.
 RIIS_INLINE float round_down(double x) {
   const double unit = (x < 0 ? -x : x) * 0x1p-22 + 0x1p-120;
   return static_cast<float>(x - unit);

@@ -179,9 +179,9 @@ void nearest_groups(const FilterTask &task, const Boxes &boxes, const int32_t *c
   for (int i = 0; i < 16; ++i) nearest[i] = static_cast<int32_t>(positions[i]);
 }
 
-// Let f be the square of a place's distance from a box, minus the square of the place's distance from a point. f is a concave
-// function of the place, and a sum over the axes. The least f in another box is therefore a sum over the axes. Along each axis,
-// the least value is at one of the two ends of the box.
+// Let f be the square of a place's distance from a box, minus the square of the place's distance from a point. This difference f
+// is a concave function of the place, and a sum over the axes. The least f in another box is therefore a sum over the axes. Along
+// each axis, the least value is at one of the two ends of the box.
 void competing_groups(const FilterTask &task, const Boxes &boxes, const PointsOfBoxes &points,
                       const int32_t *candidates, int32_t n_candidates, uint16_t *competes) {
   const Floats zero = Floats::all(0), tolerance = Floats::load(points.tolerance);
@@ -221,7 +221,7 @@ RIIS_INLINE uint32_t leaf_of(int32_t node) { return static_cast<uint32_t>(node) 
 
 // Takes a leaf to the surface's frame. For every group and every node, computes the square of a lower bound on their distance.
 // Lists each node that may be within reach, with the group that has the least bound. If only one side of the surface counts, a
-// node is listed only if a group within reach keeps the node.
+// listed node must also be kept by a group within reach.
 template <bool is_one_sided>
 RIIS_INLINE void begin_leaf(const FilterTask &task, LeafTask &leaf, ClusterTask &cluster, float *lower_bounds) {
   const int32_t first_node = first_node_of(leaf), n_before = cluster.n_listed;

@@ -183,8 +183,8 @@ struct alignas(64) PlacedBy {
   double of_image[3][4], offset_of_image[4], rotation[3][4], translation[4], scale;
 };
 
-// The sources of functions |r|^3, stored coordinate by coordinate, and the functions' weights. n is a multiple of 8. Lanes
-// without a source have the weight 0.
+// The sources of functions |r|^3, stored coordinate by coordinate, and the functions' weights. Their number n is a multiple of 8.
+// Lanes without a source have the weight 0.
 struct CubeSources {
   const double *source[3], *weight[3];
   int64_t n;
@@ -210,7 +210,7 @@ struct FilterKernels {
   // must have room for n numbers.
   int32_t (*select)(const int32_t *numbers, const uint16_t *marks, int32_t n, int32_t bit, int32_t *to);
   // For each of 16 boxes, finds the candidate group whose corner is nearest to the middle of the box, and writes the group's
-  // position among the candidates. n_candidates is above 0.
+  // position among the candidates. The number n_candidates is above 0.
   void (*nearest_groups)(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
                          int32_t *nearest);
   // For each candidate group, writes a bit for each box in which the group may be nearer than the box's point.
@@ -263,10 +263,10 @@ struct DecisionKernels {
   // vertices.
   void (*mix_at_vertices)(const VertexNumbers *numbers, const int64_t *const *vertex, const PointsOnTriangles &located,
                           VertexNumbers *mixed);
-  // Computes how fast the distances of the first n_points points change when the triangles' vertices move. n_points is above 0.
-  // The search passes the distances that it has computed, so that no root is computed again. `vertex` has the ids of each pair's
-  // three vertices, and rates[i] has the rates of all vertices in direction i. The derivatives of a point follow each other. A
-  // derivative at distance 0 is 0.
+  // Computes how fast the distances of the first n_points points change when the triangles' vertices move. The number n_points is
+  // above 0. The search passes the distances that it has computed, so that no root is computed again. `vertex` has the ids of
+  // each pair's three vertices, and rates[i] has the rates of all vertices in direction i. The derivatives of a point follow each
+  // other. A derivative at distance 0 is 0.
   void (*differentiate)(const PointsAndTriangles &pairs, const PointsOnTriangles &located,
                         const double (&distance)[pairs_at_once], const int64_t *const *vertex,
                         const double *const *rates, int64_t n_directions, int32_t n_points, double *derivatives);

@@ -319,7 +319,7 @@ RIIS_INLINE Mask opposite(Mask a) {
 
 #if defined(RIIS_NEON)
 // Takes 0 or -1 in each of eight lanes, and returns one bit for each. NEON has no instruction for this conversion. Each lane
-// therefore keeps a bit of its own, and the sum of the lanes has all bits.
+// therefore keeps a different bit, and the sum of the lanes combines all bits.
 RIIS_INLINE uint32_t bits(uint16x8_t mask) {
   return vaddvq_u16(vandq_u16(mask, uint16x8_t{1, 2, 4, 8, 16, 32, 64, 128}));
 }

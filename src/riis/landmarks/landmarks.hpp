@@ -50,7 +50,7 @@ constexpr std::int32_t n_roles = 11;
 // Returns the words for a landmark in messages, such as "landmark 3 (nadir)".
 std::string words_for(const Landmarks &landmarks, std::size_t i);
 
-// The following checks fail with RIIS_INVALID_ARGUMENT and name the landmarks.
+// All checks below fail with RIIS_INVALID_ARGUMENT, and their messages name the landmarks.
 
 // Refuses landmarks whose distance from their mean does not fit a heart valve. The message also states the size in other units.
 void check_unit(const Landmarks &landmarks);

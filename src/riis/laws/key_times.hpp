@@ -21,8 +21,8 @@ class KeyTimes {
   // RIIS_INVALID_ARGUMENT. The message names the field or key, and its value.
   KeyTimes(const char *name, std::int64_t n_keys, const double *time, double period, std::int32_t interpolation);
 
-  // Returns whether the last key is exactly one period after the first key. If it is, the values of the first and the last key
-  // must be equal.
+  // Returns whether the last key is exactly one period after the first key. The values of these two keys must be equal if the
+  // keys are one period apart.
   bool is_closed() const { return is_closed_; }
 
   // The keys around a time and the times between these keys. The value at the time follows from these keys and these times

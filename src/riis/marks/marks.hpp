@@ -169,8 +169,8 @@ struct OrderScratch {
   std::vector<NodeRanks> ranks;  // one for each thread
 };
 
-// Counts the nodes of both lists. The lists must have these sizes when put_in_order fills them. Only this function allocates
-// memory.
+// Counts the nodes of both lists. The caller resizes the lists to these numbers before put_in_order fills them. Only this
+// function allocates memory.
 OrderScratch::Counts prepare_order(const Surface &surface, const FoundNodes &found, bool limit_is_wider, int n_threads,
                                    OrderScratch &scratch);
 

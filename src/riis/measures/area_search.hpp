@@ -13,7 +13,7 @@ namespace riis {
 
 class AreaSearch {
  public:
-  // Returns the area at a value, or nothing if the value has no area. find() needs an area at each value.
+  // Returns the area at a value, or nothing if the value has no area. The search by find() needs an area at each value.
   using Area = std::function<std::optional<double>(double value)>;
 
   // A change by at most `largest_jump` times the largest area may be a jump.

@@ -64,7 +64,8 @@ bool cuts_plane(const Triangle &t, Vec3 w, double limit) {
   return std::max({x, y, z}) > least && -std::min({x, y, z}) > least;
 }
 
-// Returns whether e and f are nearly parallel: their parallelogram is narrower than 1e-8 of an edge. w is their cross product.
+// Returns whether e and f are nearly parallel: their parallelogram is narrower than 1e-8 of an edge. The vector w is their cross
+// product.
 bool are_parallel(Vec3 w, Vec3 e, Vec3 f) { return dot(w, w) <= 1e-16 * dot(e, e) * dot(f, f); }
 
 // Returns the length of the shortest translation of one triangle after which the two triangles only touch, or 0 if the length is

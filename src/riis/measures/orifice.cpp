@@ -53,7 +53,7 @@ double rim_reach(const Surface &surface, std::int32_t rim) {
   const double without = rim == RIIS_RIM_CUT ? rim_reach_cut : rim_reach_round, offset = surface.band().offset;
   const ValveKind *const kind = surface.source() ? surface.source()->kind : nullptr;
   if (offset == 0 || (kind && kind->is_rigid)) return without;
-  // The offset at which c vanishes. The flows through mitral valves had cut rims.
+  // The offset at which c is 0. Only flows with a cut rim were computed for mitral valves.
   const double of_cut_rim = kind == &mitral_valve_kind() ? 0.8 : 0.85, of_round_rim = 1.05;
   return without * std::max(0.0, 1 - offset / (rim == RIIS_RIM_CUT ? of_cut_rim : of_round_rim));
 }

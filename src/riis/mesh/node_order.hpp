@@ -87,9 +87,9 @@ struct NodeItem {
 template <class Node>
 using NodeItems = UnfilledVector<NodeItem<Node>>;
 
-// The places where parts are cut. by_clusters cuts large parts between clusters and small parts between leaves, into at most
-// four parts each time. Clusters are then compact. by_leaves always cuts between leaves, into so many parts that leaves become as
-// wide as long. by_leaves takes half as many passes, but makes long clusters.
+// The places where parts are cut. With by_clusters, large parts are cut between clusters and small parts between leaves, into at
+// most four parts each time. Clusters are then compact. With by_leaves, all cuts are between leaves, into so many parts that
+// leaves become as wide as long. Cuts by leaves take half as many passes, but make long clusters.
 enum class Cuts { by_clusters, by_leaves };
 
 // Sorts nodes so that near nodes follow each other. Each pass counts the nodes of a part in bins along the longest axis of its

@@ -127,8 +127,8 @@ class PatchDisplacement {
     return at(column_[i] + (static_cast<std::size_t>(column) << (column_levels_[i] - level)),
               row_[j] + (static_cast<std::size_t>(row) << (row_levels_[j] - level)));
   }
-  // Returns the displacement inside a quad. Along a side, the displacement is linear between the vertices that the neighbouring
-  // quad also has. The displacement therefore does not jump between neighbouring quads.
+  // Returns the displacement inside a quad. Along a side of the quad, the displacement is linear between the vertices that are
+  // also vertices of the neighbouring quad. The displacement therefore does not jump between neighbouring quads.
   Vec3 without_jumps(std::size_t i, std::size_t j, int column, int row) const;
 
  private:

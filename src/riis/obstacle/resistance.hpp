@@ -30,8 +30,8 @@ void add_resistance(const Marks &marks, const Resistance &resistance, const riis
 // not fit the surface.
 void add_reaction(const Marks &marks, const Resistance &resistance, const riis_flow_arrays &flow,
                   const riis_reaction &to);
-// Adds the flow's force on each vertex of the triangles with which the nodes were marked. The function fails if the triangles
-// lack the closest triangle of a node.
+// Adds the flow's force on each vertex of the triangles with which the nodes were marked. Also fails if the triangles lack the
+// closest triangle of a node.
 void add_vertex_reaction(const Marks &marks, const TriangleSet &triangles, const Resistance &resistance,
                          const riis_flow_arrays &flow, double *vertex_force);
 // Sums the caller's value over the nodes of the band on each side of the surface. Nodes beyond a rim do not count.

@@ -143,7 +143,7 @@ Vec3 PlacedPatch::normal_at(double u, double v) const {
   if (!(size_u > 0 && size_v > 0)) return {0, 0, 0};
   const Vec3 across = cross((1 / size_u) * along_u, (1 / size_v) * along_v);
   const double size = length(across);
-  // A vector shorter than this limit consists of rounding errors only. has_zero_area uses the same limit.
+  // A vector shorter than this limit consists of rounding errors only. The function has_zero_area uses the same limit.
   if (!(size > 1e-12)) return {0, 0, 0};
   return ((is_turned_over ? -1 : 1) / size) * across;
 }

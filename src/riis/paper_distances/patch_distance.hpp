@@ -45,8 +45,8 @@ struct PlacedPatches {
   double largest_error() const;
 };
 
-// Calls visit(along_u, along_v) for every quad. along_u has S_u at the lower and the upper v, and along_v has S_v at the lower
-// and the upper u. Elsewhere in the quad, S_u and S_v are weighted means of these vectors.
+// Calls visit(along_u, along_v) for every quad. `along_u` has S_u at the lower and the upper v, and `along_v` has S_v at the
+// lower and the upper u. Elsewhere in the quad, S_u and S_v are weighted means of these vectors.
 template <class Visit>
 void for_each_derivatives(const QuadGrid &grid, const Visit &visit) {
   for (std::size_t j = 0; j + 1 < grid.v.size(); ++j)
@@ -151,7 +151,8 @@ class SampleSet final : public PatchDistance {
  private:
   static constexpr std::int64_t samples_per_leaf = 64;
 
-  // A box around the samples of a leaf, or around two other nodes of the tree. In the array, the first child follows its parent.
+  // A box around the samples of a leaf, or around two other nodes of the tree. In the array of nodes, the first child follows its
+  // parent.
   struct Node {
     Bounds box;
     std::int32_t second = -1;  // the position of the second node, or -1 in a leaf

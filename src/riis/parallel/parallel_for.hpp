@@ -11,8 +11,8 @@
 
 namespace riis {
 
-// Returns the number of processors in the affinity mask of the calling thread. n_threads = 0 never stands for more threads
-// than this. If OpenMP binds threads to places, the mask is the process's mask at its start.
+// Returns the number of processors in the affinity mask of the calling thread. The default n_threads = 0 never stands for more
+// threads than this. If OpenMP binds threads to places, the mask is the process's mask at its start.
 int default_thread_count() noexcept;
 
 // Returns the number of the machine's processors, including processors outside the calling thread's affinity mask.

@@ -68,7 +68,7 @@ class LoopChoice {
     const double mean = mean_loss_.load(std::memory_order_relaxed);
     if (mean < 1) return 0;
     const double n_halves = static_cast<double>(now - recorded_.load(std::memory_order_relaxed)) / half_life;
-    // Between whole numbers of half lives, the loss falls along a straight line.
+    // The loss is halved in each half life, and falls along a straight line within a half life.
     const double whole = std::clamp(std::floor(n_halves), 0.0, 64.0), rest = std::clamp(n_halves - whole, 0.0, 1.0);
     return std::ldexp(mean * (1 - 0.5 * rest), -static_cast<int>(whole));
   }

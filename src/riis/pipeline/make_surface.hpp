@@ -20,8 +20,8 @@ namespace riis {
 // of the triangles serves all openings of the valve.
 class FixedTriangulation {
  public:
-  // Makes the plan. max_error bounds the distance between triangles and the smooth surface, before placement. Fails as the stages
-  // of the pipeline do, with a message that names the opening.
+  // Makes the plan. `max_error` bounds the distance between triangles and the smooth surface, before placement. Fails as the
+  // stages of the pipeline do, with a message that names the opening.
   FixedTriangulation(const Valve &valve, double max_error, int n_threads);
 
   // Fails with RIIS_INVALID_PARAMETER if the valve differs from the plan's valve in anything except its opening and the values of

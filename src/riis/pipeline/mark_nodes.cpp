@@ -94,7 +94,7 @@ SearchRun run(const SearchRequest &request, std::int32_t search, Marks &marks) {
   marks.found.numbers = {0, request.mesh.nodes().n};
   if (const Grid *const grid = request.mesh.nodes().grid) return run_on_grid(request, *grid, search, marks);
   if (request.mesh.nodes().n == 0) {
-    // A process of a parallel solver may have no nodes. Every search is then complete and finds nothing.
+    // A process of a parallel solver may have no nodes. For a process without nodes, every search finds nothing and is complete.
     marks.found.prepare(1);
     return {search, {0, 1, true, 0}};
   }

@@ -21,9 +21,9 @@ namespace riis {
 // Logs a warning if leaflets go through each other, once for each shape of the valve.
 class CrossingWatch {
  public:
-  // In each range of the opening, this function examines the first surface of each shape, until it has warned about the shape.
-  // Without a log function the search does nothing and allocates nothing. The search reports no failure, because the surface
-  // itself is good. If the search lacks memory, there is no warning.
+  // For each shape, the function examines the first surface in each range of the opening, until it has logged a warning about the
+  // shape. Without a log function the search does nothing and allocates nothing. The search reports no failure, because the
+  // surface itself is good. If the search lacks memory, there is no warning.
   void look(const Valve &valve, const Surface &surface, int n_threads) noexcept;
 
  private:

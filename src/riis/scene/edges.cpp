@@ -104,8 +104,8 @@ class Cancelling {
     }
   };
 
-  // Looks for an edge in the opposite direction that covers this end of the given edge. The found edge lies between this vertex
-  // and a point on the given edge. The two edges cancel up to this point. Returns false if there is no such edge.
+  // Looks for an edge in the opposite direction that covers one end of a given edge. The found edge lies between the vertex at
+  // this end and a point on the given edge. The two edges cancel up to this point. Returns false if there is no such edge.
   bool shorten(std::size_t i, Ends &here, const Ends &there) {
     const OpenEdge edge = edges_[i];
     for (auto [at, last] = there.with.equal_range(edge.*here.end); at != last; ++at) {
@@ -278,8 +278,8 @@ Vector<std::int64_t> vertices_on(const TriangleSet &set, std::int64_t begin, std
   return found;
 }
 
-// Returns for each patch the side that choose(patch, rim) returns. `rim` holds the patch's bits of PatchRim. choose() returns
-// 0 for a patch without such a side.
+// Returns for each patch the side that choose(patch, rim) returns. `rim` holds the patch's bits of PatchRim. The function
+// choose() returns 0 for a patch without such a side.
 template <class Choose>
 std::vector<SideLine> sides(const TriangleSet &set, const Choose &choose) {
   std::vector<SideLine> lines;

@@ -69,8 +69,8 @@ struct Ties {
     candidates.push_back({point, other});
   }
 
-  // Keeps only the candidates that are ties, after the search has decided all points. closest_to(point) returns the closest
-  // triangle, or the position -1 if there is no triangle. node_of(point) returns the node.
+  // Keeps only the candidates that are ties, after the search has decided all points. The function closest_to(point) returns the
+  // closest triangle, or the position -1 if there is no triangle. The function node_of(point) returns the node.
   template <class ClosestTo, class NodeOf>
   void settle(const ClosestTo &closest_to, const NodeOf &node_of) {
     for (const Tie &tie : candidates) {
@@ -99,8 +99,8 @@ class TriangleScene {
   void build_tree() const;
 
   // Returns the closest triangle to p, or the triangle -1 if no triangle is within the limit. The limit is at least 0, and may be
-  // infinite. p must be finite, with coordinates up to max_coordinate. Several threads may call this function at once. If `ties`
-  // is not null, the candidates of p replace its earlier candidates.
+  // infinite. The point p must be finite, with coordinates up to max_coordinate. Several threads may call this function at once.
+  // If `ties` is not null, the candidates of p replace its earlier candidates.
   ClosestTriangle closest(Vec3 p, double limit, InstructionSet instructions = best_instruction_set(),
                           Ties *ties = nullptr) const;
 

@@ -19,7 +19,7 @@ namespace riis {
 // Leaks: edges of the mesh that cross the surface between two unmarked nodes. The marks leave open the paths along these edges.
 // The mesh must have an adjacency. The leaking edges are listed in ascending order.
 
-// Edges between two unmarked nodes that cross the surface, in ascending order. riis_leak_list documents the members.
+// Edges between two unmarked nodes that cross the surface, in ascending order. The members are documented in riis_leak_list.
 struct Leaks {
   std::vector<std::int64_t> node_id;  // (2, n)
   std::vector<double> length, distance;

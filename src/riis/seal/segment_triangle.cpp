@@ -133,7 +133,7 @@ int orientation_exactly(Point2 a, Point2 b, Point2 c) {
 int orientation(Point2 a, Point2 b, Point2 c) {
   const double left = (a.u - c.u) * (b.v - c.v), right = (a.v - c.v) * (b.u - c.u);
   const double determinant = left - right;
-  // Shewchuk's bound is (3 + 16 e) e with e = 2^-53. 2^-51 is larger than this bound, to be safe.
+  // Shewchuk's bound is (3 + 16 e) e with e = 2^-53. To be safe, the code uses 2^-51, which is larger.
   if (std::abs(determinant) > 0x1p-51 * (std::abs(left) + std::abs(right)) + underflow) return sign(determinant);
   return orientation_exactly(a, b, c);
 }
@@ -154,7 +154,7 @@ int orientation(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
   const double magnitude = std::abs(p.z) * (std::abs(qxry) + std::abs(qyrx)) +
                            std::abs(q.z) * (std::abs(rxpy) + std::abs(rypx)) +
                            std::abs(r.z) * (std::abs(pxqy) + std::abs(pyqx));
-  // Shewchuk's bound is (7 + 56 e) e with e = 2^-53. 2^-50 is larger than this bound, to be safe.
+  // Shewchuk's bound is (7 + 56 e) e with e = 2^-53. To be safe, the code uses 2^-50, which is larger.
   if (std::abs(determinant) > 0x1p-50 * magnitude + underflow) return sign(determinant);
   return orientation_exactly(a, b, c, d);
 }

@@ -241,7 +241,7 @@ class ClosestPoints {
     return has_far;
   }
 
-  // Writes the points that were found. id_of(node) is the point's id.
+  // Writes the points that were found. The id of a point is id_of(node).
   template <class IdOf>
   void write_found(const UnfilledVector<FoundNode> &list, const IdOf &id_of) const {
     const TriangleSet &set = surface_.triangles();

@@ -172,8 +172,8 @@ class NeighborSearch {
     return near.distance - from_centre > limit_ + slack(near.distance + from_centre, centre);
   }
 
-  // Bounds the rounding errors of two distances and of a ball's radius. The bound is proportional to these three lengths and to
-  // the coordinates of the nodes and the triangles.
+  // Bounds the rounding errors of two distances and of a ball's radius. The bound is proportional to the two distances, the
+  // radius, and the coordinates of the nodes and the triangles.
   double slack(double distances, Vec3 centre) const {
     return 1e-14 * (distances + std::abs(centre.x) + std::abs(centre.y) + std::abs(centre.z)) +
            2 * distances_.rounding();

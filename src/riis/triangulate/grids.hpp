@@ -36,8 +36,8 @@ Vector<QuadGrid> make_grids(const PatchSet &set, double max_error);
 Vector<LevelledGrid> make_levelled_grids(const PatchSet &set, double max_error, const Vector<double> &tightness,
                                          int n_threads);
 
-// Checks the precision of a set. If the curves' lengths or coordinates are rounded too coarsely for max_error, it fails with
-// RIIS_LIMIT_EXCEEDED.
+// Checks the precision of a set. Fails with RIIS_LIMIT_EXCEEDED if the curves' lengths or coordinates are rounded too coarsely
+// for max_error.
 void check_precision(const PatchSet &set, double max_error);
 
 // Returns max_error minus the deviation of the curves from the shape that they represent. Fails with RIIS_LIMIT_EXCEEDED if the

@@ -62,7 +62,7 @@ class Tiles {
     });
   }
 
-  // Makes vertices and triangles, and then calls work(i, first_of_quad) for tile i, as place_vertices does. first_of_quad has
+  // Makes vertices and triangles, and then calls work(i, first_of_quad) for tile i, as place_vertices does. `first_of_quad` has
   // the position of each quad's first triangle, and then the end of the last quad's triangles. The ids also count triangles
   // without area. Returns the patches that miss triangles. If there is no such patch, the triangles are complete.
   template <class Work>

@@ -97,8 +97,8 @@ struct TriangulationPlan {
   Connectivity connectivity;
 };
 
-// Makes the plan from a valve's patches at many openings. asked_error is the max_error of a Triangulation. The plan uses a little
-// less than this error, and thus also serves openings between the given openings. Fails as triangulate_fixed does.
+// Makes the plan from a valve's patches at many openings. `asked_error` is the max_error of a Triangulation. The plan uses a
+// little less than this error, and thus also serves openings between the given openings. Fails as triangulate_fixed does.
 TriangulationPlan plan_triangulation(const Vector<PatchSet> &given, double asked_error, int n_threads);
 
 // Returns whether the plan's triangles are within asked_error of the smooth surface in a state.

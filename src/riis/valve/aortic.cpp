@@ -37,7 +37,7 @@ constexpr CuspOpening default_opening{0.75, 0.05};
 std::size_t position_of(std::size_t cusp, OfCusp parameter) { return n_general + cusp * n_of_cusp + parameter; }
 
 // The rules for rotations that the caller did not set. If the sum of the leaflet angles is 180 degrees, all neighbours meet
-// at their commissures. With another sum, the three gaps between neighbours, or the three overlaps, are equal.
+// at their commissures. If the sum is not 180 degrees, neighbours have three equal gaps or three equal overlaps between them.
 double leaflet_angle_of(const ParameterValues &values, std::size_t cusp) {
   return values[position_of(cusp, leaflet_angle)][0];
 }
@@ -91,7 +91,8 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
 
 // clang-format off
 ValveKind make_kind() {
-  // The limits of lengths suit a valve in any unit from kilometres to micrometres. check_together checks ratios of lengths.
+  // The limits of lengths suit a valve in any unit from kilometres to micrometres. The ratios of lengths are checked by
+  // check_together.
   constexpr double shortest = 1e-9, longest = 1e9;
   const char *length = "length", *degree = "degree", *number = "1";
   ValveKind kind{"aortic", {

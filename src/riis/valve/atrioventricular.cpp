@@ -47,11 +47,11 @@ constexpr double lift_of_start = 0.3;
 // A leaflet that is too short moves back in steps until it lacks less than this share of its length.
 constexpr int most_steps = 60;
 constexpr double rounding = 1e-12, rounding_of_zone = 1e-6;
-// A leaflet has at least `least_ratio` of the annulus. The way of a leaflet to the meeting point has at least `least_way` of the
-// annulus' depth.
+// A leaflet has at least the share `least_ratio` of the annulus. The way from the middle of a leaflet's part of the annulus to
+// the meeting point is at least `least_way` times the annulus' depth.
 constexpr double least_ratio = 0.05, least_way = 0.12;
-// A commissure takes at most `most_of_way` of the way to the meeting point. The zone takes at most `most_coaptation` of a
-// leaflet's length.
+// A commissure takes up at most the share `most_of_way` of the way to the meeting point. The coaptation zone takes up at most the
+// share `most_coaptation` of a leaflet's length.
 constexpr double most_of_way = 0.8, most_coaptation = 0.7;
 // The rates of the control points are differences over the step `rate_step` of the opening. The rates only determine where
 // vertices are dense.
@@ -534,7 +534,8 @@ void check_values(const ParameterValues &values, const ValveKind &kind, std::siz
   }
 }
 
-// The sizes in which the kinds differ. Lengths are in centimetres. docs/theory/atrioventricular.md has the sources of the values.
+// The sizes in which the kinds differ. Lengths are in centimetres. The sources of the values are in
+// docs/theory/atrioventricular.md.
 struct KindSizes {
   Vector<ParameterSpec> of_leaflets;
   ParameterSpec width, depth, flat_ratio;

@@ -26,7 +26,8 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double a
 
 // clang-format off
 ValveKind make_kind() {
-  // The limits of lengths suit a valve in any unit from kilometres to micrometres. check_values checks ratios of lengths.
+  // The limits of lengths suit a valve in any unit from kilometres to micrometres. The ratios of lengths are checked by
+  // check_values.
   constexpr double shortest = 1e-9, longest = 1e9;
   const char *length = "length", *degree = "degree";
   ValveKind kind{"bileaflet", {

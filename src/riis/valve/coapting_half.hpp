@@ -14,8 +14,8 @@ namespace riis {
 // fused part.
 Vector<HalfCusp> coapting_half(const HalfNumbers &numbers, double depth, double low);
 
-// Returns the least rise of the leaflet at the root. The unit is the rise of a leaflet without sag whose length is everywhere the
-// length of the symmetry curve. With a negative rise, the leaflet dips below its attachment and folds.
+// Returns the least rise of the leaflet at the root. The unit is the rise of a leaflet that has no sag, and that has the length
+// of the symmetry curve everywhere. With a negative rise, the leaflet dips below its attachment and folds.
 double rise_at_root(const Vector<HalfCusp> &parts);
 
 }  // namespace riis

@@ -14,7 +14,7 @@
 namespace riis {
 
 // A horizontal curve of half a cusp. The curve's profile is x(y) = radius_in + (end.x - radius_in) (y / end.y)^power, from the
-// symmetry plane to the end at radius_out and angle. t0 and t3 are the lengths of the end tangents along y.
+// symmetry plane to the end at radius_out and angle. The numbers t0 and t3 are the lengths of the end tangents along y.
 struct CuspProfile {
   double radius_in, radius_out, angle, power, t0, t3;
 };

@@ -82,7 +82,7 @@ double tangent_on_cylinder(double sine, double cosine) {
   return 8.0 / 3 * (std::sqrt(1 - middle * middle) - sine / 2);
 }
 
-// Returns the parameter at which y of a curve has this value. y ascends along the curve.
+// Returns the parameter at which y of a curve has this value. Along the curve, y ascends.
 double parameter_at_y(const Bezier &curve, double y) {
   double low = 0, high = 1;
   for (int i = 0; i < 60; ++i) {
@@ -116,7 +116,7 @@ HalfNumbers closed_half(const CuspSizes &sizes, const CuspSizes::Side &side) {
   // is half the gap.
   const double sine_of_plane = sizes.meeting == 0 ? sizes.sector.sine : C.y / hypotenuse(C.x - sizes.meeting, C.y);
   const double x_in = sizes.meeting + 0.5 * sizes.gap / sine_of_plane;
-  // The tangent becomes shorter if its end would otherwise lie above half the height of the coaptation line, or beyond the zone.
+  // The tangent is limited, so that its end lies neither above half the height of the coaptation line nor beyond the zone.
   const auto [sine, cosine] = sine_cosine_degrees(sizes.bottom_angle);
   double tangent = std::min(sizes.belly * R, sine > 0 ? 0.5 * z_k / sine : sizes.belly * R);
   if (sizes.meeting != 0) tangent = std::min(tangent, 0.9 * (R - x_in));
@@ -270,9 +270,9 @@ EdgeLength::Value EdgeLength::at(double depth) const {
   return value;
 }
 
-// The length is a growing and convex function of the depth. Newton's method starts at a depth that is too large. Newton's method
-// therefore descends to the solution and never passes it. A half is at least as long as the line between its ends. At the
-// starting depth, the line of one half alone has the whole length, so this depth is large enough.
+// The length of the free edge is a growing and convex function of its depth. Newton's method starts at a depth that is too large.
+// Newton's method therefore descends to the solution and never passes it. A half is at least as long as the line between its
+// ends. At the starting depth, the line of one half alone has the whole length, so this depth is large enough.
 double edge_depth(const CuspNumbers &cusp) {
   Vector<EdgeLength> halves(cusp.begin(), cusp.end());
   const double wanted = total_length(cusp), first_top = cusp.front().edge_top;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The annulus of the mitral valve, from its sizes (docs/theory/mitral.md). mitral.cpp makes it.
+// The annulus of the mitral valve, from its sizes (docs/theory/mitral.md). The file mitral.cpp makes the annulus.
 #pragma once
 
 #include <array>

@@ -65,8 +65,8 @@ struct AxisLine {
 struct Patch {
   Side v0, v1, u0, u1;
   Vector<PatchImage> images;
-  // The factor of a patch of arcs, or 0. If it is 0, the patch is the Coons patch of its sides. With another factor it is the
-  // patch of arcs from v0 to v1 with this factor (geometry/bulge.hpp), and u0 and u1 must be arcs with this factor.
+  // The factor of a patch of arcs, or 0. With the factor 0, the patch is the Coons patch of its sides. With another factor it is
+  // the patch of arcs from v0 to v1 with this factor (geometry/bulge.hpp), and u0 and u1 must be arcs with this factor.
   double bulge = 0;
   AttachedSide attached = AttachedSide::none;
   AxisLine axis = {{0, 0, 0},
@@ -121,9 +121,9 @@ struct MaterialPoints {
   }
 };
 
-// The places to which the map takes points inside a warped patch. In a patch of arcs, these are the middles of the arcs that
-// begin at the even shares. In another patch, they are the four points with u and v of 1/3 or 2/3. The points with v = 1/3 come
-// first.
+// The places to which the map takes points inside a warped patch. In a patch of arcs, the places belong to the middles of the
+// arcs that begin at the even shares. In another patch, the places belong to the four points with u and v of 1/3 or 2/3. The
+// points with v = 1/3 come first.
 struct MappedInside {
   bool of_arcs;
   std::array<Vec3, n_material> points;

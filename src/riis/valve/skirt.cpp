@@ -21,8 +21,8 @@ constexpr std::size_t n_even_parts = 8;
 // Two ends of cusps that are not joined are neighbours if their distance is at most `most_between_ends` times the longest side.
 constexpr double most_between_ends = 0.5;
 // The line through two neighbouring ends has an angle to the outward direction. If the angle's sine is in this range, the skirts
-// lead along the line. The sine is positive if the ends have passed each other. Outside of the range, the sine that is used falls
-// back to 0.
+// lead along the line. The sine is positive if the ends have passed each other. Outside of the range, the skirts use a sine that
+// falls back to 0.
 constexpr double most_apart_in_line = -0.5, most_past_in_line = 0.98;
 // The sine that is used also falls to 0 if the sine of the line's angle to the axis is below `least_sine_to_axis`.
 constexpr double least_sine_to_axis = 0.2;
@@ -30,11 +30,13 @@ constexpr double least_sine_to_axis = 0.2;
 // does. Beside a flatter side the skirt leans less, and beside a side in the plane across the axis the skirt does not lean.
 constexpr double least_rise = 0.5;
 // If a skirt is turned at rest, small turns by the warp are added to its place at rest. If the warp turns the skirt by
-// `most_turn_as_at_rest` or more, the whole turn counts. In between, the skirt changes gradually from one rule to the other.
+// `most_turn_as_at_rest` or more, the whole turn counts. For turns between small turns and `most_turn_as_at_rest`, the skirt
+// changes gradually from one rule to the other.
 constexpr double most_turn_as_at_rest = pi / 4;
 // A disc about the axis has `n_corners` corners when it is warped.
 constexpr int n_corners = 24;
-// The derivative of a turned direction is a difference over two steps of `direction_step` times the length.
+// To differentiate a turned direction, the difference is taken between two points, `direction_step` times the length on either
+// side.
 constexpr double direction_step = 1e-4;
 
 Vec3 without_placement(const PatchImage &image, Vec3 p) {

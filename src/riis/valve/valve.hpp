@@ -79,12 +79,12 @@ struct ValveKind {
   // Refuses another state whose curves or patches are not built like the valve's. The message calls that state by `name`, such
   // as "the open state". NULL if all states of the kind are built alike.
   void (*check_states)(const ValveState &valve, const ValveState &other, const char *name);
-  // True if leaflets meet only at common vertices of their triangles, such as at commissures. If this is false, leaflets may
-  // touch anywhere. Their triangles may then go through each other by as much as the triangles' error.
+  // True if leaflets meet only at common vertices of their triangles, such as at commissures. In valves without this property,
+  // leaflets may touch anywhere. Their triangles may then go through each other by as much as the triangles' error.
   bool has_exact_contacts = false;
-  // True if the orifice is seen along the valve's z axis. If this is false, the orifice is seen along the vector area of the
-  // edges that are farthest from its middle. The vector area would be oblique for different cusps whose open edges reach beyond
-  // the attachment.
+  // True if the orifice is seen along the valve's z axis. Otherwise the orifice is seen along the vector area of the edges that
+  // are farthest from its middle. The vector area would be oblique for different cusps whose open edges reach beyond the
+  // attachment.
   bool is_seen_along_z = false;
   // The leaflet_id of a wall that hinges reach into, or -1.
   std::int32_t housing = -1;
@@ -99,8 +99,9 @@ struct ValveKind {
 // Adds the parameter "skirt_length" to a kind.
 ValveKind with_skirt(ValveKind kind, SkirtAxis axis);
 
-// The kinds of valves that are defined by parameters. Each kind is in a file of its name, with two exceptions. valve/coapting.cpp
-// has the kinds with two to four coapting cusps. valve/atrioventricular.cpp has the kinds with coapting leaflets on an annulus.
+// The kinds of valves that are defined by parameters. Each kind is in a file of its name, with two exceptions. The kinds with two
+// to four coapting cusps are in valve/coapting.cpp. The kinds with coapting leaflets on an annulus are in
+// valve/atrioventricular.cpp.
 const ValveKind &aortic_valve_kind();
 const ValveKind &bicuspid_valve_kind();
 const ValveKind &bileaflet_valve_kind();

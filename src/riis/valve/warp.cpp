@@ -337,8 +337,8 @@ void WarpLandmarks::fit(const Vector<Vec3> &targets, WarpMap &map, WarpQuality &
   for (std::size_t i = 0; i < n; ++i) displacement_[i] = (1 / size_) * (targets[i] - sources_[i]);
   std::array<Vec3, 4> terms{};  // of the map's polynomial
   if (is_planar_) {
-    // The direction across the plane follows the nearest linear map of the plane. The stretch across the plane is the mean
-    // stretch of the plane.
+    // The map of the direction across the plane follows from the linear map that is nearest to the landmarks in the plane. The
+    // stretch across the plane is the mean stretch of the plane.
     Vec3 slopes[2] = {axis_[0], axis_[1]};
     for (std::size_t k = 0; k < 2; ++k)
       for (std::size_t i = 0; i < n; ++i) slopes[k] = slopes[k] + least_squares_[(k + 1) * n + i] * displacement_[i];
