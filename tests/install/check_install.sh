@@ -4,9 +4,9 @@
 # Installs a build tree to a fresh prefix, and uses it as an outside project would. The programs of stranger/, one in each
 # language, must mark the same bits as the build tree's C program. The prefix is then moved. Examples are built outside the tree
 # by CMake, two of them also by pkg-config, and run. Each example must print the same in C and in Fortran. If the tree is also
-# installed to another prefix, all examples are built there, and only two are built before. A staged (DESTDIR) install must
-# contain the same files and no path of its stage. Environment: CMAKE, PKG_CONFIG, CC, CXX, FC, TEST_PLUGIN, the path of the
-# program test_plugin, and STRANGER, the path of the build tree's C program
+# installed to a second prefix, all examples are built with the second prefix, and only two with the first prefix. A staged
+# (DESTDIR) install must contain the same files and no path of its stage. Environment: CMAKE, PKG_CONFIG, CC, CXX, FC,
+# TEST_PLUGIN, the path of the program test_plugin, and STRANGER, the path of the build tree's C program
 set -euo pipefail
 source=$1 build=$2 work=$3 kind=$4
 shift 4
