@@ -74,7 +74,7 @@ struct Painter {
   }
 };
 
-// Returns the painted cells of a leaflet. If is_part is true, returns the cells of a part of one of the leaflet's patches.
+// Returns the painted cells of a leaflet. If is_part is true, returns only cells of a part of one patch.
 json paintings(const accuracy::Leaflet &leaflet, bool is_part, Numbers &numbers) {
   // Sampling has the tolerance 10 %, so its samples are far enough apart to be visible.
   constexpr std::array<Setting, 3> painted{{{RIIS_MEASURE_MINIMIZATION, 0.01, "0.01"},

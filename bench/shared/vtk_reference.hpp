@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Declares competitors of the library's marking, which are built if VTK was found. vtkStaticCellLocator is VTK's tree of cells
 // with a bounded query. vtkImplicitPolyDataDistance is VTK's signed distance, which has no bound. vtkStaticPointLocator has bins
-// of points. All three run on one thread.
+// of points. All three competitors run on one thread.
 #pragma once
 
 #include <cstdint>

@@ -163,7 +163,7 @@ void search_all_distances(benchmark::State &state) {
 }
 
 // Runs the paper's exhaustive search with the library's kernel, on one thread. The search measures every node against every
-// triangle. Here the search measures only every 50th node. Each node takes the same time, so "all_nodes_s" is the extrapolated
+// triangle. This benchmark measures only every 50th node. Each node takes the same time, so "all_nodes_s" is the extrapolated
 // time of all nodes.
 void search_every_triangle(benchmark::State &state) {
   const CylinderMesh &mesh = mesh_of(state);

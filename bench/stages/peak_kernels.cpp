@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// These kernels do as many operations as the processor can, on registers alone. Like the library's kernels, they are compiled for
-// each instruction set.
+// These kernels do as many operations as the processor can, on registers alone. The kernels are compiled for each instruction
+// set, like the library's kernels.
 #include "kernels/lanes.hpp"
 #include "kernels/table.hpp"
 #include "peak.hpp"

@@ -384,7 +384,7 @@ void measure(Contest &contest, Bars &bars, int valve, std::int64_t about_n_nodes
       steps.add_directions(n);
       steps.mark(RIIS_FIELD_GRADIENT);
     });
-  // This contender comes last, because the caller's arrays push the mesh out of the caches.
+  // The contender with the caller's arrays comes last, because its arrays push the mesh out of the caches.
   add(contest, name("step with velocity, K and K u"), steps, [&] {
     steps.update_moving();
     steps.mark(RIIS_FIELD_VELOCITY);

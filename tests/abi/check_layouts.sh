@@ -4,7 +4,7 @@
 #   DESCRIBED is the library built with debug information. Callers that were compiled with the dump's release must be able to use
 #   it.
 #   Every difference that abidiff reports is therefore an error, except new functions and fields at the end of structs.
-#   LIBRARY is the library without debug information. If it is given, DESCRIBED must export the same functions.
+#   LIBRARY is the library without debug information. If LIBRARY is given, DESCRIBED must export the functions of LIBRARY.
 # check_layouts.sh write DUMP DESCRIBED
 #   Writes the dump: the exported functions and the public types, without paths of this machine.
 set -euo pipefail

@@ -26,7 +26,7 @@ fails() {
 refused() { fails "$1" "$here/check_symbols.sh" "$2" "$3" "$library"; }
 list=$root/abi/riis.symbols header=$root/include/riis/riis.h
 "$here/check_symbols.sh" "$list" "$header" "$library"
-# gone.symbols has a function that the library lacks, as if a later library had dropped it.
+# gone.symbols has a function that the library lacks, as if the library had dropped this function.
 (cat "$list" && echo 'riis_gone 0.1.0') >"$scratch/gone.symbols"
 refused 'gone or changed: riis_gone' "$scratch/gone.symbols" "$header"
 grep -v '^riis_mesh_create ' "$list" >"$scratch/new.symbols"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
  * Tests the layouts and values that compiled programs rely on. The numbers are literals, written when the interface was released.
- * A changed number breaks programs, so append instead. Appended fields, functions and values get new lines. Of the old lines,
+ * A changed number breaks programs, so new fields, functions and values are only appended, with new lines here. Of the old lines,
  * only the size of a struct that grew may change. */
 #include <riis/riis.h>
 #include <riis/riis_vtk.h>

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs bench/validation/body_fitted.sh with stand-ins for gmsh and OpenFOAM. The script must keep the rows of all.json. If a case
-fails, it must go on, and run only this case the next time. If all rows exist, it must run nothing."""
+fails, the script must go on, and the next call must run only this case. If all rows exist, the script must run nothing."""
 
 import importlib.util
 import json

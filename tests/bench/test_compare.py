@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tests which invented times bench/report/compare.py calls slower."""
+"""Tests for which invented times bench/report/compare.py reports a slower benchmark."""
 
 import contextlib
 import io

@@ -42,8 +42,8 @@ def results_of(tasks, library):
 
 
 def stokes_row(scale_eps=1.0, scale_K=1.0):
-    """Compares the c of a hole in a band with that of a hole in a solid plate. The band has a round rim. An edge acts as if it
-    lay c half thicknesses farther out."""
+    """Compares the c of a hole in a band with that of a hole in a solid plate. The band has a round rim. The rim of a band acts
+    as if it lay c half thicknesses farther out."""
     library, n, cells = marking.Library(PROGRAM, scale_K, scale_eps), 4, (1.5, 2, 3)
     values = [(1 - stokes.effective_radius(library, "hole", 1 / n, c, "round")[0]) * n for c in cells]
     solid = [(1 - stokes.solid_radius(library, "hole", 1 / n, c, "round")[0]) * n for c in cells]
@@ -190,7 +190,7 @@ class Judged(unittest.TestCase):
             case(folder, f"riis-{valve}-0.1-0.05-cut-1e3-0", f"wide-{valve}-0.1-0.05", moving, "")
             runs = cases.read_runs(pathlib.Path(folder))
             made = beside.beside("trileaflet", 0.5, runs, {})
-            # If the case is missing, the walls are those of a row that is kept.
+            # If the case of the walls is missing, a kept row provides the area of the walls.
             again = beside.beside("trileaflet", 0.5, runs[1:], {made[0]["id"]: made[0]})
             none = beside.beside("trileaflet", 0.5, runs[1:], {})
         self.assertIn(f"left out: riis-{valve}-0.1-0.05-cut-1e3-0: simpleFoam did not converge in 400 steps", told.getvalue())

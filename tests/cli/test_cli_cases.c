@@ -179,7 +179,7 @@ TEST(test_offsets) {
   RUN_FINE("mark", "--case", scratch_path("case.json"), "--output", out);
   RUN_FINE("mark", scratch_path("in.vtu"), "--valve", "mitral", "--half-thickness", "0.3", "--opening", "0.25",
            "--resistance", "3", "--offset", "-0.4", "--prefix", "a", "--output", scratch_path("a2.vtu"), "--quiet");
-  /* The normals of this valve are not reversed, so the test reverses the offset. */
+  /* This run does not reverse the valve's normals, so the run has the opposite offset. */
   RUN_FINE("mark", scratch_path("a2.vtu"), "--valve", "aortic", "--half-thickness", "0.3", "--translate", "0,0,1",
            "--resistance", "3", "--offset", "-0.6", "--prefix", "b", "--output", scratch_path("b2.vtu"), "--quiet");
   RUN_FINE("mark", scratch_path("in.vtu"), "--valve", "aortic", "--half-thickness", "0.3", "--translate", "0,0,1",

@@ -235,7 +235,7 @@ TEST(test_foam) {
   }
   assert_true(n_marked > 20);
   assert_true(scratch_exists("box/0/marked") && scratch_exists("box/0/distance"));
-  /* A series has a folder for each time, and the velocity of the valve. */
+  /* A series writes a folder for each time, with the valve's velocity. */
   scratch_write_text("beat.csv", "0,0\n0.5,1\n1,0\n");
   RUN_FINE("mark", scratch_path("box"), "--cells", "--half-thickness", "0.3", "--resistance", "2", "--density", "1060",
            "--cycle", scratch_path("beat.csv"), "--times", "0.1:0.3:0.1", "--quiet", "--output", scratch_path("box"));

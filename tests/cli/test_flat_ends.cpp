@@ -384,7 +384,8 @@ void unclear_ends(random_source &random) {
 }
 
 // The wall bulges and has a flat place. This place meets the wall at an angle that grows with its size. Below 30 degrees the
-// place belongs to the wall, and above 55 degrees it is an end. Between these angles it is an end only if the user says so.
+// place belongs to the wall, and above 55 degrees it is an end. Between these angles, the place is an end only if the user says
+// so.
 void flat_places(random_source &random) {
   const auto bulge = [](const Vector3 &x) {
     return std::min(std::hypot(x[1], x[2]) - 1, norm(x - Vector3{0, 0, 1}) - 1.7);

@@ -25,7 +25,8 @@ make_root() {
     -o Dir::State::status="$folder/apt/status" -o Dir::Cache="$folder/apt/cache" -o APT::Sandbox::User=root)
   apt-get "${options[@]}" -qq update
   apt-get "${options[@]}" -q install --download-only --yes --no-install-recommends "${packages[@]}"
-  # In this system these folders are also links. A folder for ARM covers one of this system, so both need one layout.
+  # On the system that runs this script, these folders are also links. A folder for ARM covers one of this system, so both need
+  # one layout.
   for link in bin lib sbin; do ln -s "usr/$link" "$part/$link"; done
   for package in "$folder"/apt/cache/archives/*.deb; do
     dpkg-deb --fsys-tarfile "$package" | tar -x --keep-directory-symlink --no-same-owner -C "$part"
@@ -162,9 +163,9 @@ run_tests() {
   rm -f "$folder/results.xml"
   # Random tests make few trials, because same_bits compares all results with those of other processors. If one process starts
   # several programs by posix_spawn at once, they crash under PRoot. Ninja therefore starts one compiler at a time. Without this
-  # setting, threads that wait would take the processors from threads that compute. Mesa draws without LLVM, whose machine code
-  # crashes in the emulator. Rarely, qemu 7.2 waits for its own locks for ever. A test that waits so reaches its time limit, and
-  # runs again.
+  # setting of OpenMP, threads that wait would take the processors from threads that compute. Mesa draws without LLVM, whose
+  # machine code crashes in the emulator. Rarely, qemu 7.2 waits for its own locks for ever. A test that waits for such a lock
+  # reaches its time limit, and runs again.
   env PATH="$folder/bin:$PATH" CMAKE_TOOLCHAIN_FILE="$folder/toolchain.cmake" \
     RIIS_TEST_SHORT=1 CMAKE_BUILD_PARALLEL_LEVEL=1 OMP_WAIT_POLICY=passive GALLIUM_DRIVER=softpipe \
     PKG_CONFIG_SYSROOT_DIR="$folder/root" PKG_CONFIG_LIBDIR="$folder/root$libraries/pkgconfig:$folder/root/usr/share/pkgconfig" \

@@ -5,8 +5,8 @@
 # Packages and build folders stay for the next call. If RIIS_ROOT_INPUT names a folder, its files are copied to /riis.input in the
 # root.
 #
-# The mounts are in a separate namespace, which ends with its last process. However this script ends, nothing stays mounted, and
-# FOLDER can be removed at any time.
+# The mounts are in a separate namespace, which ends with its last process. After any end of this script, nothing stays mounted,
+# so FOLDER can be removed.
 set -euo pipefail
 
 suite=$1 folder=$(realpath -m -- "$2")
@@ -26,8 +26,8 @@ if ((EUID != 0)); then
   as_root=(sudo)
 fi
 # in_namespace COMMAND...: runs the command in a namespace. Other processes do not see its mounts. All processes in the namespace
-# end with the command or with this script. The first process waits for a lock that this script holds, so every end of this script
-# frees it.
+# end with the command or with this script. The first process in the namespace waits for a lock that this script holds, so the
+# process ends with this script.
 in_namespace() {
   # shellcheck disable=SC2016
   "${as_root[@]}" unshare --mount --pid --fork --kill-child bash -c '
@@ -55,7 +55,8 @@ find_mirror() {
   local release uri entry file line host_codename
   # shellcheck source=/dev/null
   host_codename=$(. /etc/os-release && [[ ${ID:-} == debian ]] && echo "${VERSION_CODENAME:-}") || host_codename=
-  # Uses the first of apt's sources that has this suite. If there is none, uses the source from which the host was installed.
+  # Uses the first of apt's sources that has this suite. If no source has this suite, uses the source from which the host was
+  # installed.
   while read -r release uri entry; do
     [[ $uri =~ ^https?:// ]] || continue # a disc or a folder of the host is not visible inside the root
     [[ $release == "$suite" || ($host_codename && $release =~ ^($host_codename|stable|oldstable|testing)$) ]] || continue

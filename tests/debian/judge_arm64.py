@@ -9,7 +9,7 @@ import xml.etree.ElementTree
 
 
 def expected_skips(lines):
-    """Returns the expected skips, TEST or TEST/CASE. Each has the text that a skipped test must print, or None."""
+    """Returns the expected skips, TEST or TEST/CASE. Each name has the text that the skipped test must print, or None."""
     expected = {}
     for number, line in enumerate(lines, 1):
         if not line.strip() or line.startswith("#"):

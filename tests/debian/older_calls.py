@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""older_calls.py COMMAND...: runs the command on x86-64 like on a Linux of 2014. Debian's PRoot does not know later system calls,
-and would not change their paths. If the system lacks a call, the C library uses an older call."""
+"""older_calls.py COMMAND...: runs the command on x86-64 like on a Linux of 2014. Debian's PRoot does not know system calls of
+later Linux versions, and would not change the paths in them. If the system lacks a call, the C library uses an older call."""
 
 import ctypes
 import errno
@@ -11,7 +11,7 @@ import sys
 
 LATER_CALLS = {"statx": 332, "clone3": 435, "openat2": 437, "faccessat2": 439, "fchmodat2": 452}
 
-# The filter is a program of struct sock_filter. Each has a code, the jumps for true and for false, and a value.
+# The filter is a program of struct sock_filter. Each struct has a code, the jumps for true and for false, and a value.
 LOAD_CALL, JUMP_IF_EQUAL, RETURN = 0x20, 0x15, 0x06
 ALLOW, FAIL = 0x7FFF0000, 0x00050000
 PR_SET_SECCOMP, PR_SET_NO_NEW_PRIVS, SECCOMP_MODE_FILTER = 22, 38, 2

@@ -59,7 +59,7 @@ class Judge(unittest.TestCase):
         self.refused("test_new was skipped, which is not expected: there is no AVX2 here", [PASSED, other])
         other = SETS.replace("AVX2", "gmsh")
         self.refused("test_sets was skipped for another reason than expected: there is no gmsh here", [PASSED, other])
-        # A test without an executable also does not run.
+        # A test without an executable also counts as a test that did not run.
         self.refused("test_new was skipped", [PASSED, case("test_new", "notrun")])
         self.refused("test_environment skipped its case new", [TRAPS, case("test_environment", output="[  SKIPPED ] new\n")])
 

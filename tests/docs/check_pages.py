@@ -63,7 +63,7 @@ class Folder:
         self.problems.append(f"{path.relative_to(self.folder)}: {problem}")
 
     def check_local(self, path, url):
-        """Returns the file to which a relative link points. If the file does not exist, reports a problem and returns None."""
+        """Returns the file to which a relative link points. If this file does not exist, reports a problem and returns None."""
         target = urllib.parse.unquote(url.split("#")[0].split("?")[0])
         file = (path.parent / target).resolve() if target else path.resolve()
         if file.is_relative_to(self.folder.resolve()) and file.exists():

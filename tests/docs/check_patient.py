@@ -2,7 +2,7 @@
 """check_patient.py MAKE_PATIENT.py SCRATCH: checks the files of the synthetic patient.
 
 The surface must be closed, with normals outwards and the volume that follows from the radii. Each run must give the same surface.
-Landmarks without noise must lie on it, and noise must be as large as stated.
+Landmarks without noise must lie on the surface, and noise must be as large as stated.
 """
 import importlib.util
 import json

@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_versions_judged.sh SOURCE_FOLDER SCRATCH_FOLDER VERSION
-# All places state one version. The check must refuse a wrong version in any place, and name the place. The check also covers the
-# symbols files of Debian's packages.
+# All files of the sources that state the version of riis must agree. The check must refuse a wrong version in any place, and name
+# the place. The check also covers the symbols files of Debian's packages.
 set -euo pipefail
 source=$1 scratch=$2 version=$3
 "$source/packaging/check_versions.sh" "$source" "$version" >"$scratch.table" 2>"$scratch.said" ||

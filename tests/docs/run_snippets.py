@@ -46,7 +46,7 @@ cp examples/demo/mitral_cycle.csv beat.csv""",
 
 
 def top_folder(folder, programs, demo):
-    """Makes a folder that looks like the sources' top folder. The program is built in it."""
+    """Makes a folder that looks like the sources' top folder. The folder contains the built program."""
     (folder / "build").mkdir(parents=True)
     (folder / "out").mkdir()
     for path in snippets.ROOT.iterdir():

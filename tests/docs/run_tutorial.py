@@ -2,9 +2,9 @@
 """run_tutorial.py check|write TUTORIAL.md SCRATCH PROGRAM_FOLDER RIIS: runs the tutorial as its reader would.
 
 Every block of ```sh is run in the scratch folder, in order, and must succeed. The output of its commands follows in a block of
-```text. `check` compares it; `write` puts the new output into the tutorial. Seconds and numbers of threads are not compared.
-Another version of gmsh makes other meshes. For such meshes only the first two words of each line are compared, without numbers:
-"1 edge crosses" may become "3 edges cross".
+```text. `check` compares this block with the new output; `write` puts the new output into the tutorial. Seconds and numbers of
+threads are not compared. Another version of gmsh makes other meshes. For such meshes only the first two words of each line are
+compared, without numbers: "1 edge crosses" may become "3 edges cross".
 """
 import os
 import pathlib

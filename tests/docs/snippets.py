@@ -70,7 +70,8 @@ def snippets(list_file=None):
 
 
 def is_run(condition):
-    """Returns whether a snippet with this condition runs now. The caller checks the modules that the snippet needs."""
+    """Returns whether a snippet with this condition runs now. The caller of this function checks the modules that the snippet
+    needs."""
     return not condition.startswith(("never", "elsewhere")) and (condition != "long" or os.environ.get("RIIS_TEST_LONG") == "1")
 
 

@@ -156,7 +156,7 @@ class Recipes(unittest.TestCase):
                     called.add(words.split()[0])
                 for command in commands:
                     called |= {word for word in re.findall(r"\./run ([a-z0-9_-]+)", command)}
-                    # Other commands only publish, or install packages that ./run itself needs.
+                    # The other commands in the workflows only publish, or install packages that ./run itself needs.
                     self.assertRegex(command.strip(), r"^(\./run |apt-get update|gh release create )", file.name)
         self.assertLessEqual(called, verbs)
         self.assertLessEqual({"lint", "test", "sanitize", "tsan", "fuzz", "docs", "python"}, called)

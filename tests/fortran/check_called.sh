@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # check_called.sh HEADER OBJECT_FILES...
 # Module riis and the subroutines for Fortran 77 must call every function of the header and of the headers that it includes by
-# name. check_procedures.sh checks that the tests call each procedure of both.
+# name. check_procedures.sh checks that the tests call each procedure of the module and each subroutine.
 set -euo pipefail
 header=$1
 mapfile -t headers < <("$(dirname "$0")/../abi/headers.sh" "$header")

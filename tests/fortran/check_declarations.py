@@ -99,7 +99,7 @@ def reader_compared(header):
 
 def types_of(type_, is_value):
     """Returns the C types that gfortran may write for an argument. The address in a type(c_ptr) is passed by value. If the
-    library writes a type(c_ptr), its address is passed instead. gfortran writes both as void *."""
+    library writes a type(c_ptr), the address of this variable is passed. gfortran writes both as void *."""
     if type_.stars == 0:
         return [f"{kind} " for kind in TYPES.get(type_.base, ())] or ["int (*"]
     bases = TYPES.get(type_.base, (type_.base,))

@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_flang.sh FLANG SOURCE_DIR WORK_DIR LIBRARY
-# Compiles the Fortran sources with another compiler, in the way of its users. Links them with the same C library. The test
-# programs must pass.
+# Compiles the Fortran sources with another compiler, in the way of its users. Links them with the C library that gfortran's tests
+# use. The test programs must pass.
 set -euo pipefail
 flang=$1 source=$2 work=$3 library=$4
 flags=(-O0 -Werror)

@@ -30,7 +30,7 @@ source_of() {
 }
 
 # judged WANTED INTEGER REAL FLAGS...: if WANTED is `right`, the caller must compile and print 0.500, with and without `use
-# riisf`. If it is `refused`, the caller must not compile with `use riisf`.
+# riisf`. If WANTED is `refused`, the caller must not compile with `use riisf`.
 judged() {
   local wanted=$1 integer=$2 real=$3 found=refused
   shift 3

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Tests fortran/bindings/generate.py with planted changes in copies of riis.h and bindings.table. The generator must write the
-right lines, or refuse. A refusal names the line and changes no files. check_keywords.py is also tested in this way."""
+right lines, or refuse. A refusal names the line and changes no files. check_keywords.py is also tested with planted changes."""
 
 import contextlib
 import glob

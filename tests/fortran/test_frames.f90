@@ -95,7 +95,7 @@ contains
     call check(from_c%n_vertices == 4 .and. c_associated(own_velocities, from_c%velocity), 'no copy of velocities')
     call surface%destroy()
 
-    ! The second keyframes also have leaflet ids and cubic interpolation. The vertex ids of these keyframes are of the other
+    ! The keyframes `others` also have leaflet ids and cubic interpolation. The vertex ids of these keyframes are of the other
     ! integer kind and count from 0.
     call others%create(time, frames, int(halves - 1, int64), [7, 8], index_base=0, interpolation=RIIS_INTERPOLATION_CUBIC)
     call surface%create_from_keyframes(others, 0.25d0, 0d0, .true., 0.2d0, 0.1d0, 1d0, [0d0, 0d0, 1d0], 0d0, &

@@ -54,7 +54,7 @@ contains
     call check_marking(mesh, 'x, y, z')
     call mesh%destroy()
 
-    ! The coordinates are every second column. The rows have another order, and other rows lie between them.
+    ! The coordinates are every second column. The rows of the coordinates have another order, and other rows lie between them.
     allocate (wide(6, 2 * n_nodes))
     wide = ieee_value(0d0, ieee_quiet_nan)
     wide(6:2:-2, 2::2) = xyz

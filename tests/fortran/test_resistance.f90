@@ -213,7 +213,7 @@ contains
     call moving%destroy()
   end subroutine test_motion_errors
 
-  ! For two directions of the placement, derivatives follow from closest points on a rigid body.
+  ! For two directions of the placement, the expected derivatives follow from the closest points on a rigid body.
   subroutine test_directions()
     type(riis_surface) :: moving
     type(riis_valve) :: mitral, none

@@ -139,7 +139,7 @@ void check_marking(Input &in, const riis_surface *surface, const MeshSlot &mesh,
   for (std::size_t i = 0; i < marked.size(); ++i) EXPECT(marked[i].distance <= info.half_thickness, "%zu", i);
   if (mesh.was_told) check_fields(surface, *mesh.nodes, options.fields, slot.handle);
 
-  // The node moved without an update, so its result cannot be compared.
+  // If a node moved to an invalid place without an update, the results cannot be compared.
   for (std::int64_t i = 0; i < mesh.nodes->n; ++i)
     for (const double x : (*mesh.nodes)[i])
       if (!(std::abs(x) <= 1e60)) return;

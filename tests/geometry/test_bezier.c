@@ -180,8 +180,8 @@ TEST(flattening_takes_few_points) {
   const double line[9] = {0, 0, 0, 1, 0, 0, 2, 0, 0}, point[9] = {1, 2, 3, 1, 2, 3, 1, 2, 3};
   assert_int_equal(n_flattened(2, line, 1e-9), 2);
   assert_int_equal(n_flattened(2, point, 1e-9), 1);
-  /* A quarter of a unit circle. If the arc is cut into n equal parts, the error is (pi / (2 n))^2 / 8. Halving makes n the next
-   * power of two. */
+  /* A quarter of a unit circle. If the arc is cut into n equal parts, the error is (pi / (2 n))^2 / 8. Curves are halved again
+   * and again, so n is the next power of two. */
   const double k = 0.5522847498, quarter[12] = {1, 0, 0, 1, k, 0, k, 1, 0, 0, 1, 0};
   assert_int_equal(n_flattened(3, quarter, 0.0055), 9);
   assert_int_equal(n_flattened(3, quarter, 0.0014), 17);

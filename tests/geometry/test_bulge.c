@@ -18,7 +18,7 @@ static void make_base(void) {
 
 static double distance(const double *p, const double *q) { return hypot(hypot(p[0] - q[0], p[1] - q[1]), p[2] - q[2]); }
 
-/* A cylinder hangs below a circle. In this case W = (0, 0, -2), and T is along the circle, so O = factor * 2 outwards. */
+/* A cylinder hangs below a circle. For the cylinder, W = (0, 0, -2), and T is along the circle, so O = factor * 2 outwards. */
 TEST(of_a_cylinder) {
   double edge[12 * n_base];
   memcpy(edge, base, sizeof edge);

@@ -45,8 +45,8 @@ TEST(test_ring) {
       rotated(hole, 0, b, centre, corners[2 * i + 1] + 4);
     }
     const double area = 0.5 * m * hole * hole * sin(step), spacing = 2 * radius / n_lines;
-    /* The first tolerance is for a round hole, whose edge crosses all lines. Two edges of a hole may be parallel to the lines,
-     * and the place of such an edge has an error of half a spacing. */
+    /* The bound is the error for a round hole, whose edge crosses all lines, plus the error of edges that are parallel to the
+     * lines. Two such edges may occur, each with an error of half a spacing. */
     const double bound = area * pow(2 * hole / spacing, -1.5) + spacing * hole * step;
     CHECK_NEAR(shim_uncovered_circle(radius, centre, 2 * m, corners[0], n_lines), area, bound);
   }
@@ -120,7 +120,8 @@ TEST(test_open_lines) {
   assert_true(shim_uncovered_inside(3, near_y[0], 0, NULL, n_lines) == -1);
 }
 
-/* Two triangles begin in one point of a line, at edges of different slopes. Only one edge counts, and always the same one. */
+/* Two triangles begin in one point of a line, at edges of different slopes. Only one of these edges counts, in every order of the
+ * triangles the same edge. */
 TEST(test_order_of_triangles) {
   const double line = 1.0 / n_edge_lines, origin[2] = {0, 0}; /* a line of the upper half passes here */
   const double upright[6] = {-0.5, line - 0.25, -0.5, line + 0.25, 0.5, line + 0.125};

@@ -4,9 +4,9 @@
 # Installs a build tree to a fresh prefix, and uses it as an outside project would. The programs of stranger/, one in each
 # language, must mark the same bits as the build tree's C program. The prefix is then moved. Examples are built outside the tree
 # by CMake, two of them also by pkg-config, and run. Each example must print the same in C and in Fortran. If the tree is also
-# installed to another prefix, all examples are built there, and only two are built before. A staged (DESTDIR) install must
-# contain the same files and no path of its stage. Environment: CMAKE, PKG_CONFIG, CC, CXX, FC, TEST_PLUGIN, the path of the
-# program test_plugin, and STRANGER, the path of the build tree's C program
+# installed to a second prefix, all examples are built with the second prefix, and only two with the first prefix. A staged
+# (DESTDIR) install must contain the same files and no path of its stage. Environment: CMAKE, PKG_CONFIG, CC, CXX, FC,
+# TEST_PLUGIN, the path of the program test_plugin, and STRANGER, the path of the build tree's C program
 set -euo pipefail
 source=$1 build=$2 work=$3 kind=$4
 shift 4
@@ -144,16 +144,16 @@ flags() { # arguments: for pkg-config
   PKG_CONFIG_PATH=$pkg_config_path "$PKG_CONFIG" "$@"
 }
 
-# The flags of pkg-config are the same for all examples, so few examples are built. If all are requested, the program of an old
-# code is also built.
+# The flags of pkg-config are the same for all examples, so few examples are built. If all examples are requested, the program of
+# an old code is also built.
 check_by_pkg_config() { # arguments: prefix, all|few, more pkg-config options
   local pkg_config_path out=$work/pkg_config examples=("${few_examples[@]}")
   pkg_config_path=$(library_dir "$1")/pkgconfig
   rm -rf "$out"
   mkdir -p "$out"
   local example file more source_name
-  # A compiler that cannot read the module files uses the installed sources instead. These sources contain no paths, so one test
-  # is enough.
+  # A compiler that cannot read the module files uses the installed sources instead. The Fortran sources contain no paths, so one
+  # test is enough for all prefixes.
   if has Fortran && [ ! -d "$work/fortran" ]; then
     mkdir "$work/fortran"
     file=$(dirname "$(find "$1" -name riis_c.f90)")
@@ -244,7 +244,8 @@ check_bits() { # argument: prefix
   done
 }
 
-# A plug-in that contains the static library exports only its own names. A program can unload it after it has marked nodes.
+# A plug-in that contains the static library exports only its own names. A program can unload the plug-in after the plug-in has
+# marked nodes.
 check_plugin() { # argument: prefix
   local pkg_config_path plugin=$work/plugin.so exported
   pkg_config_path=$(library_dir "$1")/pkgconfig
@@ -325,8 +326,8 @@ while read -r file; do
 done < <(find "$prefix" -type f \( -name '*.so.*' -o -name '*.a' \))
 
 # If a library directory is an absolute path, it does not move with the prefix. Everything must still be found. The check
-# configures the build tree again. Only the static test does so, because it has a separate build tree. Afterwards the test's
-# fixture restores this tree.
+# configures the build tree again. Only the test of static libraries configures again, because it has a separate build tree.
+# Afterwards the test's fixture restores this tree.
 is_configured_anew='' examples_of_moved=all
 if [ "$kind" = static ] && [[ $build == "$(dirname "$work")"/* ]]; then
   is_configured_anew=1 examples_of_moved=few

@@ -12,6 +12,6 @@ if [ -n "$unexpected" ]; then
   echo "$library needs what it should not:" "$unexpected" >&2
   exit 1
 fi
-# An empty list would pass the check above.
+# An empty list of libraries would pass the check above, so the list must contain Embree.
 grep -q '^libembree' <<<"$needed"
 echo "needed:" "$needed"

@@ -130,7 +130,7 @@ static pair_list pairs_of_cells(const cell_list *list) {
   return pairs;
 }
 
-/* Returns an array of 32 or 64 bits with the n integers plus base. */
+/* Returns the n integers plus `base`, as integers of 32 or 64 bits. */
 static void *as_bits(const int64_t *from, int64_t n, int bits, int64_t base) {
   int32_t *narrow = own(malloc((size_t)(n + 1) * sizeof(int64_t)));
   int64_t *wide = (int64_t *)(void *)narrow;

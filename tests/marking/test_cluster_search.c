@@ -303,7 +303,7 @@ TEST(needles_that_are_lines_in_the_frame) {
       p[6] = p[7] = p[8];
       p[6] += size * 1e-11, p[7] -= size * 1e-11;
     }
-    /* This triangle determines the surface's frame. */
+    /* A large triangle determines the surface's frame. */
     const double large[9] = {0.7, 0.7, 0.7, -0.1, 0.7, 0.7, 0.7, -0.1, -0.1};
     memcpy(corners, large, sizeof large);
     const riis_surface_arrays arrays = triangle_arrays(3 * n_triangles, corners, n_triangles, ids);

@@ -197,7 +197,8 @@ static void check_fields(const riis_surface *surface, const double *xyz, const r
   }
 }
 
-/* Makes nodes on a surface, near it, at its corners, and beyond its edges. The next node in the list is each node's neighbour. */
+/* Makes nodes on a surface, near it, at its corners, and beyond its edges. Each node's only neighbour is the next node in the
+ * list. */
 static test_mesh nodes_near(const riis_surface *surface, int64_t n, double reach) {
   const riis_triangles c = triangles_of(surface);
   test_mesh mesh = {.n = n};
@@ -390,7 +391,7 @@ TEST(valves_have_a_rim_all_around_and_none_inside) {
                    f.uv[2 * k + 1], f.patch_id[k]);
         n_rim += expected;
         const int64_t e = k / 3;
-        /* The node lies beyond an edge, so this edge is the closest one. */
+        /* The node lies beyond an edge of the triangle, so this edge is the closest edge. */
         if (t == e / 3 && expected && r.edge[e]) ++n_free;
         if (!r.edge[e]) ++n_inside;
         if (f.uv[2 * k + 1] > 1 - 1e-9 && is_mitral && i == 0) {

@@ -267,7 +267,7 @@ static void compare(const riis_surface *at, const placed_valve *state, const cha
   for (int i = 0; i < 2 && is_same; ++i) {
     placed_valve moved = copy_of(state);
     if (!apply(c, shifts, i ? step : -step, &moved)) is_same = 0;
-    /* A surface keeps its fixed triangles only while the opening and the placement alone change. */
+    /* A surface keeps its fixed triangles if only the opening and the placement change. */
     const int keeps = state->options.triangulation == RIIS_TRIANGULATION_FIXED &&
                       (c->sort != of_parameter || strcmp(c->name, "opening") == 0);
     riis_surface *surface = is_same ? surface_in(keeps ? state : &moved) : NULL;

@@ -147,7 +147,7 @@ TEST(mask_leaves_nodes_out) {
   riis_mesh *mesh = mesh_of(n, xyz);
   riis_marks *all = new_result(), *some = new_result();
   riis_mark_options options = mark_options();
-  /* The mask has 0, 1 or 2. Every value but 0 selects the node. */
+  /* The mask's entries are 0, 1 or 2. An entry above 0 selects its node. */
   for (int i = 0; i < n; ++i) mask[i] = (uint8_t)(random_bits(&rng) % 3);
   options.node_mask = mask;
   CHECK_OK(riis_mark_nodes(surface, mesh, NULL, all));

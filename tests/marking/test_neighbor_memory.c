@@ -211,9 +211,9 @@ TEST(a_steady_moving_step_allocates_nothing) {
 #endif
 }
 
-/* In each step, the moving annulus gives new targets for 200 landmarks, for two valves in turn. Each valve has all its memory
- * after two steps. The adapted triangulation needs most triangles at some time of the beat, so its surface has all memory only
- * after one beat. */
+/* In each step, the moving annulus gives new targets for 200 landmarks, for two valves in turn. After two steps, each valve has
+ * allocated all the memory that it needs. The adapted triangulation needs most triangles at some time of the beat, so its surface
+ * has all memory only after one beat. */
 TEST(a_steady_warped_step_allocates_nothing) {
 #if defined(COUNTS_ALLOCATIONS)
   static const char *const kinds[4] = {"trileaflet", "aortic", "mitral", "coapting"};

@@ -296,7 +296,7 @@ TEST(needles_lose_no_node) {
     riis_surface_arrays arrays = triangle_arrays(3, corners, 1, ids);
     riis_surface_options options = surface_options();
     riis_surface *surface = NULL;
-    /* A triangle as thin as this one may count as having no area. */
+    /* A triangle of this thinness may count as having no area. */
     if (riis_surface_create_from_arrays(&arrays, NULL, &surface) != RIIS_OK) continue;
     own(surface);
     options.half_thickness = fmax(closest_to(surface, xyz[0], xyz[1], xyz[2]).distance, 1e-40);
@@ -329,7 +329,7 @@ TEST(masked_nodes_are_left_out) {
     riis_marks *fresh = new_result();
     check_same_as_exhaustive(surface, mesh, options, fresh);
     const riis_mark_stats stats =
-        /* Each later trial starts from the marks of the trial before, which had another mask. */
+        /* Each later trial starts from the marks of the preceding trial, which had another mask. */
         check_same_as_exhaustive(surface, mesh, options, reused);
     const found_nodes found = within_in(reused);
     for (int64_t i = 0; i < found.n; ++i) assert_true(mask[found.node_id[i]]);

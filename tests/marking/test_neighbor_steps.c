@@ -84,7 +84,7 @@ TEST(a_result_goes_from_mesh_to_mesh) {
   }
 }
 
-/* The test makes more steps than a counter of 8 bits could hold. */
+/* The test makes more steps than a counter of 8 bits can count. */
 TEST(many_steps) {
   riis_surface *surface = aortic_band(0.1);
   test_mesh nodes = lattice_around(surface, 0.3, 0.2);

@@ -250,7 +250,7 @@ static void check_passage(const char *kind) {
       fail_msg("%s, opening %g, offset %g: %d at %g times the half thickness %g", kind, opening, offset, is_joined,
                1 + 0.01 * sign, passage.distance);
   }
-  /* The passage's half thickness marks the node, to the last bit. The next smaller number does not mark the node. */
+  /* The passage's half thickness marks the node, to the last bit. The next smaller half thickness does not mark the node. */
   for (int k = 0; k < 2 && passage.distance > 1e-6; ++k) {
     riis_surface *again = same_triangles(surface, k == 0 ? passage.distance : passage.distance * (1 - 4e-16), offset);
     riis_marks *marks = new_result();
@@ -405,7 +405,7 @@ TEST(leaks_are_those_of_a_loop_over_all_edges) {
 
 /* --- Derivatives ------------------------------------------------------------------------------------------------------------ */
 
-/* K at the nodes beside triangles that have moved along the direction. */
+/* Computes K at the nodes after the triangles have moved along the direction. */
 static void K_of_moved(const riis_surface *surface, const riis_direction *direction, double step, const double *nodes,
                        int64_t n, const riis_mark_options *asked, double *K) {
   const riis_triangles all = triangles_of(surface);

@@ -102,7 +102,7 @@ static void count_leaks(const closed_valve *valve, int n_grids, int32_t rim, int
       const riis_surface *surface = closed_surface(valve, offsets[k]);
       leaks[k] = leaks_through(surface, &grid, rim, from, to);
       n_leaking[k] += leaks[k];
-      /* If the rim is not cut, the library's passage is the same flood. */
+      /* If the rim is not cut, the library's passage must agree with the flood. */
       if (rim == RIIS_RIM_CUT) continue;
       riis_passage passage;
       CHECK_OK(find_passage_between(surface, mesh_from(&grid), NULL, 1, &from, 1, &to, &passage, sizeof passage));
@@ -133,8 +133,9 @@ TEST(valves_with_a_skirt_do_not_leak) {
     }
 }
 
-/* Without a skirt, blood passes between the rim and a wall farther out, with every offset. A round rim holds blood back as well
- * as without an offset. A cut rim lets blood pass, because its end moves along the normals, and so away from the wall. */
+/* Without a skirt, blood passes between the rim and a wall farther out, with every offset. With a round rim, a band with an
+ * offset holds blood back as well as a band without an offset. A cut rim lets blood pass, because its end moves along the
+ * normals, and so away from the wall. */
 TEST(round_rims_without_a_skirt_leak_only_where_they_leak_without_an_offset) {
   closed_valve valves[] = {{"trileaflet", 0, 0.1, 0, -1.7, 0.5}, {"coapting", 0, 0.1, 0, -0.5, 2.2}};
   const int n_grids = trials_of(15);

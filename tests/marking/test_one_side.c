@@ -65,8 +65,8 @@ static riis_surface *valve_surface(const char *kind, riis_surface_options *optio
 
 static int is_anywhere(int64_t node) { return node % 2 == 0; }
 
-/* Puts nodes around the band. One half lies anywhere, and the other half over random places of the surface, along the triangle's
- * normal. Some nodes of the second half are at the ends of the band, or exactly over a vertex or an edge. */
+/* Puts nodes around the band. One half of the nodes lies anywhere. The other half lies over random places of the surface, along
+ * the triangle's normal. Some nodes of the second half are at the ends of the band, or exactly over a vertex or an edge. */
 static void place_nodes(const riis_surface *surface, double eps, double offset, double *xyz) {
   const riis_surface_info info = info_of(surface);
   const riis_triangles all = triangles_of(surface);

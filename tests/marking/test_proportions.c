@@ -99,7 +99,7 @@ TEST_WITH(sizes_that_do_not_fit_are_told, start_listening, stop_listening) {
               "half thickness is 0.001");
   assert_int_equal(n_warnings(1, RIIS_AUTO, 0, 4e4), 1);
   expect_text("the mesh is more than 50 times as large as the surface", "40000 (mesh", "half thickness is 0.1");
-  /* The half thickness is in centimetres. The other sizes are in another unit. */
+  /* The half thickness is in centimetres, and the mesh and the surface are in another unit. */
   assert_int_equal(n_warnings(0.01, 0.1, 0, 0.04), 1);
   expect_text("the half thickness is larger than the surface", "0.04 (mesh", "half thickness is 0.1");
   assert_int_equal(n_warnings(0.3, 0.5, 0, 0.4), 1);
@@ -198,7 +198,7 @@ static riis_status create(const layout *lies, int n, riis_mesh **mesh) {
 }
 
 /* One node is far from the surface, and all others are within a hundredth of it. The warning is absent only if the box contains
- * the far node. The test puts this node into every lane of the registers, on every axis and in both directions. */
+ * the far node. The test puts the far node into every lane of the registers, on every axis and in both directions. */
 TEST_WITH(the_box_holds_every_node, start_listening, stop_listening) {
   riis_surface *surface = aortic_surface(NULL);
   for (int l = 0; l < n_layouts; ++l)

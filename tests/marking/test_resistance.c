@@ -413,7 +413,7 @@ TEST(band_sums_are_those_of_a_plain_loop) {
   CHECK_MET(n_rim > 100);
 }
 
-/* The pressure jumps across the surface. On each side, the mean of the nodes is the pressure of this side. */
+/* The pressure jumps across the surface. On each side of the surface, the mean over the nodes is the pressure of the side. */
 TEST(a_jump_of_pressure_is_measured) {
   random_frame();
   riis_surface *surface = surface_of(disc, 100, 10, 0.1);

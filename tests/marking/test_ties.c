@@ -137,7 +137,7 @@ static void check_searches(const riis_surface *surface, const test_mesh *from, c
   assert_memory_equal(a.barycentric, b.barycentric, (size_t)n * 24);
   assert_memory_equal(a.side, b.side, (size_t)n * 4);
   assert_memory_equal(b.velocity, fields.velocity, (size_t)n * 24);
-  /* Ties are also right at every other distance. */
+  /* Ties are also right for nodes at any other distance. */
   riis_marks *all[2];
   for (int k = 0; k < 2; ++k) {
     riis_mark_options options = mark_options();

@@ -60,8 +60,8 @@ static int update_without_memory(void) {
 }
 
 /* This check also runs in a child process. The valve has many patches, and the first patch already has too many quads. The
- * library makes the curves of a few patches before it counts the quads. If it made all curves, this would take a gigabyte.
- * Returns 0 if this holds. */
+ * library makes the curves of a few patches before it counts the quads. The curves of all patches would need a gigabyte. Returns
+ * 0 if the library makes only a few. */
 static int refusal_with_little_memory(void) {
   enum { n_patches = 200, n_curves = 4 * n_patches };
   static const double ends[4][4] = {{0, 0, 1, 0}, {0, 1, 1, 1}, {0, 0, 0, 1}, {1, 0, 1, 1}};

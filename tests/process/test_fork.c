@@ -44,7 +44,7 @@ static void *go_on_stepping(void *status_of_thread) {
   return NULL;
 }
 
-/* Marks keep TBB's arenas, and riis_set_log sets the log. Each takes a lock for a moment. */
+/* Calls of riis_marks_create use TBB's arenas, and riis_set_log sets the log. Each call takes a lock for a moment. */
 static riis_status take_locks(void) {
   riis_marks *marks = NULL;
   const riis_status status = riis_marks_create(&marks);
@@ -59,7 +59,7 @@ static void *go_on_locking(void *status_of_thread) {
   return NULL;
 }
 
-/* Copies and destroys valves, whose values are in the memory pools. */
+/* Copies and destroys valves, whose values lie in the library's memory pools. */
 static riis_status copy_often(const riis_valve *valve) {
   riis_status status = RIIS_OK;
   for (int i = 0; i < 20 && !status; ++i) {

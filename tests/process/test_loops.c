@@ -11,13 +11,13 @@
 
 static int is_bound(void) { return omp_get_proc_bind() != omp_proc_bind_false; }
 
-/* This case comes first, because the team then has one worker. */
+/* This case is the first of the tests, because the team then has only one worker. */
 TEST(loops_end_while_a_thread_is_held) {
   assert_true(loops_while_a_thread_is_held(200));
   for (int i = 0; i < 2000 && !is_short_test(); ++i) assert_true(loops_while_a_thread_is_held(10));
 }
 
-/* This case comes before all loops of OpenMP. After a long wait in such a loop, all loops would run on teams for a while. */
+/* This case runs before all other loops of OpenMP. After a long wait in such a loop, all loops would run on teams for a while. */
 TEST(more_threads_than_processors_are_a_team) { assert_int_equal(too_many_threads_are_a_team(), !is_bound()); }
 
 TEST(each_block_runs_once) {
@@ -74,8 +74,9 @@ TEST(the_threads_leave_signals_to_the_caller) {
 }
 
 /* This test would wait for ever if a loop waited for all of its threads, or for a lock that a delayed thread has. To test the
- * lock, the thread must be delayed at many points. A delayed thread must not hold a sanitizer's lock. With a sanitizer the thread
- * is therefore delayed once, asleep. This test is first, because the team then has only one additional thread. */
+ * lock, the thread must be delayed at many points of its code. A delayed thread must not hold a sanitizer's lock. With a
+ * sanitizer the thread is therefore delayed once, asleep. This test is first, because the team then has only one additional
+ * thread. */
 TEST(a_long_wait_chooses_a_team) {
   if (is_bound())
     assert_false(wait_long_for_a_thread());

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  * n_threads = 1 starts no thread: the process always has as many threads as before the first call. With little work, the default,
- * 0, also starts no thread. With 2 threads requested, the process has more threads, which shows that the test counts correctly.
+ * 0, also starts no thread. If 2 threads are requested, the process has more threads, which shows that the test counts correctly.
  * Calls on one thread come first, because OpenMP and TBB keep the threads that they start. */
 #include <riis/riis.h>
 
@@ -147,7 +147,7 @@ TEST(surfaces_from_arrays) {
   CALL_ALONE(updated);
 }
 
-/* Makes adjacencies of all kinds. The last one is the adjacency of the lattice. */
+/* Makes adjacencies of all kinds. The last adjacency in the list is that of the lattice. */
 static riis_adjacency *make_adjacencies(void) {
   riis_mesh_cells cells;
   riis_mesh_faces faces;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Every single allocation of the library's own code fails once, and so does every request of Embree to its memory monitor. The
- * call must then return RIIS_OUT_OF_MEMORY, change nothing and leak nothing. If it is repeated, it must succeed. Some allocations
- * of long calls are skipped without RIIS_TEST_LONG=1. */
+ * Every single allocation of the library's code fails once, and so does every request of Embree to its memory monitor. The call
+ * must then return RIIS_OUT_OF_MEMORY, change nothing and leak nothing. If the call is repeated, the call must succeed. Some
+ * allocations of long calls are skipped without RIIS_TEST_LONG=1. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -134,7 +134,7 @@ static int64_t try_one(const scenario *s, const reference *expected, int whose, 
   if (n_failed > 0) {
     n_injected[whose] += n_failed;
   }
-  /* If the call went on without the memory, it is checked below. */
+  /* A call that went on without the memory is checked below. */
   if (n_failed > 0 && !((s->flags & MAY_GO_ON) && status == RIIS_OK)) {
     ++n_calls_failed[whose];
     check_status(s, status, n);

@@ -23,7 +23,7 @@ static laws laws_at_start(void) {
   return state;
 }
 
-/* Systole comes first: the aortic valve opens, and closes as the flow reverses. Then the mitral valve opens. */
+/* In systole the aortic valve opens, and closes as the flow reverses. Then the mitral valve opens. */
 static void advance(laws *state, double time) {
   riis_opening_switch by_switch;
   riis_opening_angle by_angle;

@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_flow.sh SOURCE FLOW FLOW_CHECKS MEMBRANE DROP WORK
-# Runs the flow solver of examples/flow_fortran on coarse grids. The cases are its own checks, a restart with the same bits, a
-# cusp of springs, steady drops, plots, and refusals.
+# Runs the flow solver of examples/flow_fortran on coarse grids. The cases are the solver's checks of itself, a restart with the
+# same bits, a cusp of springs, steady drops, plots, and refusals.
 set -euo pipefail
 source=$1 flow=$2 checks=$3 membrane=$4 drop=$5 work=$6
 failed=0
@@ -39,7 +39,8 @@ refuses() {
 
 "$checks" short || problem "a check fails"
 
-# The state is saved at a step at which the valve moves, so its state matters. Frames are written at other steps.
+# The state is saved at a step at which the valve moves, so that the restart needs the valve's state. Frames are written at other
+# steps.
 run whole end_time=0.15 frames=5 steps=150 save=140,150 || problem "the solver failed: $(<whole/log)"
 run again end_time=0.15 frames=5 steps=150 save=150 restart="'whole/restart_140.bin'" || problem "no restart: $(<again/log)"
 awk -F , '$1 == 140 { exit !($4 > 0 && $4 < 1) }' whole/beat.csv || problem "the valve does not move at the restart"
@@ -50,13 +51,14 @@ cmp <(sed -n '/^14[1-9],/p; /^150,/p' whole/beat.csv) <(sed 1d again/beat.csv) |
 awk -F , '$1 == 20 { found = 1; exit !($4 == 0 && $8 < 0 && $8 > -2e-6 && $7 - $6 > 9000) } END { exit !found }' whole/beat.csv ||
   problem "the closed valve leaks: $(sed -n 21p whole/beat.csv)"
 
-# The flow opens the cusp of springs. After the pressures have changed sides, it goes back through the valve.
+# The flow opens the cusp of springs. After the pressure difference has changed its sign, the flow goes back through the valve.
 "$membrane" >membrane.log || problem "the cusp of springs failed"
 awk 'NR > 2 { last = $2; if ($1 < 30) opened = $NF } END { exit !(opened > 1 && last < 0) }' membrane.log ||
   problem "the cusp of springs does not follow the flow: $(<membrane.log)"
 
-# Without an offset, a half-open valve has the drop of a narrower valve. With the offset 0.75 its drop is near Bernoulli's.
-# drop_of OFFSET: prints the drop over rho Q^2/(2 A^2), in mmHg and cm2. Leaves the program's output in drop_OFFSET.log.
+# Without an offset, a half-open valve has the drop of a narrower valve. With the offset 0.75, the drop of a half-open valve is
+# near Bernoulli's. drop_of OFFSET: prints the drop over rho Q^2/(2 A^2), in mmHg and cm2. Leaves the program's output in
+# drop_OFFSET.log.
 drop_of() {
   "$drop" cells=12 eps=3e-3 opening=0.5 settled=0.1 offset="$1" >"drop_$1.log"
   tail -n 1 "drop_$1.log" | LC_ALL=C awk -F , '{ print $12 / (530 * ($3 / $8 / 100) ^ 2 / 133.322) }'

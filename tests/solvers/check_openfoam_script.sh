@@ -125,7 +125,7 @@ ends 0 "Mesh OK." openfoam_mesh 0.25
 [[ -e $of_work/mesh-0.25/complete ]] || problem "a good mesh is not kept"
 grep -q 'type wall;' "$of_work/mesh-0.25/constant/polyMesh/boundary" || problem "the wall is no wall"
 
-# Tests the check of function objects. First the function objects work with the digest of the plug-in's folder. Then they fail for
+# Tests the check of function objects. In three cases, function objects work, need the digest of the plug-in's folder, or fail for
 # another reason.
 function_objects=good
 openfoam_function_object() {

@@ -264,7 +264,7 @@ class Tables(unittest.TestCase):
         self.assertAlmostEqual(flow / (area * np.sqrt(2 * 100 * zero_d.MMHG / zero_d.RHO)), 1, delta=1e-3)
 
     def test_run_that_was_cut_off(self):
-        """The later table counts from its start."""
+        """If a run was cut off and continued, rows of the later table replace the earlier rows from its start time on."""
         for start, rows in (("0", "1 10\n2 20\n3 30\n"), ("2", "3 31\n4 41\n")):
             folder = self.folder / "postProcessing/inflow" / start
             folder.mkdir(parents=True)
@@ -309,7 +309,7 @@ class Search(unittest.TestCase):
             self.assertLess(residuals.max(), 66, f"echo {echo}")  # 0.5 mmHg
             self.assertLessEqual(trials[10:].max(), 9, f"echo {echo}")
             self.assertAlmostEqual(found, echo, delta=0.02)
-            # The second trial of a step does not know the change before it. Z is therefore too large in this trial, which is
+            # The second trial of a step does not know the preceding change. Z is therefore too large in this trial, which is
             # safe.
             self.assertTrue(0.99 <= slope / self.INERTANCE <= 2, f"echo {echo}: {slope}")
 

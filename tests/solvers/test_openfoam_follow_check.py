@@ -175,7 +175,7 @@ class Angle(Files):
         self.keys = {"pressureGain": 20, "flowGain": 2e6, "friction": 50, "vortexGain": 7e6, "angleMin": 5, "angleMax": 75}
         self.k = self.random.random(N) + 1
         times = DT * numpy.arange(1, 31)
-        # At a constant pressure, without the other terms, angle'' = a cos(angle). The square of the rate is therefore 2 a
+        # At a constant pressure and without other torques, angle'' = a cos(angle). The square of the rate is therefore 2 a
         # sin(angle).
         self.keys.update(flowGain=0, friction=0, vortexGain=0, angleMin=0, angleMax=60)
         at, rate, self.opening = 0.0, 0.0, []

@@ -5,7 +5,7 @@ kind of colour vision.
 
 The palette is distinct_colours of src/riis_vtk/picture/drawing.hpp. The matrices of Machado, Oliveira, Fernandes (2009) for the
 severity 1 give the colours that protanopes, deuteranopes and tritanopes see. Two colours count as distinct if their difference in
-CIELAB is at least LEAST. As a test of this check, the palette of matplotlib and its Set2 must fail.
+CIELAB is at least LEAST. To test the check itself, matplotlib's palette and Set2 must fail.
 """
 
 import itertools

@@ -78,7 +78,7 @@ shell() {
       status=1
     fi
   done
-  # macOS has bash 3.2. `run` starts in it, before it can refuse it.
+  # macOS has bash 3.2. `run` must start in bash 3.2, before `run` can refuse this version.
   ! grep -snE 'mapfile|readarray|(declare|local) -[An]|\$\{[a-z_]+(,|\^)|&>>|\|&|coproc|;;&|wait -n' run |
     sed 's/^/bash 3.2 lacks: run:/' | grep . >&2 || status=1
   # Scripts that `run` reads are checked together with `run`, because they use its variables.

@@ -132,8 +132,8 @@ static inline double to_bileaflet(const bileaflet *of, const double *p) {
   return fmin(to_bileaflet_leaflet(of, RIIS_LEAFLET_POSITIVE, p), to_bileaflet_leaflet(of, RIIS_LEAFLET_NEGATIVE, p));
 }
 
-/* Returns the distance from a point to the half x >= 0 of a disc of this radius. The hinge lies in the disc's plane at slope 0.
- * The disc's centre is at slope -offset. */
+/* Returns the distance from a point to the half x >= 0 of a disc of this radius. The hinge lies in the disc's plane, and the
+ * disc's centre is `offset` away from the hinge towards the axis. */
 static inline double to_half_disc(double radius, double offset, in_leaflet at) {
   const double x = at.slope + offset, from_centre = hypot(x, at.y);
   if (x >= 0) return hypot(at.off, fmax(from_centre - radius, 0));

@@ -123,7 +123,7 @@ static inline riis_triangles triangles_of(const riis_surface *surface) {
   return triangles;
 }
 
-/* Returns a list of the marks. The list's n_nodes is -1 if riis refuses. */
+/* Returns a list of the marks. The list's n_nodes is -1 if riis refuses the call. */
 static inline riis_mark_list list_of(const riis_marks *marks, int32_t which) {
   riis_mark_list list;
   memset(&list, 0, sizeof list);

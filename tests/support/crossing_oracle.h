@@ -27,7 +27,7 @@ static inline wide wide_dot(wide3 a, wide3 b) { return a.x[0] * b.x[0] + a.x[1] 
 static inline int oracle_meet_in_plane(const int64_t *a, const int64_t *b, const int64_t *abc, wide3 normal) {
   const int drop = normal.x[0] ? 0 : normal.x[1] ? 1 : 2, u = (drop + 1) % 3, v = (drop + 2) % 3;
   const int turn = normal.x[drop] > 0 ? 1 : -1;
-  /* The part of a segment, from t = low to high, that is inside all sides of the triangle tried so far. Both ends are fractions
+  /* The part of a segment, from t = low to t = high, that lies inside the tried sides of the triangle. Both ends are fractions
    * with positive denominators. */
   wide low = 0, low_of = 1, high = 1, high_of = 1;
   for (int i = 0; i < 3; ++i) {

@@ -26,7 +26,7 @@ void memory_library_is_that_of(const char *function);
 void memory_fail(int whose, int64_t n, int and_all_after);
 /* Lets all allocations succeed again. Returns how many allocations have failed. */
 int64_t memory_stop_failing(void);
-/* Returns 1 if MEMORY_OF_ALL can fail. */
+/* Returns 1 if allocations of MEMORY_OF_ALL can fail. */
 int memory_of_all_can_fail(void);
 
 /* Returns the number of allocations that the library's own code has made and not yet freed. */

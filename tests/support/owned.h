@@ -62,7 +62,8 @@ static inline int free_owned(void **state) {
   return 0;
 }
 
-/* Call this at the end of a group's setup. All objects made before then last until the group's teardown, free_owned_of_group. */
+/* Call this function at the end of a group's setup. All objects made before then last until the group's teardown,
+ * free_owned_of_group. */
 static inline void keep_owned_for_group(void) { owned.n_of_group = owned.n; }
 
 static inline int free_owned_of_group(void **state) {

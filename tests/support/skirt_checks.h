@@ -23,7 +23,7 @@ static inline pair_counts crossings_of(const riis_surface *surface, riis_crossin
     int n_of_skirt = 0;
     int32_t patch[2] = {0, 0};
     for (int end = 0; end < 2; ++end) {
-      /* A fixed triangulation leaves out triangles without area, so an id is not a position. */
+      /* A fixed triangulation leaves out triangles without area, so a triangle's id may differ from its position in the list. */
       int64_t low = 0, high = all.n_triangles - 1;
       while (low < high) {
         const int64_t middle = (low + high) / 2;

@@ -59,10 +59,10 @@ static inline riis_surface *surface_at(riis_valve *valve, double opening, const 
   return new_surface(valve, options);
 }
 
-/* Changes every size by a random share of it, at most `spread`. The sizes are changed in the order of the list. If a size follows
- * another size, the following value is the start of the change. A leaflet's size may follow the valve's size, which has already
- * changed. The share of such a size is therefore smaller. A shift or a stretch that is 0 becomes a share itself. Every size stays
- * within its range. Returns the first status that is not RIIS_OK. */
+/* Changes every size by a random share of the size, at most `spread`. The sizes are changed in the order of the list. If a size
+ * follows another size, the change starts from the value that follows. A leaflet's size may follow the valve's size, which has
+ * already changed. The leaflet's size therefore changes by a smaller share. meeting_shift, and edge_stretch if it is 0, get a
+ * random share as their value. Every size stays within its range. Returns the first status that is not RIIS_OK. */
 static inline riis_status vary_sizes(random_source *random, riis_valve *valve, double spread) {
   int64_t n;
   CHECK_OK(riis_valve_get_n_parameters(valve, &n));

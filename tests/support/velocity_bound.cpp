@@ -176,8 +176,8 @@ AlongCurve either(const AlongCurve &now, const AlongCurve &before) {
           now.is_tight && before.is_tight};
 }
 
-// Returns 1 if `curve` has one span more than `other`, and this span is at the start. Of the two end spans of `curve`, the
-// shorter span is the additional one.
+// Returns 1 if `curve` has one span more than `other`, and the additional span is at the start. Of the two end spans of `curve`,
+// the shorter span is the additional one.
 std::size_t more_at_start(const Curve &curve, const Curve &other) {
   const std::size_t n = curve.spans().size();
   return n == other.spans().size() + 1 && curve.length(0) < curve.length(n - 1) ? 1 : 0;
@@ -246,8 +246,8 @@ class SideInBoth {
   const Curve &now_, &before_;
   const Vector<double> &shares_;
   CurvePoints at_now_, at_before_;
-  // For each state, the number is 1 if the state has one span more at the start, because a joint passed that end of the curve.
-  // Otherwise it is 0.
+  // The number of a state is 1 if the state has an additional span at the start, because a joint passed this end of the curve.
+  // Otherwise the number is 0.
   std::size_t more_now_, more_before_;
 };
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Bounds the difference between two velocities at equal patch, u and v: that of a surface's triangles, and that of the smooth
- * valve (docs/theory/velocity.md). */
+ * Bounds the difference between the velocity of a surface's triangles and the velocity of the smooth valve at equal patch, u and
+ * v (docs/theory/velocity.md). */
 #ifndef RIIS_TEST_VELOCITY_BOUND_H
 #define RIIS_TEST_VELOCITY_BOUND_H
 

@@ -196,8 +196,8 @@ TEST(contradictions_are_refused) {
           (--m.n, mark(&m, &s, RIIS_LANDMARK_ANTERIOR_HORN, 270, 0), mark(&m, &s, RIIS_LANDMARK_TRIGONE, 50, 0)));
   REFUSED("AP_diameter of the fitted valve is |but the horns are |apart, seen along the annulus' normal|worst residual",
           (mark(&m, &s, RIIS_LANDMARK_POSTERIOR_HORN, 270, 0), m.xyz[17][1] += 9));
-  /* One horn is far above the annulus, or the horns lie far above and far below it. The largest residual is then beside the
-   * horn. */
+  /* One horn lies far above the annulus, or one horn lies far above and the other horn far below the annulus. The largest
+   * residual is then beside the horn. */
   REFUSED(
       "the axis of the fitted valve is at |degrees to the annulus' normal; it must be at most 20; the horns' heights "
       "make the valve lean: landmark 16 (anterior_horn) is |above and landmark |the annulus' sides|look for a horn",

@@ -132,8 +132,8 @@ TEST(parameters_that_do_not_go_together_are_refused) {
   IS_REFUSED("right.leaflet_radius_out", 1e-9, "right.leaflet_radius_out is 1e-09|from 0.05");
   IS_REFUSED("leaflet_radius_in", 129, "right.leaflet_radius_in is 129");
   IS_REFUSED("root_radius", 200, "leaflet_height is 1.02|root_radius, which is 200");
-  /* Each of these values is valid alone, but together they are absurd. The message names the curve, its extent and its
-   * parameters. */
+  /* Each of the following values is valid alone, but absurd together with the other values. The message names the curve, its
+   * extent and its parameters. */
   IS_REFUSED("leaflet_radius_in", 10, "right cusp's leaflet curve reaches 10|leaflet_angle|leaflet_radius_");
   IS_REFUSED("bending_height", 0.06, "right cusp's symmetry curve reaches|bending_height, leaflet_height, xq, zq");
   IS_REFUSED("non_coronary.bending_radius_out", 12, "non_coronary cusp's|reaches");

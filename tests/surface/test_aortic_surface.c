@@ -7,8 +7,8 @@
 #include "handles.h"
 
 TEST(numbers_of_the_model) {
-  /* The area and bounds of the smooth model. Triangles lie on chords. As the tolerance falls, their area and bounds approach
-   * those of the smooth model from below. */
+  /* The area and bounds of the smooth model. Triangles lie on chords. As the tolerance falls, the area and the bounds of the
+   * triangles approach those of the smooth model from below. */
   const double tolerance[3] = {0.05, 0.005, 0.0005}, area_error[3] = {2e-2, 2e-3, 4e-4};
   double last_area = 0;
   for (int i = 0; i < 3; ++i) {
@@ -182,8 +182,9 @@ TEST(three_cusps_are_three_pieces) {
 
 static int compare_edges(const void *a, const void *b) { return memcmp(a, b, 6 * sizeof(double)); }
 
-/* To the last bit, the two halves of a cusp meet in its symmetry plane, in any placement of the cusp. Every edge in this plane (u
- * = 0 at both ends) belongs to exactly two triangles. Without such edges, the sides of points at a folded cusp would be wrong. */
+/* To the last bit, the two halves of a cusp meet in its symmetry plane, in any placement of the cusp. Every edge in a cusp's
+ * symmetry plane (u = 0 at both ends) belongs to exactly two triangles. Without such edges, the sides of points at a folded cusp
+ * would be wrong. */
 TEST(halves_meet_to_the_last_bit) {
   const double turned[3] = {10, -20, 77}, moved[3] = {0.3, 0.2, -0.1};
   riis_valve *valve = new_valve("aortic");

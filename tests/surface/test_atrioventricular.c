@@ -407,7 +407,7 @@ TEST(lift_raises_the_closed_place) {
 }
 
 /* A valve with an open state equals the first valve when closed and the second valve when open. The annulus moves from the first
- * valve's place to the second valve's. */
+ * valve's place to the second valve's place. */
 TEST(opens_to_another_valves_open_state) {
   riis_valve *valve = new_valve("tricuspid"), *plain = new_valve("tricuspid"), *other = new_valve("tricuspid");
   CHECK_OK(riis_valve_set_scalar(other, "AP_diameter", 4));

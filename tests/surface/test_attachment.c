@@ -61,7 +61,7 @@ static int by_place(const void *a, const void *b) {
 }
 
 /* Tells whether a vertex lies on the attached side of its patch. A cusp's root is a special case, because the whole side v = 0 of
- * a lower patch is this point. */
+ * a lower patch is the root point. */
 static int is_held(const char *kind, int32_t patch_id, const double *uv) {
   return strcmp(kind, "mitral") == 0 ? uv[1] == 0 : uv[0] == 1 || (patch_id % 2 == 0 && uv[1] == 0);
 }

@@ -73,7 +73,8 @@ static riis_resistance resistance(double half_thickness, int32_t rim) {
   return made;
 }
 
-/* The search for the area of a random opening finds an opening with this area. The found opening is not larger. */
+/* The search for the area of a random opening finds an opening with this area. The found opening is at most the random
+ * opening. */
 TEST(openings_have_their_areas) {
   const int n_trials = is_long_test() ? 8 * 4 * n_kinds : n_kinds;
   double worst[2] = {0, 0};
@@ -198,7 +199,7 @@ TEST(scales_are_roots_of_areas) {
   CHECK_NEAR(area_of(valve, &search), 2 * area, 2e-4 * area);
 }
 
-/* A parameter is found by each of its two names. All other parameters stay, except parameters that follow from it. */
+/* A parameter is found by each of its two names. All other parameters stay, except those that follow from the found parameter. */
 TEST(sizes_have_their_areas) {
   static const struct {
     const char *kind, *name;
@@ -305,8 +306,8 @@ static riis_valve *blades_at(double opening) {
   return own(valve);
 }
 
-/* If several openings have the area, the call takes the least. The range `from` and `to` of the call leads to the other
- * openings. */
+/* If several openings have the area, the call takes the least. With other values of `from` and `to`, the call finds the other
+ * openings with this area. */
 TEST(turns_are_told) {
   riis_valve *valve = blades_at(0);
   CHECK_OK(riis_valve_set_open_state(valve, blades_at(1)));

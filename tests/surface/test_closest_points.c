@@ -206,7 +206,7 @@ static void check_many_points(int64_t n, bool are_in_order) {
       if (!are_in_order && i % 500 == 1) xyz[3 * i + c] = i % 1000 == 1 ? 1e22F : -1e22F;
     }
   }
-  /* The rounding has a separate loop. In a common loop, GCC 12 would pass coordinates that are not yet rounded. */
+  /* The coordinates were rounded in a separate loop. In a common loop, GCC 12 would pass coordinates that are not yet rounded. */
   for (int64_t i = 0; i < n; ++i)
     if (i % stride == 0)
       one[i] = closest_to(surface, (double)xyz[3 * i], (double)xyz[3 * i + 1], (double)xyz[3 * i + 2]);

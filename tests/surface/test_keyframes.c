@@ -25,7 +25,7 @@ static riis_surface_arrays square(void) {
   return faces;
 }
 
-/* A square that moves up and down. At key k its height is height[k]. */
+/* A square that moves up and down. At key k, the square's height is height[k]. */
 typedef struct swing {
   double time[most_keys], xyz[3 * n_vertices * most_keys];
   riis_keyframe_arrays frames;

@@ -671,7 +671,7 @@ TEST(test_exact_mitral) {
   }
 }
 
-/* An annulus point may coincide with its neighbour or with the horn. In both cases two landmarks have one place. */
+/* Two landmarks may have one place: an annulus point may coincide with its neighbour or with the horn. */
 TEST(test_repeated_points_of_annuli) {
   enum { n = 16, horn = n };
   for (int trial = 0; trial < trials_of(12); ++trial) {
@@ -1004,7 +1004,7 @@ TEST(test_held_sizes) {
   CHECK_NEAR(value(valve, "root_radius"), 1.2, 1e-9);
   assert_int_equal(found.state[position(valve, "leaflet_height")], RIIS_SIZE_KEPT);
   assert_int_equal(found.state[position(valve, "bending_height")], RIIS_SIZE_KEPT);
-  /* Both ends share the missing millimetre. */
+  /* The fit divides the missing millimetre between both ends. */
   CHECK_NEAR(found.placement.rms, 0.5, 1e-6);
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'leaflet_hight'|did you mean 'leaflet_height'",
                 try_to_place(valve, &p, "leaflet_hight", &found));

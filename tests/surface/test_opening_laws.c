@@ -388,7 +388,7 @@ TEST(a_dwell_as_long_as_a_motion_lets_it_end) {
 }
 
 /* Input: the pressure difference and the flow of a mitral valve in a flow solver. Leaflets that close push blood back. The
- * pressure before them therefore exceeds the pressure behind them from 5 to 30 ms after the flow reverses. */
+ * pressure before the leaflets therefore exceeds the pressure behind the leaflets from 5 to 30 ms after the flow reverses. */
 TEST(closing_leaflets_do_not_open_the_valve_again) {
   for (int i = 0; i < 2; ++i) {
     riis_opening_switch law = some_switch();

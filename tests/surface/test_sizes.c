@@ -738,7 +738,7 @@ static int cusp_folds(riis_valve *valve) {
 }
 
 /* At the root, the attachment of this left cusp hardly leaves the symmetry plane, but does not turn back. The open cusp folds
- * beside its attachment, and even finer triangles cross. */
+ * beside its attachment, and triangles of any fineness cross. */
 TEST(an_open_cusp_may_fold) {
   static const struct {
     const char *name;

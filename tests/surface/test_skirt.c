@@ -74,8 +74,8 @@ static double distance_to_edge(const double *p, const double *a, const double *b
   return length_of(off);
 }
 
-/* Skirts lead away from this line, which is the axis of the valve's frame. For the mitral valve the line is parallel to this
- * axis, through the centroid of the annulus. */
+/* The line from which skirts lead away is the axis of the valve's frame. For the mitral valve, the line is parallel to this axis,
+ * through the centroid of the annulus. */
 typedef struct axis_line {
   double centre[3], direction[3];
 } axis_line;

@@ -528,7 +528,7 @@ TEST(a_size_of_one_of_equal_cusps_has_derivatives) {
       const double slope = (above[3 * to_high[i / 3] + i % 3] - below[3 * to_low[i / 3] + i % 3]) / (2 * share * size);
       speed = fmax(speed, fabs(direction.rate[i])), off = fmax(off, fabs(slope - direction.rate[i]));
     }
-    /* If a cusp already opens as far as its edge allows, another open_radius_ratio does not open it farther. */
+    /* If a cusp already opens as far as its edge allows, a larger open_radius_ratio does not open the cusp farther. */
     if (!(speed > 1e-6)) {
       assert_true(strstr(name, "open_radius_ratio") != NULL && off <= 1e-6);
       free_owned_after(owned_before);

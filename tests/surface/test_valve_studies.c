@@ -38,8 +38,8 @@ static int crosses(riis_valve *valve, riis_crossings *crossings) {
   return 0;
 }
 
-/* If there are few sets, chance may lift them above a share. The bounds for few sets are therefore wider by three standard
- * deviations. */
+/* The bound on a number of sets is a share of n sets. For few sets, the bound is wider by three standard deviations, because
+ * chance may exceed the share. */
 static double at_most(double share, int n) {
   return n * share + (is_long_test() ? 0 : 3 * sqrt(n * share * (1 - share)));
 }

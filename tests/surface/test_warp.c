@@ -1029,7 +1029,7 @@ static double least_cosine(const riis_surface *surface) {
 }
 
 /* Some grid cells of the half open coapting valve are hardly wider than a line. Rough landmarks, with errors of up to half a
- * millimetre, turn over such cells. Such landmarks turn over no triangle. */
+ * millimetre, turn over such cells, but no triangles. */
 TEST(slivers_of_rough_warps_are_no_folds) {
   static const struct {
     int roughness;

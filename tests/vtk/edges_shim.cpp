@@ -69,8 +69,8 @@ int node_at(const std::vector<Place> &places, const Place &wanted) {
   return -1;
 }
 
-// Joins each corner to the middles of its sides. Around each corner of a face, also joins the middles of the two sides that meet
-// there. If the face has a node in its middle, joins each side's middle to this node instead.
+// Joins each corner to the middles of its sides. In each corner of a face, two sides meet, and the function also joins the
+// middles of these sides. If the face has a node in its middle, joins each side's middle to this node instead.
 Edges edges_by_middles(int n_corners, const std::vector<Place> &places) {
   const auto place = [&](int i) { return places[static_cast<std::size_t>(i)]; };
   const auto middle = [&](int a, int b) {
