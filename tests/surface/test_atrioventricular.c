@@ -406,6 +406,52 @@ TEST(lift_raises_the_closed_place) {
   check_same_shape(surface_at(valve, 1, 0.02), healthy_open);
 }
 
+/* The z of the first two control points of leaflet 1's closed free edge, from its first commissure. */
+typedef struct start_of_edge {
+  double end, next;
+} start_of_edge;
+static start_of_edge start_of_posterior_edge(riis_valve *valve) {
+  riis_valve_patches patches;
+  CHECK_OK(riis_valve_get_patches(valve, &patches, sizeof patches));
+  int64_t patch = 0;
+  while (patches.patch_id[patch] != n_patches + 1) ++patch;
+  const int64_t piece = patches.first_piece[patches.curve_id[4 * patch + 1]];
+  const double *control = patches.control;
+  for (int64_t i = 0; i < piece; ++i) control += 3 * (patches.degree[i] + 1);
+  return (start_of_edge){control[2], control[5]};
+}
+
+/* Commissures hold a leaflet: a bump lifts the place next to a commissure at most 0.4 cm higher than the commissure. This limit
+ * is half of commissure_length. The first part of the edge ends at a third of its cubic, so three times its control points
+ * count. */
+TEST(commissures_hold_a_lifted_leaflet) {
+  static const double lifts[5] = {0.3, 0.8, -0.8, 0.3, 0.8}, raised[5] = {0, 0, 0, 0.2, 0.2},
+                      expected[5] = {0.3, 0.4, -0.4, 0.3, 0.8};
+  const start_of_edge healthy = start_of_posterior_edge(new_valve("mitral_coapting"));
+  riis_crossings *crossings = NULL;
+  CHECK_OK(riis_crossings_create(&crossings));
+  own(crossings);
+  for (int i = 0; i < 5; ++i) {
+    riis_valve *valve = new_valve("mitral_coapting");
+    set_bump(valve, 0, "leaflet", RIIS_LEAFLET_POSTERIOR);
+    set_bump(valve, 0, "u", 1.0 / 6);
+    set_bump(valve, 0, "lift", lifts[i]);
+    set_bump(valve, 1, "commissure", 0);
+    set_bump(valve, 1, "width", 0.2);
+    set_bump(valve, 1, "lift", raised[i]);
+    const start_of_edge lifted = start_of_posterior_edge(valve);
+    /* A bump of the commissure also acts a little on the place next to it. */
+    const double beside = raised[i] * pow(1 - pow(1 / 1.2, 2), 2), end = lifted.end - healthy.end;
+    const double next = end + 3 * (lifted.next - lifted.end - healthy.next + healthy.end);
+    CHECK_NEAR(end, raised[i], 1e-12);
+    CHECK_NEAR(next, fmin(expected[i] + beside, raised[i] + 0.4), 1e-12);
+    riis_crossing_list list;
+    CHECK_OK(riis_find_crossings(surface_at(valve, 0, 0.02), NULL, crossings));
+    CHECK_OK(riis_crossings_get_list(crossings, &list, sizeof list));
+    assert_int_equal(list.n_pairs, 0);
+  }
+}
+
 /* A valve with an open state equals the first valve when closed and the second valve when open. The annulus moves from the first
  * valve's place to the second valve's place. */
 TEST(opens_to_another_valves_open_state) {

@@ -91,7 +91,7 @@ static int broken_bounds(double spread, const double *most_crossing, const doubl
 }
 
 TEST(random_valves_do_not_cross) {
-  /* Random bumps make a quarter of the bicuspid valves fold, even if all other sizes are nearly usual. */
+  /* Bumps of random places and widths fold an eighth of the bicuspid valves, even if all other sizes are nearly usual. */
   static const double none_crosses[n_sicknesses] = {0, 0, 0}, few_cross[n_sicknesses] = {0.01, 0.01, 0.02},
                       few_refused[n_sicknesses] = {0.1, 0.1, 0.35}, some_refused[n_sicknesses] = {0.35, 0.35, 0.35};
   assert_int_equal(broken_bounds(0.1, none_crosses, few_refused), 0);

@@ -44,6 +44,9 @@ constexpr double first_drop = 0.2;
 constexpr std::array<double, 4> edge_rise{0, 0, 0.6, 1};
 // A bump lifts a meridian's first inner control point by only `lift_of_start` of its lift.
 constexpr double lift_of_start = 0.3;
+// Next to a commissure, bumps lift a leaflet at most `most_lift_by_commissure` times commissure_length farther than the commissure.
+// A steeper leaflet would go through its neighbour, because leaflets lie close together there.
+constexpr double most_lift_by_commissure = 0.5;
 // A leaflet that is too short moves back in steps until it lacks less than this share of its length.
 constexpr int most_steps = 60;
 constexpr double rounding = 1e-12, rounding_of_zone = 1e-6;
@@ -287,6 +290,9 @@ Leaflet closed_leaflet(const Sizes &sizes, const Annulus &annulus, std::size_t k
     made.turn[i] = end.z;
     made.lift[i] = bumps.at(k, u_of(i)).lift;
   }
+  const double most = most_lift_by_commissure * sizes.of(commissure_length);
+  for (const auto &[end, next] : {std::pair<std::size_t, std::size_t>(0, 1), {n_cells, n_cells - 1}})
+    made.lift[next] = std::clamp(made.lift[next], made.lift[end] - most, made.lift[end] + most);
   return made;
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -39,6 +40,12 @@ constexpr double least_height = 0.05;
 constexpr std::array<double, 4> openings_of_folds{0.6, 0.75, 0.9, 1};
 // At the root, the leaflet must rise by at least `least_rise` times the rise of a leaflet without sag.
 constexpr double least_rise = 0.05;
+// If a cusp rises by less than `usual_rise`, its open edge leaves the commissures flatter. The edge leaves the commissures level
+// if the rise is less than `usual_rise` by `rise_until_level` or more.
+constexpr double usual_rise = 0.1, rise_until_level = 0.15;
+// If a cusp needs a flatter edge because it would fold otherwise, the height of this edge above the root must stay at least
+// `least_height_of_flat` times root_radius. In a lower leaflet, triangles would cross near the attachment.
+constexpr double least_height_of_flat = 0.08;
 // Fused commissures must leave an open orifice of at least `least_orifice` of the area inside the commissures.
 constexpr double least_orifice = 0.06;
 // The rates of the control points are differences over the step `rate_step` of the opening. The rates only determine where
@@ -220,18 +227,63 @@ CuspSizes ValveValues::sizes(std::size_t k, bool has_equal_halves) const {
   return made;
 }
 
+// Returns whether the free edge, whose middle is `depth` below the end of the first half, hangs lower than this height above the
+// root, times root_radius.
+bool hangs_lower(const CuspNumbers &cusp, double depth, double height) {
+  return !(cusp.front().edge_top - depth >= height * cusp.front().root_radius);
+}
+
 // Returns the parts of each half of a cusp.
-Vector<Vector<HalfCusp>> halves_of(const CuspNumbers &cusp) {
-  const double depth = edge_depth(cusp), low = cusp.front().edge_top - depth;
-  if (!(low >= least_height * cusp.front().root_radius))
-    fail(RIIS_INVALID_PARAMETER, "as the valve opens, its free edge hangs down to the height ", low,
-         " above the root; it must stay at least ", least_height, " times root_radius, which is ",
-         cusp.front().root_radius,
-         ", above the root: look at commissure_height, effective_height, and those of the open state");
+Vector<Vector<HalfCusp>> halves_at(const CuspNumbers &cusp, double depth) {
+  const double top = cusp.front().edge_top;
   Vector<Vector<HalfCusp>> halves;
   for (const HalfNumbers &half : cusp)
-    halves.push_back(coapting_half(half, depth + (half.edge_top - cusp.front().edge_top), low));
+    halves.push_back(coapting_half(half, depth + (half.edge_top - top), top - depth));
   return halves;
+}
+
+Vector<Vector<HalfCusp>> halves_of(const CuspNumbers &cusp) {
+  const double depth = edge_depth(cusp);
+  if (hangs_lower(cusp, depth, least_height))
+    fail(RIIS_INVALID_PARAMETER, "as the valve opens, its free edge hangs down to the height ",
+         cusp.front().edge_top - depth, " above the root; it must stay at least ", least_height,
+         " times root_radius, which is ", cusp.front().root_radius,
+         ", above the root: look at commissure_height, effective_height, and those of the open state");
+  return halves_at(cusp, depth);
+}
+
+double least_rise_of(const Vector<Vector<HalfCusp>> &halves) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Vector<HalfCusp> &half : halves) least = std::min(least, rise_at_root(half));
+  return least;
+}
+
+// Returns the least rise at the root at the openings at which cusps fold. An edge that hangs too low is refused elsewhere.
+double least_rise_on_way(const EndStates &states) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const double at : openings_of_folds) {
+    const CuspNumbers cusp = blend(states.closed, states.open, at);
+    const double depth = edge_depth(cusp);
+    if (!hangs_lower(cusp, depth, least_height)) least = std::min(least, least_rise_of(halves_at(cusp, depth)));
+  }
+  return least;
+}
+
+struct CuspMotion {
+  EndStates states;
+  bool would_fold;  // with the usual open edge
+};
+
+// Returns the states between which a cusp moves. A long open edge hangs deep. If such an edge leaves the commissures steeply, the
+// leaflet folds beside its attachment. The nearer a cusp is to a fold, the flatter its edge therefore leaves the commissures.
+// Three equal cusps keep the shape that they have always had.
+CuspMotion motion_of(const CuspSizes &closed, CuspSizes open) {
+  EndStates usual = end_states(closed, open);
+  if (open.keeps_ratio) return {std::move(usual), false};
+  const double rise = least_rise_on_way(usual);
+  if (!(rise < usual_rise)) return {std::move(usual), false};
+  open.open_sag *= std::max(0.0, 1 - (usual_rise - rise) / rise_until_level);
+  return {end_states(closed, open), !(rise >= least_rise)};
 }
 
 // Returns the halves with the derivatives of their control points by the opening. The derivatives are computed as differences.
@@ -252,7 +304,8 @@ Vector<MovingHalf> moving_halves(const CuspNumbers &closed, const CuspNumbers &o
 // checked, because one set of values defines both states.
 void check_cusp(const ValveValues &values, std::size_t k) {
   const CuspSizes sizes = values.sizes(k, values.has_equal_halves());
-  const auto [closed, open] = end_states(sizes, sizes);
+  const auto [states, would_fold] = motion_of(sizes, sizes);
+  const auto &[closed, open] = states;
   // Equal cusps have no names in messages. Names are made only if a check fails.
   const bool is_half = closed.size() == 1;
   const auto name = [&](const char *of_equal, const char *before, std::size_t number, const char *behind) {
@@ -278,15 +331,17 @@ void check_cusp(const ValveValues &values, std::size_t k) {
            " times root_radius, which is ", sizes.root_radius,
            ", above the root: look at commissure_height, effective_height");
   }
-  for (const double at : openings_of_folds)
-    for (const Vector<HalfCusp> &half : halves_of(blend(closed, open, at)))
-      if (!(rise_at_root(half) >= least_rise))
-        fail(RIIS_INVALID_PARAMETER, name("a cusp", "cusp ", k, "").c_str(),
-             " would fold beside its attachment at opening ", at,
-             ", because its free edge hangs deep beside its height: edge_rise is ", sizes.edge_rise, ", ",
-             name("effective_height", "cusp_", k, ".effective_height").c_str(), " ", sizes.effective_height, ", ",
-             name("commissure_height", "commissure_", k, ".height").c_str(), " ", values.of_commissure(k, height),
-             "; higher values help");
+  for (const double at : openings_of_folds) {
+    const CuspNumbers cusp = blend(closed, open, at);
+    const double rise = least_rise_of(halves_of(cusp));
+    if (rise >= least_rise && !(would_fold && hangs_lower(cusp, edge_depth(cusp), least_height_of_flat))) continue;
+    fail(RIIS_INVALID_PARAMETER, name("a cusp", "cusp ", k, "").c_str(),
+         " would fold beside its attachment at opening ", at,
+         ", because its free edge hangs deep beside its height: edge_rise is ", sizes.edge_rise, ", ",
+         name("effective_height", "cusp_", k, ".effective_height").c_str(), " ", sizes.effective_height, ", ",
+         name("commissure_height", "commissure_", k, ".height").c_str(), " ", values.of_commissure(k, height),
+         "; higher values help");
+  }
 }
 
 // Refuses fused commissures that leave no orifice.
@@ -299,7 +354,7 @@ void check_fusion(const ValveValues &values) {
   double area = 0;
   for (std::size_t k = 0; k < values.n_cusps(); ++k) {
     const CuspSizes sizes = values.sizes(k, false);
-    area += area_inside(end_states(sizes, sizes).open);
+    area += area_inside(motion_of(sizes, sizes).states.open);
   }
   if (!(area >= least))
     fail(RIIS_INVALID_PARAMETER, "commissure_", largest, ".fusion is ", values.of_commissure(largest, fusion),
@@ -363,7 +418,7 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
   check_same_cusps(from, to);
   const bool has_equal_halves = from.has_equal_halves() && to.has_equal_halves();
   const auto halves = [&](std::size_t k) {
-    const auto [start, end] = end_states(from.sizes(k, has_equal_halves), to.sizes(k, has_equal_halves));
+    const auto [start, end] = motion_of(from.sizes(k, has_equal_halves), to.sizes(k, has_equal_halves)).states;
     return moving_halves(start, end, opening);
   };
   PatchSet set;

@@ -14,8 +14,6 @@
 namespace riis {
 namespace {
 
-// In the open free edge, the inner control point beside the commissure hangs `open_sag` times as deep as the middle.
-constexpr double open_sag = 1.0 / 3;
 // An edge that would be too short for open_radius_ratio opens until `used_of_edge` of its length is used, without sag.
 constexpr double used_of_edge = 0.97;
 // The open edge leaves the commissure as an arc of a circle does, if it reaches `round_from` of the arc's height.
@@ -163,7 +161,7 @@ HalfNumbers with_open_edge(const CuspSizes &sizes, const CuspSizes::Side &side, 
   const Vec3 to = mix(straight, arc, roundness);
   half.edge_x = {x_in, x_in, end.x + to.x * reach, end.x};
   half.edge_y = {0, reach, end.y + to.y * reach, end.y};
-  half.sag = {1, 1, open_sag, 0};
+  half.sag = {1, 1, sizes.open_sag, 0};
   return half;
 }
 

@@ -41,6 +41,9 @@ struct HalfSector {
 };
 HalfSector half_sector(double sector_degrees);
 
+// The open_sag of cusps that are far from a fold.
+inline constexpr double usual_open_sag = 1.0 / 3;
+
 // The sizes of a cusp. Lengths are the parameters with the same names.
 struct CuspSizes {
   HalfSector sector;
@@ -55,6 +58,8 @@ struct CuspSizes {
     std::array<LocalOpening, 4> local;  // at the control points of the free edge, from the middle
   };
   Vector<Side> sides;  // y >= 0 and y < 0, or one side for both
+  // In the open free edge, the inner control points beside the commissures hang `open_sag` times as deep as the middle.
+  double open_sag = usual_open_sag;
 };
 
 // The part of half a cusp that is fused to the neighbour and stays as in the closed valve. The fused edge leads from the end of
