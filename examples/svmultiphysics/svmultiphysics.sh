@@ -9,14 +9,14 @@ svmultiphysics_here=$PWD/examples/svmultiphysics
 
 # ./run svmultiphysics FOLDER
 #   Makes riis the valve engine of the svMultiPhysics in FOLDER, whose files stay as they are, and compares both engines: signs,
-#   K, the steps in which a valve turns, two ranks, a restart, the drop of a closed valve, and the time. FOLDER holds the folder
-#   Code of github.com/SimVascular/svMultiPhysics, commit b5fbed0. The command compiles in build/svmultiphysics and leaves tables
-#   and a picture in out/svmultiphysics. Without a FOLDER that holds Code/Source/solver/uris.cpp, the status is 77.
+#   K, the steps in which a valve turns, two ranks, a restart, the drop of a closed valve, and the time. FOLDER is a clone of
+#   github.com/SimVascular/svMultiPhysics, commit b5fbed0. The command compiles in build/svmultiphysics and leaves tables and a
+#   picture in out/svmultiphysics. Without a FOLDER that holds Code/Source/solver/uris.cpp, the status is 77.
 run_svmultiphysics() {
   local solver=${1-} out=$PWD/out/svmultiphysics
   (($# <= 1)) || refuse "'$*' must be one folder"
   if [[ ! -e $solver/Code/Source/solver/uris.cpp ]]; then
-    say "skipped: ./run svmultiphysics FOLDER needs the sources of svMultiPhysics, commit b5fbed0, in FOLDER: FOLDER/Code"
+    say "skipped: ./run svmultiphysics FOLDER needs the sources of svMultiPhysics, commit b5fbed0, in FOLDER"
     say "git clone https://github.com/SimVascular/svMultiPhysics FOLDER && git -C FOLDER checkout b5fbed0"
     exit 77
   fi
