@@ -415,6 +415,7 @@ def test_a_patient_on_the_page(tmp_path, capsys):
 
         # The landmarks of a file place the valve, and the table has the residuals.
         page._on_open("landmarks", "landmarks.mrk.json")
+        assert state.message == ""  # a refusal goes with the next change
         assert state.axes == "LPS" and sum(row["set"] for row in state.landmarks) == 6
         assert tell(page._on_place_landmarks) == "" and state.found["title"] == "Placed by landmarks"
         found = page.model.valves[0].found

@@ -114,7 +114,8 @@ def _by_vtk(path: str, kind: str, progress: dict[str, float] | None = None) -> A
     except Exception as error:  # PyVista raises many kinds of exceptions for files that it cannot parse
         said.append(str(error))
     if said or low.GetErrorCode() != 0:
-        first = said[0] if said else ""  # the later ones follow from it
+        # Later errors follow from the first one. Those of a pipeline say nothing about the file.
+        first = next((text for text in said if "Pipeline" not in text), "")
         lines = [re.sub(r" ?\(0x[0-9a-f]+\):?", "", line).strip() for line in first.splitlines() if line.strip()]
         raise Refusal(f"{path}: is not a {kind} that VTK can read" + (f" ({lines[-1]})" if lines else ""))
     return data
