@@ -107,6 +107,7 @@ def _by_vtk(path: str, kind: str, progress: dict[str, float] | None = None) -> A
 
     hear.CallDataType = "string0"  # type: ignore[attr-defined]
     low.AddObserver("ErrorEvent", hear)
+    data = None
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", UserWarning)  # PyVista repeats VTK's errors, and the refusal has them
