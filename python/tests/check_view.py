@@ -504,6 +504,7 @@ def patient(folder, program):
         browser.press("#place-landmarks")
         browser.wait(lambda: browser.get("found").get("title") == "Placed by landmarks", "the valve is placed")
         browser.rest()
+        assert not browser.get("message"), "a refusal stays after it is cured"
         browser.shot("9-patient-placed")
         browser.press("#skirt-on")
         browser.wait(lambda: browser.get("skirt_on"), "the skirt")

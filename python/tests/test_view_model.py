@@ -1301,3 +1301,11 @@ def test_refused_cycles(text, message, tmp_path, small):
     with pytest.raises(riis.InvalidArgumentError, match=message):
         model.set_cycle(tmp_path / "beat.csv", 0.8)
     assert model.valves[0].cycle is None
+
+
+def test_lights_show_tiny_coordinates_as_zero(fine):
+    model = view.Model(*fine, unit="cm")
+    model.add("bileaflet")
+    model.place(0, (0.0, 1e-7, 50.0))
+    found = light(model, "inside")
+    assert found.level == "bad" and re.search(r"the valve is at \(0, 0, [0-9.]+\) cm", found.text), found.text

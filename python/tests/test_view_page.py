@@ -415,6 +415,7 @@ def test_a_patient_on_the_page(tmp_path, capsys):
 
         # The landmarks of a file place the valve, and the table has the residuals.
         page._on_open("landmarks", "landmarks.mrk.json")
+        assert state.message == ""  # a refusal goes with the next change
         assert state.axes == "LPS" and sum(row["set"] for row in state.landmarks) == 6
         assert tell(page._on_place_landmarks) == "" and state.found["title"] == "Placed by landmarks"
         found = page.model.valves[0].found
@@ -675,13 +676,22 @@ def test_walls_and_points_from_files(tmp_path, recwarn):
     assert found.surface.closest_points(numpy.array([[0.0, 0.0, 0.5]])).distance[0] == pytest.approx(2.0)
     (tmp_path / "no.stl").write_text("")
     (tmp_path / "no.txt").write_text("no")
-    for name in ("stl", "vtp"):
+    for name in ("stl", "vtp", "ply"):
         (tmp_path / f"half.{name}").write_bytes((tmp_path / f"ball.{name}").read_bytes()[:20000])
+    ball.save(tmp_path / "text.ply", binary=False)
+    text = (tmp_path / "text.ply").read_text()
+    assert len(reading.read_wall(str(tmp_path / "text.ply")).triangles) == ball.n_cells
+    (tmp_path / "header.ply").write_text(text[:100])
+    (tmp_path / "one_less.ply").write_text("\n".join(text.strip().split("\n")[:-1]))
+    (tmp_path / "half_text.ply").write_text(text[: len(text) // 2])
+    (tmp_path / "typed.ply").write_text(text.replace("property float x", "property real x"))
     pyvista.PolyData(numpy.eye(3)).save(tmp_path / "points.vtp")
     for name, text in (
         ("none.stl", "there is no such file"), ("no.stl", "is not a surface that VTK can read"),
         ("points.vtp", "has no triangles"), ("half.stl", "is not a surface that VTK can read"),
-        ("half.vtp", "is not a surface that VTK can read"),
+        ("half.vtp", "is not a surface that VTK can read"), ("half.ply", "is cut off: its header announces at least .* bytes"),
+        ("header.ply", "lacks the line end_header"), ("half_text.ply", "has no triangles"),
+        ("one_less.ply", "is cut off|faces without corners"), ("typed.ply", "'property real x' has no type"),
         ("no.txt", "a wall is a surface, .stl, .vtp, .obj, .ply, or a mesh, .vtu"),
     ):  # fmt: skip
         with pytest.raises(reading.Refusal, match=text) as refused:

@@ -84,8 +84,10 @@ class Scene:
         return with_unit(value, self.unit)
 
     def place(self, point: Reals) -> str:
-        """Returns a point with the unit of the mesh."""
-        return "(" + ", ".join(shown(float(x)) for x in point) + ")" + (f" {self.unit}" if self.unit else "")
+        """Returns a point with the unit of the mesh. A coordinate that is tiny beside the valve is shown as 0."""
+        least = 1e-4 * self.largest_side
+        texts = [shown(float(x) if abs(x) > least else 0.0) for x in point]
+        return "(" + ", ".join(texts) + ")" + (f" {self.unit}" if self.unit else "")
 
 
 def counted(n: int, noun: str) -> str:

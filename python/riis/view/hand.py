@@ -77,6 +77,9 @@ class Hand(Part):
     def _begin_change(self) -> None:
         self._need_model()
         self._end_drag()
+        if self.state.message_type == "error":  # it would seem to be about this change
+            with self.state as state:
+                state.message = ""
 
     def _on_set(self, name: str, value: Any) -> None:
         self._begin_change()

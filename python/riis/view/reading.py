@@ -61,10 +61,41 @@ def read_mesh(path: str, progress: dict[str, float] | None = None, *, cells_wher
     return grid if cells_where is None else chosen_cells(grid, cells_where, names)
 
 
+def _refuse_cut_off_ply(path: str) -> None:
+    """Refuses a .ply file that has fewer bytes than its header announces, because VTK crashes on such a file."""
+    n_bytes = {"char": 1, "uchar": 1, "short": 2, "ushort": 2, "int": 4, "uint": 4, "float": 4, "double": 8}
+    least, count, is_ascii = 0, 0, False
+    with open(path, "rb") as file:
+        for line in file:
+            words = line.decode("ascii", "replace").split()
+            if words[:1] == ["format"]:
+                is_ascii = words[1:2] == ["ascii"]
+            elif words[:1] == ["element"]:
+                count = int(number_of("".join(words[2:]), f"{path}: {' '.join(words)}"))
+            elif words[:1] == ["property"]:
+                try:
+                    sizes = [n_bytes.get(word) or numpy.dtype(word).itemsize for word in words[-2:0:-1] if word != "list"]
+                except TypeError:
+                    raise Refusal(f"{path}: '{' '.join(words)}' has no type of .ply files") from None
+                if is_ascii:  # a number has a digit, and something that separates it from the next
+                    sizes = [2] * len(sizes)
+                n_corners = 3 if words[-1] in ("vertex_indices", "vertex_index") else 0  # other lists may be empty
+                least += count * (n_corners * sizes[0] + sizes[1] if len(sizes) == 2 else sum(sizes))
+            elif words == ["end_header"]:
+                break
+        else:
+            raise Refusal(f"{path}: is not a .ply file, or is cut off: it lacks the line end_header")
+        left = os.path.getsize(path) - file.tell()
+    if left + 1 < least:
+        raise Refusal(f"{path}: is cut off: its header announces at least {least} bytes, and {left} follow")
+
+
 def _by_vtk(path: str, kind: str, progress: dict[str, float] | None = None) -> Any:
     """Returns the data of a file. Refuses a file that VTK calls damaged, a "mesh" or a "surface"."""
     import pyvista
 
+    if path.lower().endswith(".ply"):
+        _refuse_cut_off_ply(path)
     said: list[str] = []
     part = {} if progress is None else progress
     reader = pyvista.get_reader(path)
@@ -76,6 +107,7 @@ def _by_vtk(path: str, kind: str, progress: dict[str, float] | None = None) -> A
 
     hear.CallDataType = "string0"  # type: ignore[attr-defined]
     low.AddObserver("ErrorEvent", hear)
+    data = None
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", UserWarning)  # PyVista repeats VTK's errors, and the refusal has them
@@ -83,7 +115,8 @@ def _by_vtk(path: str, kind: str, progress: dict[str, float] | None = None) -> A
     except Exception as error:  # PyVista raises many kinds of exceptions for files that it cannot parse
         said.append(str(error))
     if said or low.GetErrorCode() != 0:
-        first = said[0] if said else ""  # the later ones follow from it
+        # Later errors follow from the first one. Those of a pipeline say nothing about the file.
+        first = next((text for text in said if "Pipeline" not in text), "")
         lines = [re.sub(r" ?\(0x[0-9a-f]+\):?", "", line).strip() for line in first.splitlines() if line.strip()]
         raise Refusal(f"{path}: is not a {kind} that VTK can read" + (f" ({lines[-1]})" if lines else ""))
     return data
@@ -215,7 +248,10 @@ def _triangles_of(data: Any, path: str) -> Any:
 
     if not isinstance(data, pyvista.PolyData):
         raise Refusal(f"{path}: holds {type(data).__name__}, not a surface")
-    return data.triangulate()
+    triangles = data.triangulate()
+    if triangles.n_cells > 0 and not triangles.is_all_triangles:
+        raise Refusal(f"{path}: has faces without corners, so it is cut off or damaged")
+    return triangles
 
 
 def mesh_of_saved(path: str) -> tuple[str | None, str | None]:
