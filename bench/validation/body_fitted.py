@@ -282,7 +282,8 @@ def clinical(runs):
 
 
 def blood(folder, runs):
-    """Prints means in time of the runs with blood's viscosity. These runs start from the steady flows. Returns their rows."""
+    """Prints means in time of the runs with blood's viscosity. The runs with blood's viscosity start from the steady flows.
+    Returns the rows of the runs."""
     begin = 0.04  # s
     found = []
     for case in sorted((folder / "blood").glob("*")):

@@ -196,7 +196,7 @@ static void turn(double side[3][3]) {
   }
 }
 
-/* Tests every kind of valve and every type of element in boxes that are turned at random. Such a box leaves gaps around the
+/* Tests every kind of valve and every type of element in boxes that are turned at random. A turned box leaves gaps around the
  * valve. */
 TEST(test_frames) {
   char flap[64];

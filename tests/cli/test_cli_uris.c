@@ -212,8 +212,8 @@ TEST(test_vtk) {
   uris_free(&exported);
 }
 
-/* The solver computes the velocity of a node from two frames. This velocity equals that of the library's vertex. Nodes of the
- * mitral valve also slide along their leaflet with the joints of the annulus. */
+/* The solver computes the velocity of a node from two frames, and gets the velocity of the library's vertex. Nodes of the mitral
+ * valve also slide along their leaflet with the joints of the annulus. */
 TEST(test_velocity) {
   riis_valve *valve = NULL, *before = NULL;
   EXPORT("velocity", RAMPS, "--valve", "trileaflet");

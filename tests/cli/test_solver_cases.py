@@ -187,8 +187,7 @@ class Cases(unittest.TestCase):
         self.assertEqual(int(curve[0].split()[0]), len(keys))
         self.assertEqual((keys[0][0], keys[-1][0], keys[0][1]), (0, 0.8, keys[-1][1]))
         self.assertAlmostEqual(max(pressure for _, pressure in keys) / (10 * MMHG), 120, delta=0.01)
-        # A flow of 83 ml/s through the Windkessel leaves a mean pressure of 80 to 130 mmHg. Such a pressure shows that the unit
-        # is dyn s/cm5.
+        # If the unit is dyn s/cm5, a flow of 83 ml/s through the Windkessel leaves a mean pressure of 80 to 130 mmHg.
         body = conditions["outlet"].find("RCR_values")
         mean = 83 * (self.value(body, "Proximal_resistance") + self.value(body, "Distal_resistance")) / (10 * MMHG)
         self.assertTrue(80 < mean < 130, mean)

@@ -197,7 +197,8 @@ contains
   ! Velocities are given as xyz or as x, y, z, with ids of either kind. The call that makes the surface gives the velocities, or a
   ! later call does. The placement turns the velocities about z and doubles them.
 
-  ! Landmarks on the attachment of a placed valve are widened and lifted. The warped valve is larger by these factors.
+  ! Landmarks on the attachment of a placed valve are widened and lifted by factors. The warped valve is larger by the same
+  ! factors.
   subroutine test_warps()
     type(riis_valve) :: valve, before, again
     type(riis_warp) :: warp, in_place

@@ -19,8 +19,8 @@ declare -A shares=([api]=8 [grid]=2 [vtk]=4 [vtu]=3 [vtp]=3 [vti]=2 [vtr]=2 [vts
 harnesses=(api grid vtk vtu vtp vti vtr vts pvd pvtu json stl obj ply command_line cycle msh xdmf foam)
 
 # options HARNESS SECONDS: prints the options for every run of a harness. The options limit the seconds for a single input. The
-# options also limit the memory, most of which the address sanitizer needs. An input of the allowed size should not reach these
-# limits.
+# options also limit the memory, most of which the address sanitizer needs. An input of the allowed size should not reach the
+# limits of time and memory.
 options() {
   local max_len=4096 dictionary=$1
   case $1 in

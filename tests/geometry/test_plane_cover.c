@@ -107,7 +107,7 @@ TEST(test_open_lines) {
   CHECK_NEAR(shim_uncovered_inside(3, lines[0], 0, NULL, n_lines), 0.5, 1e-12);
   assert_true(shim_uncovered_inside(2, lines[0], 0, NULL, n_lines) == -1);
   assert_true(shim_uncovered_inside(0, NULL, 0, NULL, n_lines) == -1);
-  /* Triangles that are seen edge on cover nothing. These triangles lie in three directions: along x, along y and slanted. */
+  /* Triangles that are seen edge on cover nothing, whether they lie along x, along y or slanted. */
   for (int i = 0; i < 4; ++i) {
     const double x = i % 2 ? 0.3 : 0, y = i / 2 ? 0.7 : 0;
     const double flat[3][6] = {{0, 0, 0, x, y, 0}, {x, y, 0, 2 * x, 2 * y, 1}, {2 * x, 2 * y, 1, 0, 0, 0}};

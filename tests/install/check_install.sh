@@ -26,8 +26,8 @@ quietly() {
 c_flags=(-std=c99 -pedantic -Wall -Wextra -Werror)
 fortran_flags=(-std=f2018 -Wall -Wextra -Werror)
 
-# Lists all examples except those of MPI, which check_mpi_example.sh runs. A few examples need flags besides riis's flags. Such
-# flags follow the examples' names.
+# Lists all examples except those of MPI, which check_mpi_example.sh runs. A few examples need flags besides riis's flags. The
+# additional flags follow the names of the examples.
 all_examples=(first_marking prosthesis opening_valve pressure_opens cell_centres quadrature_points csr_from_elements
   single_precision openmp_caller overlap)
 few_examples=(first_marking openmp_caller)

@@ -35,8 +35,8 @@ static riis_surface_options banded(double half_thickness, double offset, int fli
 
 enum { n_around = 40, n_rows = 5, n_across = 24 };
 
-/* Returns the leak for R = 1, a drop of 1 and the half thickness eps, divided by eps. This quotient equals the area of the moved
- * surface. */
+/* Returns the leak for R = 1, a drop of 1 and the half thickness eps, divided by eps. The returned quotient equals the area of
+ * the moved surface. */
 static double moved_area(const riis_surface_arrays *arrays, double eps, double offset, int flips) {
   const riis_surface_options options = banded(flips ? eps : 2 * eps, offset, flips);
   riis_surface *surface = surface_from(arrays, &options);

@@ -113,8 +113,8 @@ TEST(the_choice_lasts_for_a_while) {
   assert_false(takes_team_at(12401, 8, waits, ends));
 }
 
-/* Two waits double the pause to 500 ms. Then n_calm loops do not wait, and the last loop waits. All these loops end at 1000
- * ms. */
+/* Two waits double the pause to 500 ms. Then n_calm loops do not wait, and the last loop waits. The n_calm loops and the last
+ * loop end at 1000 ms. */
 static int takes_team_after_calm(double now, int n_calm) {
   double waits[40] = {10, 5}, ended[40] = {100, 400};
   for (int i = 0; i <= n_calm; ++i) ended[2 + i] = 1000;

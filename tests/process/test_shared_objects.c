@@ -49,7 +49,7 @@ static uint64_t add_bytes(uint64_t digest, const void *bytes, int64_t n) {
   return digest;
 }
 
-/* The calls that make a part. Each call returns a digest of its result, or 0 after an error, and asserts nothing. */
+/* Calls that make a part of an object. Each call returns a digest of its result, or 0 after an error, and asserts nothing. */
 static uint64_t digest_of_marks(const shared_objects *of, int32_t search) {
   riis_mark_options options;
   riis_marks *result = NULL;

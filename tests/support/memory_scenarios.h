@@ -321,7 +321,7 @@ static riis_status mark_masked_and_wide(world *w) {
   options.node_mask = mask;
   return riis_mark_nodes(w->surface, w->mesh, &options, w->result);
 }
-/* These scenarios mark into a result that was used before. After one earlier marking, the result needs more memory. After
+/* The following scenarios mark into a result that was used before. After one earlier marking, the result needs more memory. After
  * several, it has enough. */
 static void marked_before(world *w) {
   ready_to_mark(w);

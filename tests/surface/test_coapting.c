@@ -459,7 +459,8 @@ static double off_side(const riis_valve_patches *patches, int32_t patch_id, int 
 }
 
 /* A zone that begins just above the root also has no crease. Beside the root, the leaflet turns upwards with a radius of 4
- * micrometres, as docs/theory/coapting.md says. Differences coarser than this radius would report the turn as a crease. */
+ * micrometres, as docs/theory/coapting.md says. Differences over steps longer than this radius would report the turn as a
+ * crease. */
 TEST(a_low_zone_turns_sharply_without_a_crease) {
   static const double low[n_sizes] = {1.3233848, 1.0696550, 1.2100624, 0.3307880, 0.2947382, 0.00658190, 39.099050,
                                       0.5418369, 0.4873270, 0.5369197, 0.4438359, 0.8011948, 0.0445718};
@@ -485,7 +486,7 @@ TEST(a_low_zone_turns_sharply_without_a_crease) {
   }
 }
 
-/* With these sizes, the fully open leaflet is nearly tangent to itself beside the root. The triangles of the default tolerance
+/* With some sizes, the fully open leaflet is nearly tangent to itself beside the root. The triangles of the default tolerance
  * cross by a fraction of a micrometre, but the valve does not. */
 TEST(a_nearly_tangent_leaflet_does_not_cross) {
   static const double near[n_sizes] = {0.98866634, 0.92969360, 1.24758771, 0.44617366, 0.39553918,

@@ -189,7 +189,8 @@ TEST(leaflets_and_patches) {
 }
 
 /* An edge of only one triangle lies on the annulus or on the free edge of an open valve. Any other such edge lies inside another
- * triangle's edge, up to rounding. Such edges occur where quads of different levels or polylines of different patches meet. */
+ * triangle's edge, up to rounding. Edges inside another edge occur where quads of different levels or polylines of different
+ * patches meet. */
 TEST(has_no_cracks) {
   for (int i = 0; i <= 2; ++i) {
     const int owned_before = n_owned();

@@ -793,7 +793,7 @@ TEST(an_open_cusp_may_fold) {
   }
 }
 
-/* With these bending angles, the attachments of the right and the left cusp pass each other. Nothing else is wrong. */
+/* With some bending angles, the attachments of the right and the left cusp pass each other. Nothing else is wrong. */
 TEST(passing_attachments_cross) {
   riis_valve *valve = new_valve("aortic");
   for (int passes = 0; passes < 2; ++passes) {
@@ -811,7 +811,7 @@ TEST(passing_attachments_cross) {
   }
 }
 
-/* Four causes explain every valve that crosses. If leaflet_power is not set, these causes are rare. */
+/* Four causes explain every valve that crosses. If leaflet_power is not set, all four causes are rare. */
 TEST(aortic_cusps_rarely_cross) {
   const int n = trials(6, 300);
   for (int power = follows; power <= any_power; ++power)

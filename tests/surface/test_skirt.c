@@ -289,7 +289,8 @@ TEST(sides_are_right_beside_the_skirt) {
   }
 }
 
-/* A wall around the z axis through (x, y). At each angle, the wall is farther from this axis than the attachment by a gap. */
+/* A wall around an axis that passes through (x, y) along z. At each angle, the wall is farther from the axis than the attachment
+ * by a gap. */
 enum { n_angles = 720 };
 typedef struct wall_shape {
   const riis_attachment *held;

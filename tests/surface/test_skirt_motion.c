@@ -435,8 +435,8 @@ static double nearest_share(const strip *at, const double *p) {
   return share;
 }
 
-/* The attachment of a warped valve is material that the map moves. The skirt's inner side moves with this material. The outer
- * side moves with the points that lie outwards from it. */
+/* The attachment of a warped valve is material that the map moves. The skirt's inner side moves with the material of the
+ * attachment. The outer side moves with the points that lie outwards from it. */
 TEST(skirts_move_with_warped_attachments) {
   for (int kind = 0; kind < n_kinds; ++kind)
     for (int fixed = 0; fixed < 2; ++fixed) {

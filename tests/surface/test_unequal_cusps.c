@@ -612,7 +612,8 @@ TEST(equal_cusps_become_unequal_in_motion) {
   CHECK_AT_MOST(worst, 1e-9);
 }
 
-/* A fused commissure has patches that an unfused commissure lacks. A little fusion gives these patches to both states. */
+/* A fused commissure has patches that an unfused commissure lacks. With a little fusion, both states have the patches of a fused
+ * commissure. */
 TEST(fusion_of_one_state_only_is_refused) {
   riis_valve *whole = valve_at("coapting", 0.4), *fused = copy_of(whole), *nearly = copy_of(whole);
   set_of(fused, "commissure", 1, "fusion", 0.3);

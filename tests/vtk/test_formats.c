@@ -15,7 +15,7 @@
 #include "scratch.h"
 #include "vtk_shim.h"
 
-/* Reads a mesh and writes it again. The reader must report these notes. */
+/* Reads a mesh and writes it again. The reader must report the given notes. */
 static void rewrite(const char *from, const char *to, const char *notes) {
   riis_vtk_mesh *mesh = NULL;
   const char *text = NULL;
