@@ -147,7 +147,7 @@ def commit():
 
 def solid_row(what, three, solids):
     """Returns a row that compares the effective areas of `three` with the areas of solid leaflets. The solid leaflets are as
-    thick as the band. `solids` has their area in cm2 for each eps. With fewer than two areas, returns no row."""
+    thick as the band. `solids` has the area of solid leaflets in cm2 for each eps. With fewer than two areas, returns no row."""
     if len(three) < 2:
         return []
     share = [one.area / solids[one.eps] for one in three]

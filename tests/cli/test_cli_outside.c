@@ -217,7 +217,7 @@ TEST(test_the_closed_valve_decides) {
     assert_int_equal(strstr(program_outside, "The closed valve stands inside the mesh") != NULL, text == reaches);
     free(json);
   }
-  /* A valve that never closes in a series is judged in the same way. */
+  /* A valve that never closes in a series is also judged by its place. */
   scratch_write_text("cycle.csv", "0,0.9\n0.5,1\n1,0.9\n");
   for (int is_high = 0; is_high < 2; ++is_high) {
     free(MARK_BOX("--valve", "coapting", "--cycle", scratch_path("cycle.csv"), "--times", "0,0.25,0.5", "--translate",

@@ -159,7 +159,7 @@ TEST(test_closed_valve) {
   assert_null(strstr(program_out, "passage"));
 }
 
-/* An open valve has a passage. No half thickness should close it. */
+/* An open valve has a passage, and the program advises no half thickness to close this passage. */
 TEST(test_passage_through_an_open_valve) {
   RUN_FINE("check", "leaks", scratch_path("box.vtu"), "--between", ENDS, "--valve", "trileaflet", "--opening", "1");
   assert_int_equal(
@@ -380,9 +380,9 @@ TEST(test_closed_area_of_plates) {
   }
 }
 
-/* Where two leaflets touch, only one of them counts. Half of their coaptation within half a half thickness therefore does not
- * count. The half tube around the free edges also counts. The tube's width is 0.467 half thicknesses, which is the integral of K
- * across the tube over R / eps. */
+/* Where two leaflets touch, only one of them counts. Half of the coaptation area of two leaflets within half a half thickness
+ * therefore does not count. The half tube around the free edges also counts. The tube's width is 0.467 half thicknesses, which is
+ * the integral of K across the tube over R / eps. */
 TEST(test_closed_area_of_a_coaptation) {
   const double lower[3] = {-1.7, -1.7, -1.3}, upper[3] = {1.7, 1.7, 2.3};
   assert_int_equal(shim_write_box(scratch_path("wide.vtu"), SHIM_RAW, 32, lower, upper, 0), 1);

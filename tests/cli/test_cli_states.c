@@ -322,7 +322,7 @@ TEST(test_frame_and_unit) {
 
 /* ---- Valves from patches ---- */
 
-/* Each free edge of the example consists of two cubics. The projections of its attachment and of its leaflets are closed
+/* Each free edge of the prosthesis consists of two cubics. The attachment and the leaflets of the prosthesis project to closed
  * curves. */
 TEST(test_prosthesis) {
   double closed[4][3] = {{0.6, -1.04, 1.2}, {0.45, -0.78, 1}, {0.3, -0.52, 0.8}, {0, 0, 0.8}};

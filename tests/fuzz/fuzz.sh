@@ -3,7 +3,7 @@
 # Runs the fuzzing harnesses.
 #   fuzz.sh test BUILD_DIR HARNESS             runs one harness for RIIS_FUZZ_TEST_SECONDS (9) and keeps only findings
 #   fuzz.sh all BUILD_DIR SECONDS N_JOBS OUT   runs all harnesses for SECONDS altogether, N_JOBS at a time, and prints a table.
-#                                              OUT keeps their corpora for the next run, their logs and their findings.
+#                                              OUT keeps the harnesses' logs and findings, and their corpora for the next run.
 # RIIS_FUZZ_SEED is the seed of the mutations: 1 by default; "random" draws one. The seed is printed. The script fails if there is
 # a finding.
 set -euo pipefail

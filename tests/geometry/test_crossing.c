@@ -44,7 +44,7 @@ static void random_triangle(sample *s, int64_t largest) {
 }
 
 /* Returns the exponent of a random unit 2^exponent. With the smallest exponent, coordinates are just large enough to count as
- * different from 0. With the largest exponent they reach 1e60. */
+ * different from 0. With the largest exponent, coordinates reach 1e60. */
 static int random_exponent(int bits) { return -298 + (int)(random_bits(&rng) % (uint64_t)(298 + 199 - bits)); }
 
 TEST(small_numbers_meet_in_every_way) {

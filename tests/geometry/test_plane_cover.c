@@ -120,8 +120,8 @@ TEST(test_open_lines) {
   assert_true(shim_uncovered_inside(3, near_y[0], 0, NULL, n_lines) == -1);
 }
 
-/* Two triangles begin in one point of a line, at edges of different slopes. Only one of these edges counts, in every order of the
- * triangles the same edge. */
+/* Two triangles begin in one point of a line, at edges of different slopes. Only one of the two edges counts, and the order of
+ * the triangles does not decide which. */
 TEST(test_order_of_triangles) {
   const double line = 1.0 / n_edge_lines, origin[2] = {0, 0}; /* a line of the upper half passes here */
   const double upright[6] = {-0.5, line - 0.25, -0.5, line + 0.25, 0.5, line + 0.125};

@@ -67,7 +67,7 @@ expected_of() { # argument: name
   awk -v name="$1" '/^== / { inside = $2 == name; next } inside' "$source/tests/install/expected.txt"
 }
 
-# An example must print the same text in C and in Fortran, however it was built.
+# An example must print the same text in C and in Fortran, with each way to build the example.
 check_example() { # arguments: name, program
   "$2" >"$work/printed.txt" || problem "$2 failed"
   expected_of "$1" | diff - "$work/printed.txt" || problem "$2 does not print what it should"

@@ -144,7 +144,7 @@ TEST(a_loop_is_alone_for_the_mean_loss) {
   double lost[64] = {4}, ended[64] = {0};
   for (int i = 0; i < 64; ++i) ended[i] = 100;
   assert_true(alone_at(1, 0, NULL, NULL) == 0);
-  /* A sixteenth of a loss counts. After each second, half of it still counts. */
+  /* A sixteenth of a loss counts, and the counted part halves in each second. */
   CHECK_NEAR(alone_at(100, 1, lost, ended), 4.0 / 16, 1e-5);
   CHECK_NEAR(alone_at(1100, 1, lost, ended), 4.0 / 32, 1e-5);
   CHECK_NEAR(alone_at(3100, 1, lost, ended), 4.0 / 128, 1e-5);

@@ -710,8 +710,8 @@ static int attachment_turns_back(const riis_valve *valve) {
   return turns_back;
 }
 
-/* Returns whether the attachments of two closed neighbours pass each other below their commissure. At every height both
- * attachments are at the same t. The distance of a cusp beyond the plane through the axis and the commissure is (1 - t) (c0 + c1
+/* Returns whether the attachments of two closed neighbours pass each other below their commissure. At every height, the parameter
+ * t is equal on both attachments. The distance of a cusp beyond the plane through the axis and the commissure is (1 - t) (c0 + c1
  * t). The distance is -R sin(a) at t = 0, and -b sin(a - a_b) at s. If the sum of both (c0 + c1) is positive, the sum of both
  * distances is positive at some height. Opening moves the attachments apart. */
 static int attachments_pass(const riis_valve *valve) {

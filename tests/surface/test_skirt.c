@@ -814,7 +814,7 @@ TEST(skirts_to_cutting_walls_cross_nothing) {
 }
 
 /* The cusps of a warped aortic valve are not joined at the commissures, so their skirts end beside each other. A violent warp may
- * make the cusps go through each other, or fold a patch onto its skirt. The test does not judge the skirts of such warps. */
+ * make the cusps go through each other, or fold a patch onto its skirt. The test does not judge the skirts of a violent warp. */
 TEST(skirts_of_warped_cusps_cross_nothing) {
   const int n_trials = trials(6, 100);
   int n_states = 0, n_judged = 0, n_own = 0;

@@ -229,7 +229,7 @@ TEST(neighbours_share_their_points) {
     CHECK_OK(riis_valve_set_scalar(valve, "opening", random_between(&random, 0, 1)));
     CHECK_OK(riis_valve_set_scalar(valve, "skirt_length", trial % 4 < 2 ? 0 : 0.2));
     const riis_triangles all = triangles_of(new_surface(valve, NULL));
-    /* The ends of the attachments, as both neighbours have them. */
+    /* The ends of the attachments at the commissures, which must be equal in both neighbours. */
     double commissures[4][3];
     int is_known[4] = {0, 0, 0, 0}, n_checked = 0;
     for (int64_t i = 0; i < 3 * all.n_triangles; ++i) {

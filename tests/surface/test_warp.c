@@ -191,9 +191,9 @@ TEST(the_map_solves_its_equations) {
       CHECK_NEAR(info.rms_residual, sqrt(0.6 * 3 * (n - 4.0) / n) * noise, 1e-6 * noise);
     }
     if (isfinite(info.smoothing)) {
-      /* The library's lambda is for coordinates in units of the largest root mean square extent. The test therefore finds lambda
-       * from the residuals. Because K w + P c + residual is the target, each residual is lambda times the weight of its
-       * landmark. */
+      /* The library's smoothing parameter lambda is for coordinates in units of the largest root mean square extent. The test
+       * instead computes lambda from the residuals. Because K w + P c + residual is the target, each residual is lambda times the
+       * weight of its landmark. */
       for (int i = 0; i < n; ++i) {
         for (int k = 0; k < n; ++k) a[i * m + k] = pow(distance3(from + 3 * i, from + 3 * k) / unit, 3);
         for (int k = 0; k < 4; ++k) a[i * m + n + k] = a[(n + k) * m + i] = k == 0 ? 1 : from[3 * i + k - 1] / unit;
@@ -561,7 +561,7 @@ TEST(warped_valves_seal) {
 
 /* --- An annulus that moves -------------------------------------------------------------------------------------------- */
 
-/* A step of a moving annulus. The maps of its two times come from separate warps. */
+/* A step of a moving annulus. The maps at both times of the step come from separate warps. */
 typedef struct {
   riis_valve *now, *before;           /* warped */
   riis_valve *rest_now, *rest_before; /* the same without warps */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Compares the adjacency of meshes from files with the edges of VTK's cells. Also compares it with the edges of other cells on
- * the same nodes. */
+ * Compares the adjacency of meshes from files with the edges of VTK's cells. Also compares the adjacency with the edges of other
+ * cells on the same nodes. */
 #include <math.h>
 #include <riis/riis_vtk.h>
 #include <stdint.h>
