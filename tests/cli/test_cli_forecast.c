@@ -259,7 +259,8 @@ typedef struct {
 
 /* Computes a slow steady flow along z by the solver's equations. A flat plate at z = 0 fills the tube. The pressure is 1 at z =
  * -length and 0 at z = length, and the walls hold the flow. Returns the flow times R / eps. In a tetrahedron and a wedge, some
- * coordinates run along a triangle. The solver counts these coordinates from the triangle's last node, and VTK from the first. */
+ * coordinates run along a triangle. The solver counts the coordinates along a triangle from the triangle's last node, and VTK
+ * from the first. */
 static double flow_through_plate(const mesh *of, const double *distance, double width, double length, double eps,
                                  const fluid *by) {
   static int local[most_nodes];

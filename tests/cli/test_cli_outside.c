@@ -137,8 +137,8 @@ TEST(test_share_of_two_sheets) {
   free(json);
 }
 
-/* Uses random points to estimate which share of the leaflets' area lies outside a box. The leaflets are those below
- * n_leaflets. */
+/* Uses random points to estimate which share of the leaflets' area lies outside a box. Only leaflets whose ids are below
+ * n_leaflets count. */
 static double random_share(const char *kind, const char *skirt, int n_leaflets, const double lower[3],
                            const double size[3]) {
   random_source random = random_start("share");

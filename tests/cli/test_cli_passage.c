@@ -304,7 +304,7 @@ TEST(test_series) {
   assert_non_null(strstr(program_out, "\npassage   closed: at "));
 }
 
-/* With two points, each valve of a case has separate lines. The numbers are those of the valve alone. */
+/* With two points, each valve of a case has separate lines, with the numbers that the valve has alone. */
 TEST(test_flow_of_several_valves) {
 #define TWO_POINTS "{\"mesh\": \"box.vtu\", \"check_leaks\": [0.01,0,-1.2, 0,0.02,0.9], \"half_thickness\": 0.09,\n"
   scratch_write_text("flows.json", TWO_POINTS

@@ -303,7 +303,7 @@ TEST(warps_meet_the_landmarks) {
     for (int c = 0; c < 3; ++c)
       if (fabs(q[c] - 1e-3 * p[c]) > 1e-12) fail_msg("landmark %d: %g is not %g mm", i, q[c], p[c]);
   }
-  /* A file of pairs acts like the key of the placed valve. The targets here are the landmarks shifted by 1 mm. */
+  /* A file of pairs acts like the key of the placed valve. The targets of the pairs are the landmarks shifted by 1 mm. */
   RUN_FINE("place", patient_json("w.json"), "--valve", "trileaflet", "--quiet", "--output", scratch_path("bare.json"));
   char text[2048] = "# noise = 0\nsx,sy,sz,tx,ty,tz\n";
   for (int i = 0; i < 6; ++i) {

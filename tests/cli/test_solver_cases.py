@@ -372,7 +372,7 @@ class Cases(unittest.TestCase):
         law = case["law"]
         self.assertEqual(law["close_below"], 1e-4)
         # The closing leaflets push blood back, which raises the pressure before them. The valve must not open again because of
-        # this.
+        # this pressure.
         self.assertGreaterEqual(law["dwell_time"], max(law["opening_duration"], law["closing_duration"]))
         self.assertFalse((pathlib.Path(numbers["solver"]) / "wall.stl").exists())
 
@@ -479,7 +479,7 @@ class Cases(unittest.TestCase):
                      r"at the closed band +0.3 m/s +met: at most 2",
                      rf"leak at 80 mmHg +{-1e6 * leak:.4g} ml/s\n", r"leak over the ideal leak +1.5\n"):
             self.assertRegex(said, line)
-        # At this early time, a valve that never moves has no steady leak. Nothing is judged.
+        # Before a valve that never moves has a steady leak, the script judges nothing.
         said = report(20)
         self.assertIn("0.04 s of a beat of 0.8 s: what follows is preliminary\nthe valve does not move\n", said)
         for word in ("leak", "met", "MISSED"):

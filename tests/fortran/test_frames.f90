@@ -36,7 +36,7 @@ program test_frames
 
 contains
 
-  ! Checks that the square is at this height everywhere and moves up at this speed.
+  ! Checks that the square is at the given height everywhere and moves up at the given speed.
   subroutine check_height(surface, height, speed, what)
     type(riis_triangles) :: all_triangles
     type(riis_surface), intent(in) :: surface
@@ -462,7 +462,7 @@ contains
     call check(.not. surface%is_created(), 'a refused surface is empty')
   end subroutine test_bad_velocities
 
-  ! Only the points of a mask or a list get results. These results equal those of a query of all points.
+  ! Only the points of a mask or a list get results, which equal those of a query of all points.
   subroutine test_masks()
     real(c_double), allocatable :: all_distances(:), distance(:), point(:, :), expected_distance(:)
     integer(int8), allocatable :: bytes(:)

@@ -327,7 +327,7 @@ done < <(find "$prefix" -type f \( -name '*.so.*' -o -name '*.a' \))
 
 # If a library directory is an absolute path, it does not move with the prefix. Everything must still be found. The check
 # configures the build tree again. Only the test of static libraries configures again, because it has a separate build tree.
-# Afterwards the test's fixture restores this tree.
+# Afterwards the test's fixture restores the build tree.
 is_configured_anew='' examples_of_moved=all
 if [ "$kind" = static ] && [[ $build == "$(dirname "$work")"/* ]]; then
   is_configured_anew=1 examples_of_moved=few

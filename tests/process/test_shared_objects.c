@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
  * Threads share new objects. A part of an object is made when a thread first needs it. There are more threads than processors, so
  * the system also interrupts a thread that is making a part. ./run tsan shows whether each part is handed over in an order that
- * every processor keeps. The emulator of ./run arm64 keeps the order of the processor on which it runs, so it cannot show
- * this. */
+ * every processor keeps. The emulator of ./run arm64 keeps the order of the processor on which it runs, so it cannot show a wrong
+ * order. */
 #include <omp.h>
 #include <riis/riis.h>
 

@@ -136,7 +136,7 @@ class Dilated(unittest.TestCase):
         return case, points, np.array(faces)
 
     def test_start_of_the_wall(self):
-        """The run starts with the volume of the heart model without space. All further volumes also follow this model."""
+        """The run starts with the volume of the heart model without space, and all later volumes follow from this model."""
         case, points, faces = self.case()
         time = np.arange(0, zero_d.PERIOD, 1e-3)
         rows = np.ones((len(time), len(zero_d.COLUMNS)))

@@ -259,8 +259,8 @@ TEST(closed_leaflets_share_their_edge) {
   assert_true(n_shared >= 6 && 3 * n_shared >= n_of_edge);
 }
 
-/* Two neighbouring grid lines of a patch join the same two sides. Returns the least distance of two such lines, as a fraction of
- * the longer side. */
+/* Two neighbouring grid lines of a patch join the same two sides. Returns the least distance of two neighbouring grid lines, as a
+ * fraction of the longer side. */
 static double least_step(const riis_triangles *c, int32_t patch, double *longer) {
   double length_of[2] = {0, 0}, *u = own(malloc((size_t)c->n_triangles * 2 * sizeof *u));
   size_t n = 0;

@@ -345,7 +345,7 @@ TEST(all_values_are_set_when_read_back) {
   options.triangulation = RIIS_TRIANGULATION_FIXED;
   riis_surface *surface = new_surface(valve, &options);
   assert_true(is_same_content(surface, new_surface(back, &options)));
-  /* The fixed triangulation accepts the other valve, because only values count. */
+  /* A fixed triangulation accepts a valve with equal values, whether the values were set or follow rules. */
   CHECK_OK(riis_surface_update(surface, back, NULL));
   for (int k = 0; k < 2; ++k) CHECK_OK(riis_valve_set_scalar(k ? back : valve, "leaflet_height", 1.3));
   CHECK_NEAR(value_of(valve, "bending_height"), 0.65, 1e-15);
@@ -612,7 +612,7 @@ static double bound_of_power(const riis_valve *valve, int k) {
                                         value_of(valve, of_cusp(k, "leaflet_angle"))});
 }
 
-/* Every size, angle and exponent of an aortic valve varies by this share. The sum of the angles stays 180 degrees. */
+/* Makes an aortic valve whose sizes, angles and exponents vary by at most `share`. The sum of the angles stays 180 degrees. */
 static riis_valve *random_aortic(double share, int power) {
   riis_valve *valve = new_valve("aortic");
   double sum = 0;

@@ -879,8 +879,8 @@ TEST(folds_are_found_and_named) {
   assert_memory_equal(mapped[0], mapped[1], sizeof mapped[0]); /* a refusal changes nothing */
 }
 
-/* A warp may turn over a part of a patch, or fold at a patch but not at landmarks. Such a warp is refused, and the message names
- * the patch. */
+/* A warp may turn over a part of a patch, or fold at a patch but not at landmarks. A warp that turns over or folds a patch is
+ * refused, and the message names the patch. */
 TEST(folds_at_patches_are_named) {
   riis_valve *valve = new_valve("trileaflet");
   riis_surface *surface = new_surface(valve, NULL);
@@ -949,8 +949,8 @@ static double normal(double deviation) {
 }
 
 /* The landmarks of random patients have a clinician's noise, which smooths the warp. No part of a leaflet turns over at any
- * opening. With exact landmarks, no part turns over either. Five times this noise without smoothing folds nearly every valve.
- * RIIS_TEST_LONG=1 takes 100 patients of each sort. */
+ * opening. With exact landmarks, no part turns over either. Five times a clinician's noise without smoothing folds nearly every
+ * valve. RIIS_TEST_LONG=1 takes 100 patients of each sort. */
 TEST(warps_of_patients_do_not_fold) {
   const int n_patients = trials(25, 100), n_openings = is_short_test() ? 5 : 50;
   const struct { double noise, smoothing; } sorts[3] = {{0.03, 0.03}, {0, 0}, {0.15, 0}};

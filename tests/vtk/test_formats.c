@@ -339,7 +339,7 @@ TEST(test_meshio) {
   }
   rewrite("single.xdmf", "again.vtu", "its points have single precision");
   expect_same("again.vtu", "plain.vtu", SHIM_FLOATS, 27);
-  /* A slash separates HDF5's groups, so the datasets of these three arrays need other names. */
+  /* A slash separates HDF5's groups, so the datasets of arrays with a slash in their names need other names. */
   scratch_write_text("named.py",
                      "import os, sys, meshio, numpy\n"
                      "os.chdir(sys.argv[1])\n"
