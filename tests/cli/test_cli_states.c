@@ -335,9 +335,8 @@ TEST(test_prosthesis) {
   CHECK_NEAR(cell(1, "orifice_area"), 3.79, 0.01);
 }
 
-/* One side of this flat triangular patch is a point. The triangles at the point have no area. At this point, the end of the edge
- * therefore belongs to no triangle. The sides along the axes have the lengths 1 and 2, and the slanted side has the length
- * sqrt(5). */
+/* One side of a flat triangular patch is a point. The triangles at this point have no area, so the end of an edge at this point
+ * belongs to no triangle. The sides along the axes have the lengths 1 and 2, and the slanted side has the length sqrt(5). */
 static void run_flat_triangle(const char *sides) {
   char text[512];
   snprintf(text, sizeof text,

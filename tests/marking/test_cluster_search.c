@@ -155,8 +155,8 @@ TEST(masked_nodes_are_left_out) {
   }
 }
 
-/* Each mesh is one node. The size of the node's box is only the allowance for single precision. The limit is the node's distance,
- * or one bit less. */
+/* Each mesh is one node. The node's box is as small as the allowance for single precision. The limit is the node's distance, or
+ * one bit less. */
 TEST(nodes_at_the_limit_are_found) {
   riis_surface_options options = surface_options();
   options.half_thickness = 1e-4;

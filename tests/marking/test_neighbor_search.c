@@ -147,7 +147,8 @@ TEST(any_adjacency_is_right) {
     options.n_threads = 1 + trial % 4;
     check_same_as_exhaustive(surface, mesh, options, NULL);
   }
-  /* First each node's only neighbour is the next node of a ring. Then every node is its own neighbour, many times. */
+  /* In the first mesh, each node's only neighbour is the next node of a ring. In the second mesh, every node is its own
+   * neighbour, many times. */
   for (int self = 0; self < 2; ++self) {
     nodes.columns = own(malloc((size_t)nodes.n * 5 * sizeof *nodes.columns));
     for (int64_t i = 0; i < nodes.n; ++i) {

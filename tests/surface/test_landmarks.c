@@ -655,7 +655,7 @@ TEST(test_exact_mitral) {
     if (trial % 3 == 1) memset(p.flow, 0, sizeof p.flow); /* the commissures show the atrium's side */
     place_patient(&p, scales[trial % 3]);
     /* With the default noise, some valves have a size that counts as undetermined. Exact landmarks still give the exact value of
-     * such a size. */
+     * an undetermined size. */
     if (trial % 2 == 0) p.noise = 0.01 * p.scale;
     riis_valve *valve = new_valve("mitral");
     const answer found = place(valve, &p);
