@@ -570,7 +570,7 @@ TEST(refused_loads) {
   FORCES_ARE_REFUSED("sums: entry 3 of leaflet 1 is nan; it must come from riis_loads_add_sums");
   sums[14] = kept;
 
-  /* Leaflet 1 has two nodes, then none. The force on the leaflet would need three nodes. */
+  /* Leaflet 1 has two nodes, then none, but the force on a leaflet needs three nodes. */
   weight[2] = 0;
   memset(sums, 0, sizeof sums);
   CHECK_OK(riis_loads_add_sums(&good, &points, weight, sums));
