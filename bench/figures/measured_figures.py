@@ -31,7 +31,8 @@ UNMARKED = (244, 244, 244)
 
 
 def mesh_cylinder(middle, radius, height):
-    """Returns nodes and tetrahedra. Each hexahedron is cut into 6 tetrahedra along the same diagonal, so neighbours match."""
+    """Returns nodes and tetrahedra. All hexahedra are cut into 6 tetrahedra along parallel diagonals, so the cuts of neighbours
+    match."""
     n_across, n_up = math.ceil(2 * radius / EDGE), math.ceil(height / EDGE)
     across, up = 2 * np.arange(n_across + 1) / n_across - 1, 2 * np.arange(n_up + 1) / n_up - 1
     z, y, x = np.meshgrid(up, across, across, indexing="ij")

@@ -21,7 +21,7 @@ from vtkmodules.vtkRenderingCore import (
 for module in ("vtkRenderingFreeType", "vtkRenderingOpenGL2"):  # importing these modules makes them draw
     importlib.import_module("vtkmodules." + module)
 
-# Most readers with colour-vision deficiency can distinguish these colours (Okabe, Ito 2008).
+# Colours that most readers with colour-vision deficiency can distinguish (Okabe, Ito 2008).
 PALETTE = ((0, 114, 178), (230, 159, 0), (0, 158, 115), (204, 121, 167), (213, 94, 0), (86, 180, 233))
 BLUE, ORANGE, GREEN, PURPLE, VERMILION, SKY_BLUE = PALETTE
 DARK, GREY, LIGHT_GREY = (45, 45, 45), (130, 130, 130), (205, 205, 205)

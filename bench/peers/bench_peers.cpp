@@ -178,7 +178,7 @@ Truth truth_of(const riis_surface *surface, const Triangles &triangles, const Cy
   for (std::int64_t i = 0; i < n; ++i)
     truth.distance[static_cast<std::size_t>(i)] =
         every_triangle(nodes.xyz().data() + 3 * i, std::numeric_limits<double>::infinity());
-  // The library gives the nearest triangle. The comparison measures the distance to this triangle.
+  // The library gives the nearest triangle, and the comparison measures the distance to it.
   std::vector<std::int64_t> nearest(static_cast<std::size_t>(n));
   riis_closest_arrays arrays;
   check(riis_closest_arrays_init(&arrays, sizeof arrays));

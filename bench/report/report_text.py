@@ -75,7 +75,7 @@ def fill_in_place(path, values, to=None):
 
     The mark `<!--=a.b-->` begins the place of values["a"]["b"], and `<!--/-->` ends it. A mark alone on a line begins a block
     such as a table. Other marks must not begin a line, because Markdown would take such a line for HTML. A place without a value,
-    or with the value None, keeps its text. Returns the names of these places."""
+    or with the value None, keeps its text. Returns the names of the places that keep their text."""
     left = []
 
     def put(found):

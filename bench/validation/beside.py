@@ -22,7 +22,7 @@ def beside_words(run):
 
 def walls_of(valve, opening, runs, kept):
     """Returns the area of the walls in cm2, from the finest mesh. Also returns the entries for a row's grids. If the cases are
-    missing, a row of `kept` provides both."""
+    missing, a row of `kept` provides the area and the entries."""
     fitted = sorted((run for run in runs if run.fitted and run.far == 0.13), key=lambda run: -run.size)
     if fitted:
         return fitted[-1].area, [place(run, run.area) for run in fitted]

@@ -147,7 +147,7 @@ def commit():
 
 def solid_row(what, three, solids):
     """Returns a row that compares the effective areas of `three` with the areas of solid leaflets. The solid leaflets are as
-    thick as the band. `solids` has their area in cm2 for each eps. With fewer than two areas, returns no row."""
+    thick as the band. `solids` has the area of solid leaflets in cm2 for each eps. With fewer than two areas, returns no row."""
     if len(three) < 2:
         return []
     share = [one.area / solids[one.eps] for one in three]
@@ -282,7 +282,8 @@ def clinical(runs):
 
 
 def blood(folder, runs):
-    """Prints means in time of the runs with blood's viscosity. These runs start from the steady flows. Returns their rows."""
+    """Prints means in time of the runs with blood's viscosity. The runs with blood's viscosity start from the steady flows.
+    Returns the rows of the runs."""
     begin = 0.04  # s
     found = []
     for case in sorted((folder / "blood").glob("*")):

@@ -6,8 +6,8 @@
 # enters with a uniform velocity of 0.5 m/s. The effective area is Q / sqrt(2 dp / rho). Here dp is the total pressure at the
 # inlet minus the pressure at the outlet. At the outlet, the jet still exists and has not regained pressure. FOLDER gets the table
 # body_fitted.txt, the rows body_fitted.json, pictures, and the cases. Only cases whose rows all.json lacks are run, and a
-# complete case in FOLDER is not run again. To measure a row again, remove it from all.json. If a case fails, the others still
-# run, and the status is 1.
+# complete case in FOLDER is not run again. To measure a row again, remove it from all.json. If a case fails, the remaining cases
+# still run, and the status is 1.
 set -euo pipefail
 here=$(dirname -- "$(readlink -f -- "$0")")
 [[ ${1:-} && ${1:-} != -* && (${2:-} == '' || ${2:-} == --quick) && $# -le 2 ]] || {

@@ -49,7 +49,7 @@ def jet(library, share, eps, per_eps, rim, shift=0.0, speed=SPEED, reynolds=REYN
     j = np.searchsorted(flow.yc, (B + B / share) / 2)
     core = u[(flow.x > 0) & (flow.x < 3 * B), 0].max()
     dead = p[i, j]
-    # The pictures use the fields of this dict.
+    # The pictures use the fields of the returned dict.
     return {
         "cells": flow.nx * flow.ny, "core": core, "inlet": inlet, "by_core": discharge / (B * core),
         "by_drop": discharge / (B * np.sqrt(2 * (total - dead) / rho)), "drop": p[0].mean() - p[-1].mean(),

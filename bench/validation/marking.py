@@ -29,7 +29,7 @@ class Library:
 
 
 def disc(a):
-    """Returns a disc of radius a in the plane z = 0. One of its vertices lies at y = 0."""
+    """Returns a disc of radius a in the plane z = 0, with a vertex at y = 0."""
     angle = 2 * np.pi * np.arange(N_SIDES) / N_SIDES
     circle = np.stack([a * np.cos(angle), a * np.sin(angle), 0 * angle], 1)
     i = np.arange(N_SIDES)

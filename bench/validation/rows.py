@@ -114,7 +114,7 @@ def resistance_tasks(variant):
 
 def resistance_rows(variant, results):
     """Returns the rows that show the effect of R on a hole. The flow enters the band to the depth at which K equals mu over the
-    squared depth. This depth is proportional to (R/mu)^(-1/4). If R is small, blood also leaks through the plate."""
+    squared depth, so the depth is proportional to (R/mu)^(-1/4). If R is small, blood also leaks through the plate."""
     n, rows, cells = variant.stokes_n[1], [], variant.stokes_cells
     for factor in FACTORS:
         ratio = factor * marking.R / marking.MU

@@ -47,7 +47,7 @@ class Flow:
         free_u[-1] = self.channel
         self.free = np.concatenate([free_u.ravel(), free_v.ravel()])
 
-    # u_points and v_points return the places of the unknown velocities. The library computes K at these places.
+    # u_points and v_points return the places of the unknown velocities, at which the library computes K.
     def u_points(self):
         return np.stack(np.meshgrid(self.x, self.yc, indexing="ij"), -1).reshape(-1, 2)
 

@@ -49,7 +49,7 @@ def _call(job):
 
 
 def check_rows(rows, where):
-    """Refuses rows that the page cannot show. Another program writes the rows of all.json, so they need this check."""
+    """Refuses rows that the page cannot show. The check is needed because another program writes the rows of all.json."""
     for number, row in enumerate(rows):
         for field in FIELDS:
             if field not in row:

@@ -35,7 +35,8 @@ class Roofline(unittest.TestCase):
             self.assertGreater(case["operations"]["filter"], 12 * case["filtered_pairs"])
             self.assertGreater(case["operations"]["decide"], 50 * case["decided_pairs"])
             self.assertEqual(set(case["bytes"]), STAGES)
-            # A triangle has nine coordinates, a decided node three, and an entry of the lists four numbers.
+            # The least number of bytes: a triangle has nine coordinates, a decided node has three, and an entry of the lists has
+            # four numbers.
             self.assertGreater(case["bytes"]["update"], 72 * case["triangles"])
             self.assertGreater(case["bytes"]["decide"], 24 * case["marked"])
             self.assertGreater(case["bytes"]["order"], 28 * case["marked"])

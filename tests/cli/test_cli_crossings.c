@@ -128,7 +128,7 @@ TEST(the_library_s_valves_do_not_cross) {
 
 /* ---- Shapes that the user chose ---- */
 
-/* The bending curve keeps its place, so the cusps cross. */
+/* A valve with tall leaflets whose bending curve keeps its place, so the cusps cross. */
 #define TALL "--valve", "trileaflet", "--set", "leaflet_height=1.3", "--set", "bending_height=0.6"
 
 static const char tall_crosses[] = "riis: leaflets right and non-coronary cross at opening 0: ";

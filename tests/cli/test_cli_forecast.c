@@ -196,7 +196,7 @@ static void turn(double side[3][3]) {
   }
 }
 
-/* Tests every kind of valve and every type of element in boxes that are turned at random. Such a box leaves gaps around the
+/* Tests every kind of valve and every type of element in boxes that are turned at random. A turned box leaves gaps around the
  * valve. */
 TEST(test_frames) {
   char flap[64];
@@ -259,7 +259,8 @@ typedef struct {
 
 /* Computes a slow steady flow along z by the solver's equations. A flat plate at z = 0 fills the tube. The pressure is 1 at z =
  * -length and 0 at z = length, and the walls hold the flow. Returns the flow times R / eps. In a tetrahedron and a wedge, some
- * coordinates run along a triangle. The solver counts these coordinates from the triangle's last node, and VTK from the first. */
+ * coordinates run along a triangle. The solver counts the coordinates along a triangle from the triangle's last node, and VTK
+ * from the first. */
 static double flow_through_plate(const mesh *of, const double *distance, double width, double length, double eps,
                                  const fluid *by) {
   static int local[most_nodes];

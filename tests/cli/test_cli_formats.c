@@ -220,7 +220,7 @@ TEST(test_foam) {
   static double K[n_foam_cells], expected[n_foam_cells], Ku[3 * n_foam_cells];
   char type[32];
   int64_t n_components = 0, n = 0;
-  /* These positions also form a mesh of nodes without cells. */
+  /* The centres of the cells also form a mesh of nodes without cells. */
   RUN_WITHOUT_CELLS("mark", scratch_path("centers.vtk"), "--half-thickness", "0.3", "--resistance", "2", "--output",
                     scratch_path("centers.vtu"));
   assert_true(shim_read_array(scratch_path("centers.vtu"), 'p', "riis_K", type, &n_components, &n, expected));

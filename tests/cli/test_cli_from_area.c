@@ -244,8 +244,8 @@ TEST(test_refused_areas) {
   REFUSED(2, "--output", "--areas", scratch_path("bad.csv"), "--output", scratch_path("bad.csv"));
 }
 
-/* A line on stderr reports the value at which the area stops growing and begins to fall. With --strict this line changes the exit
- * status. */
+/* A line on stderr reports the value at which the area stops growing and begins to fall. With --strict, this warning changes the
+ * exit status. */
 TEST(test_turns) {
   run_program("from-area", "--area", "10.7", "--valve", "mitral", "--solve", "leaflet_inward_angle", "--from", "100",
               "--to", "176", "--tolerance", "0.3", "--strict", NULL);

@@ -129,7 +129,7 @@ TEST(test_no_marks) {
   free(json);
   assert_int_equal(shim_read_array(scratch_path("none.vtu"), 'p', "riis_marked", NULL, NULL, NULL, NULL), 1);
   RUN_FINE("mark", scratch_path("in.vtu"), "--translate", "9,9,9", "--allow-none");
-  /* The paper's search may miss nodes, and finds none here. The program reports both facts. */
+  /* The paper's search may miss nodes, and does not find any node here. The program reports both facts. */
   run_program("mark", scratch_path("in.vtu"), "--translate", "9,9,9", "--search", "paper", NULL);
   assert_int_equal(program_exit_code, 3);
   assert_non_null(strstr(program_err, "riis: the marks may be incomplete"));

@@ -79,7 +79,7 @@ TEST(test_bileaflet) {
     assert_true(json_has_text(program_out, "valve", "\"bileaflet\""));
     assert_true(json_number(program_out, "opening") == openings[i]);
   }
-  /* The bileaflet valve is closed by default. The program counts its ring as a third leaflet. */
+  /* The bileaflet valve is closed by default. The program counts the bileaflet valve's ring as a third leaflet. */
   mark_at(valve, 0);
   RUN_ON_BOX("--valve", "bileaflet");
   expect_outputs();

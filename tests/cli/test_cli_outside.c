@@ -137,8 +137,8 @@ TEST(test_share_of_two_sheets) {
   free(json);
 }
 
-/* Uses random points to estimate which share of the leaflets' area lies outside a box. The leaflets are those below
- * n_leaflets. */
+/* Uses random points to estimate which share of the leaflets' area lies outside a box. Only leaflets whose ids are below
+ * n_leaflets count. */
 static double random_share(const char *kind, const char *skirt, int n_leaflets, const double lower[3],
                            const double size[3]) {
   random_source random = random_start("share");
@@ -217,7 +217,7 @@ TEST(test_the_closed_valve_decides) {
     assert_int_equal(strstr(program_outside, "The closed valve stands inside the mesh") != NULL, text == reaches);
     free(json);
   }
-  /* A valve that never closes in a series is judged in the same way. */
+  /* A valve that never closes in a series is also judged by its place. */
   scratch_write_text("cycle.csv", "0,0.9\n0.5,1\n1,0.9\n");
   for (int is_high = 0; is_high < 2; ++is_high) {
     free(MARK_BOX("--valve", "coapting", "--cycle", scratch_path("cycle.csv"), "--times", "0,0.25,0.5", "--translate",

@@ -159,7 +159,7 @@ TEST(test_closed_valve) {
   assert_null(strstr(program_out, "passage"));
 }
 
-/* An open valve has a passage. No half thickness should close it. */
+/* An open valve has a passage, and the program advises no half thickness to close this passage. */
 TEST(test_passage_through_an_open_valve) {
   RUN_FINE("check", "leaks", scratch_path("box.vtu"), "--between", ENDS, "--valve", "trileaflet", "--opening", "1");
   assert_int_equal(
@@ -304,7 +304,7 @@ TEST(test_series) {
   assert_non_null(strstr(program_out, "\npassage   closed: at "));
 }
 
-/* With two points, each valve of a case has separate lines. The numbers are those of the valve alone. */
+/* With two points, each valve of a case has separate lines, with the numbers that the valve has alone. */
 TEST(test_flow_of_several_valves) {
 #define TWO_POINTS "{\"mesh\": \"box.vtu\", \"check_leaks\": [0.01,0,-1.2, 0,0.02,0.9], \"half_thickness\": 0.09,\n"
   scratch_write_text("flows.json", TWO_POINTS
@@ -380,9 +380,9 @@ TEST(test_closed_area_of_plates) {
   }
 }
 
-/* Where two leaflets touch, only one of them counts. Half of their coaptation within half a half thickness therefore does not
- * count. The half tube around the free edges also counts. The tube's width is 0.467 half thicknesses, which is the integral of K
- * across the tube over R / eps. */
+/* Where two leaflets touch or are less than half a half thickness apart, only one of them counts. Half of the area of coaptation
+ * therefore does not count. The half tube around the free edges also counts. The tube's width is 0.467 half thicknesses, which is
+ * the integral of K across the tube over R / eps. */
 TEST(test_closed_area_of_a_coaptation) {
   const double lower[3] = {-1.7, -1.7, -1.3}, upper[3] = {1.7, 1.7, 2.3};
   assert_int_equal(shim_write_box(scratch_path("wide.vtu"), SHIM_RAW, 32, lower, upper, 0), 1);

@@ -293,7 +293,7 @@ static void draw_case_by_c(const char *title, const char *unit) {
   riis_vtk_surface_destroy(&file);
 }
 
-/* Writes two.json with these valves. The program draws them, and may warn about sizes. */
+/* Writes two.json with two valves. The program draws the valves, and may warn about sizes. */
 static void draw_case(const char *first, const char *second) {
   char text[512];
   snprintf(text, sizeof text, "{\"mesh\": \"in.vtu\", \"half_thickness\": 0.3, \"valves\": [\n%s,\n%s]}\n", first,

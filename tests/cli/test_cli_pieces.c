@@ -329,7 +329,7 @@ static void expect_same_parts(int step, const char *const *names, int n_names) {
       }
     }
   }
-  /* The list of the step names these files. */
+  /* The list of the step names the files of the pieces. */
   snprintf(path, sizeof path, "series/series_%04d.pvtu", step);
   riis_vtk_pieces *list = NULL;
   int64_t n_listed = 0;

@@ -305,7 +305,7 @@ TEST(warps_meet_the_landmarks) {
     for (int c = 0; c < 3; ++c)
       if (fabs(q[c] - 1e-3 * p[c]) > 1e-12) fail_msg("landmark %d: %g is not %g mm", i, q[c], p[c]);
   }
-  /* A file of pairs acts like the key of the placed valve. The targets here are the landmarks shifted by 1 mm. */
+  /* A file of pairs acts like the key of the placed valve. The targets of the pairs are the landmarks shifted by 1 mm. */
   RUN_FINE("place", patient_json("w.json"), "--valve", "trileaflet", "--quiet", "--output", scratch_path("bare.json"));
   char text[2048] = "# noise = 0\nsx,sy,sz,tx,ty,tz\n";
   for (int i = 0; i < 6; ++i) {
@@ -570,7 +570,7 @@ TEST(tricuspid_leaflets_have_names) {
   RUN_REFUSED(1, "but they must follow counter-clockwise", "place", path, "--valve", "tricuspid", "--flow", "0,0,1");
 }
 
-/* These faults are usual at a first try. */
+/* Tests faults in landmarks that are usual at a first try. */
 TEST(wrong_landmarks_are_refused) {
   double points[6][3];
 #define CHANGED(words, ...)                                                                               \
@@ -698,7 +698,7 @@ TEST(sizes_that_do_not_go_together_are_named) {
   RUN_FINE("place", json_of_points(6, names, points), "--valve", "coapting", "--output", "-");
   const double h_e = json_number(program_out, "effective_height"), h_co = json_number(program_out, "coaptation_height");
   if (!(h_co < 0.3 * Rc && h_co <= 0.9 * h_e)) fail_msg("coaptation_height %g, effective_height %g", h_co, h_e);
-  /* These commissures are too low for any zone. */
+  /* Even lower commissures leave no room for any zone. */
   for (int i = 1; i < 6; i += 2) points[i][0] -= 9;
   RUN_REFUSED(1, "and then", "place", json_of_points(6, names, points), "--valve", "coapting");
   assert_non_null(strstr(program_err, "commissure_height"));

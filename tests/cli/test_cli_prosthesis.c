@@ -201,7 +201,7 @@ static void write_with_end(const char *end) {
   free(text);
 }
 
-/* These faults show that the checks above can fail. */
+/* Planted faults show that the checks above can fail. */
 TEST(test_faults_are_found) {
   char file[256];
   snprintf(file, sizeof file, "%s", scratch_path("v.json"));

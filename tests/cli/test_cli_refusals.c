@@ -72,7 +72,7 @@ TEST(test_numbers) {
   RUN_REFUSED(2, "--distance-limit: -1 is not above 0", "mark", mesh, "--distance-limit", "-1");
 }
 
-/* These values have the right form, and the library refuses them. */
+/* Some values have the right form, but the library refuses them. */
 TEST(test_values) {
   const char *mesh = scratch_path("in.vtu");
   RUN_REFUSED(2, "riis: --scale is 0; ", "mark", mesh, "--scale", "0");

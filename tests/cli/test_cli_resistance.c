@@ -164,7 +164,7 @@ TEST(test_refused_units) {
 #undef REFUSED
 }
 
-/* A case accepts these numbers and texts. The unit is the case's "unit", or the unit of placed valves. */
+/* In a case, R may be a number or a text with a unit. The unit is the case's "unit", or the unit of placed valves. */
 TEST(test_units_in_a_case) {
   const struct {
     const char *text;

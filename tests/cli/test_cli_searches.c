@@ -45,8 +45,8 @@ TEST(test_marks_are_equal) {
   }
 }
 
-/* The distances equal those of the C interface with the same options. These distances differ from the distances to the triangles,
- * and the output says so. */
+/* For each way to measure, the distances equal those of the C interface with the same options. Distances by sampling or
+ * minimisation differ from the distances to the triangles, and the output says so. */
 TEST(test_distances) {
   const char *methods[] = {"triangles", "sampling", "minimization"};
   double n_marked[3];

@@ -275,7 +275,7 @@ TEST(test_first_velocity) {
            scratch_path("v.csv"), "--quiet");
   char *text = scratch_read(scratch_path("v.csv"), NULL);
   assert_int_equal(sscanf(strchr(text, '\n'), "\n%lf,%lf,%lf,%lf", &time, &opening, &n_marked, &speed), 4);
-  /* The opening goes from 0.5 to 0 in a time of 0.1. */
+  /* The opening goes from 0.5 to 0 within 0.1 units of time. */
   riis_valve *now = NULL, *before = NULL;
   riis_surface *surface = NULL;
   riis_surface_options options;
@@ -442,7 +442,7 @@ TEST(test_files_of_a_hand_made_list_stay) {
     assert_true(scratch_exists("hand/hand_0003.vtu") && scratch_exists("hand/hand_0004.vtu"));
     remove(scratch_path("hand.pvd"));
   }
-  /* A run that writes all these files replaces them. */
+  /* If a run writes all listed files, the run replaces these files. */
   RUN_UNTIL("in.vtu", "0.4", "--output", scratch_path("hand.pvd"));
 }
 

@@ -322,7 +322,7 @@ TEST(test_frame_and_unit) {
 
 /* ---- Valves from patches ---- */
 
-/* Each free edge of the example consists of two cubics. The projections of its attachment and of its leaflets are closed
+/* Each free edge of the prosthesis consists of two cubics. The attachment and the leaflets of the prosthesis project to closed
  * curves. */
 TEST(test_prosthesis) {
   double closed[4][3] = {{0.6, -1.04, 1.2}, {0.45, -0.78, 1}, {0.3, -0.52, 0.8}, {0, 0, 0.8}};
@@ -335,9 +335,8 @@ TEST(test_prosthesis) {
   CHECK_NEAR(cell(1, "orifice_area"), 3.79, 0.01);
 }
 
-/* One side of this flat triangular patch is a point. The triangles at the point have no area. At this point, the end of the edge
- * therefore belongs to no triangle. The sides along the axes have the lengths 1 and 2, and the slanted side has the length
- * sqrt(5). */
+/* One side of a flat triangular patch is a point. The triangles at this point have no area, so the end of an edge at this point
+ * belongs to no triangle. The sides along the axes have the lengths 1 and 2, and the slanted side has the length sqrt(5). */
 static void run_flat_triangle(const char *sides) {
   char text[512];
   snprintf(text, sizeof text,

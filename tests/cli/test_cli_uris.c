@@ -212,8 +212,8 @@ TEST(test_vtk) {
   uris_free(&exported);
 }
 
-/* The solver computes the velocity of a node from two frames. This velocity equals that of the library's vertex. Nodes of the
- * mitral valve also slide along their leaflet with the joints of the annulus. */
+/* The solver computes the velocity of a node from two frames, and gets the velocity of the library's vertex. Nodes of the mitral
+ * valve also slide along their leaflet with the joints of the annulus. */
 TEST(test_velocity) {
   riis_valve *valve = NULL, *before = NULL;
   EXPORT("velocity", RAMPS, "--valve", "trileaflet");
@@ -274,8 +274,8 @@ static double longest_edge_of(const uris_face *face, const double *xyz) {
   return longest;
 }
 
-/* The leaflet's outline consists of the edges that belong to only one triangle. When the export halves edges, no such edge may
- * arise inside the leaflet. */
+/* The leaflet's outline consists of the edges that belong to only one triangle. When the export halves edges, no edge inside the
+ * leaflet may come to belong to only one triangle. */
 static double outline_of(const uris_face *face, const double *xyz) {
   double outline = 0;
   for (int i = 0; i < 3 * face->n_triangles; ++i) {

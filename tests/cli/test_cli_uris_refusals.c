@@ -246,8 +246,8 @@ TEST(test_cycles) {
   assert_int_equal(valve.face[0].n_open, 7);
   assert_int_equal(valve.face[0].n_close, 3);
   uris_free(&valve);
-  /* The exported span is only a part of the closing. The leaflets therefore jump at the beginning of this span, and the program
-   * warns about the jump. */
+  /* The exported span of time is only a part of the closing. The leaflets therefore jump at the beginning of the exported span,
+   * and the program warns about the jump. */
   run_program(EXPORT, "--time-step", "0.01", "--valve", "mitral", "--cycle", scratch_path("mitral.csv"),
               "--closing-span", "0.57:0.66", "--quiet", NULL);
   assert_int_equal(program_exit_code, 0);

@@ -57,8 +57,8 @@ static riis_valve *flap_by_c(const double *control) {
   return valve;
 }
 
-/* Writes v.json, which is the flap after one replacement: the first occurrence of `found`. The file has or lacks an open
- * state. */
+/* Writes v.json, which is the flap after one replacement: the first occurrence of `found`. If can_open is not 0, the file has an
+ * open state. */
 static void write_flap(int can_open, const char *found, const char *replacement) {
   char text[4096], changed[4096];
   snprintf(text, sizeof text, flap, can_open ? flap_open : "");

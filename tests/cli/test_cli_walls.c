@@ -139,7 +139,7 @@ TEST(test_volume_mesh_as_wall) {
   const char *const text = strstr(program_out, "skirt     to the wall, ");
   assert_non_null(text);
   snprintf(line, sizeof line, "%.*s", (int)strcspn(text, "\n"), text);
-  /* Writes this box as a surface of twelve triangles. */
+  /* Writes a box as a surface of twelve triangles. */
   FILE *file = fopen(scratch_path("box.stl"), "w");
   assert_non_null(file);
   fputs("solid box\n", file);

@@ -57,7 +57,7 @@ TEST(test_same_file_twice) {
   free(after);
 }
 
-/* An output that is the input is refused, under any name. The input keeps its bytes. */
+/* An output that is also the input is refused, whatever name the user types. The input keeps its bytes. */
 static void expect_kept(const char *name, const char *before) { assert_true(scratch_is_same(name, before)); }
 
 static void copy_file(const char *from, const char *to) {

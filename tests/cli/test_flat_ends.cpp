@@ -383,7 +383,7 @@ void unclear_ends(random_source &random) {
   expect_refused({"a flat ring shows that this is a wall with its thickness, so export the surface of the blood"});
 }
 
-// The wall bulges and has a flat place. This place meets the wall at an angle that grows with its size. Below 30 degrees the
+// The wall bulges and has a flat place. A flat place meets the wall at an angle that grows with its size. Below 30 degrees the
 // place belongs to the wall, and above 55 degrees it is an end. Between these angles, the place is an end only if the user says
 // so.
 void flat_places(random_source &random) {

@@ -120,8 +120,8 @@ class OpenfoamCase(unittest.TestCase):
         self.assertEqual(numbers(law["upstream"]["centre"]), [0.01, -0.02, 0.985])
         patches = self.dictionary(case, "0/p")["boundaryField"]
         table = numbers(patches["inlet"]["p0"])
-        # The ventricle's pressure rises above that of the arteries, and returns to its first value. Beats can therefore follow
-        # each other.
+        # The ventricle's pressure rises above that of the arteries, and returns to its first value. One beat can therefore follow
+        # another beat without a jump.
         highest = max(table[1::2]) * RHO / MMHG
         self.assertTrue(110 < highest < 130, highest)
         self.assertEqual((table[0], table[-2], table[1]), (0, 0.8, table[-1]))

@@ -412,7 +412,7 @@ exec '{shutil.which("gmsh")}' "$@" $longer
         self.assertEqual((case / "notes.txt").read_text(encoding="utf-8"), "mine")
         self.refused(1, "--output: no/case: cannot be made", output="no/case")
         self.refused(1, "--output: root.stl: is a file, not a folder", output="root.stl")
-        # The program uses the folder of a run that was cut off again. Files that the program would remove there cannot be inputs.
+        # If a run was cut off, the next run may use the same folder. Files that the program would remove there cannot be inputs.
         (case / "UNFINISHED.txt").write_text("", encoding="utf-8")
         shutil.copy(self.folder / "root.stl", case / "wall.stl")
         self.refused(1, "its wall.stl is also read, and would be removed: copy it elsewhere", wall="case/wall.stl")

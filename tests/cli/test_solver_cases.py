@@ -187,8 +187,7 @@ class Cases(unittest.TestCase):
         self.assertEqual(int(curve[0].split()[0]), len(keys))
         self.assertEqual((keys[0][0], keys[-1][0], keys[0][1]), (0, 0.8, keys[-1][1]))
         self.assertAlmostEqual(max(pressure for _, pressure in keys) / (10 * MMHG), 120, delta=0.01)
-        # A flow of 83 ml/s through the Windkessel leaves a mean pressure of 80 to 130 mmHg. Such a pressure shows that the unit
-        # is dyn s/cm5.
+        # If the unit is dyn s/cm5, a flow of 83 ml/s through the Windkessel leaves a mean pressure of 80 to 130 mmHg.
         body = conditions["outlet"].find("RCR_values")
         mean = 83 * (self.value(body, "Proximal_resistance") + self.value(body, "Distal_resistance")) / (10 * MMHG)
         self.assertTrue(80 < mean < 130, mean)
@@ -373,7 +372,7 @@ class Cases(unittest.TestCase):
         law = case["law"]
         self.assertEqual(law["close_below"], 1e-4)
         # The closing leaflets push blood back, which raises the pressure before them. The valve must not open again because of
-        # this.
+        # this pressure.
         self.assertGreaterEqual(law["dwell_time"], max(law["opening_duration"], law["closing_duration"]))
         self.assertFalse((pathlib.Path(numbers["solver"]) / "wall.stl").exists())
 
@@ -480,7 +479,7 @@ class Cases(unittest.TestCase):
                      r"at the closed band +0.3 m/s +met: at most 2",
                      rf"leak at 80 mmHg +{-1e6 * leak:.4g} ml/s\n", r"leak over the ideal leak +1.5\n"):
             self.assertRegex(said, line)
-        # At this early time, a valve that never moves has no steady leak. Nothing is judged.
+        # Before a valve that never moves has a steady leak, the script judges nothing.
         said = report(20)
         self.assertIn("0.04 s of a beat of 0.8 s: what follows is preliminary\nthe valve does not move\n", said)
         for word in ("leak", "met", "MISSED"):

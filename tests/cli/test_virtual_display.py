@@ -45,7 +45,7 @@ class VirtualDisplay(unittest.TestCase):
         self.server(f'exec {REAL} "$@"')
 
     def server(self, ending):
-        """Makes the script Xvfb. The script notes its process, then runs these lines."""
+        """Makes the script Xvfb. The script notes its process, then runs the lines `ending`."""
         script = self.folder / "Xvfb"
         script.write_text(f"#!/bin/sh\necho $$ >>{self.folder}/servers\n{ending}\n", encoding="utf-8")
         script.chmod(0o755)

@@ -113,8 +113,9 @@ build() {
   cmake --build "$2/build" --parallel "$(nproc)"
 }
 
-# instructions FOLDER PROGRAM STEPS prints the instructions that the program executed, and its own line. The emulator lists each
-# block of instructions when it first meets the block. Later it writes a line for each execution of the block.
+# instructions FOLDER PROGRAM STEPS prints the number of instructions that the program executed, and the line that the program
+# prints. The emulator lists each block of instructions when it first meets the block. Later the emulator writes a line for each
+# execution of the block.
 instructions() {
   local libraries=$1/root/usr/lib/$triplet
   qemu-aarch64-static -L "$1/root" -E LD_LIBRARY_PATH="$libraries" -d in_asm,nochain,exec -D /dev/stdout \

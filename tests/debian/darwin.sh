@@ -3,8 +3,8 @@
 # darwin.sh SOURCE FOLDER
 # Compiles the library, its VTK component, the program and the core's tests for macOS on arm64, and links them as the linker of
 # macOS would. Nothing runs. The headers of macOS and libc++ come from the package ziglang. Some parts are stand-ins: the headers
-# of Embree, TBB, VTK and the other libraries are Debian's. VTK's headers are therefore those of a VTK for X. Functions of all
-# these libraries stay undefined. The status is 77 if pip does not get the package.
+# of Embree, TBB, VTK and the other libraries are Debian's. VTK's headers are therefore those of a VTK for X. The functions of the
+# stand-ins stay undefined. The status is 77 if pip does not get the package.
 set -euo pipefail
 source=$1 folder=$2
 version=0.13.0 # with clang 18, like Xcode 16

@@ -25,9 +25,9 @@ if ((EUID != 0)); then
   command -v sudo >/dev/null || give_up "$suite: making a root and entering it takes root rights, and there is no sudo"
   as_root=(sudo)
 fi
-# in_namespace COMMAND...: runs the command in a namespace. Other processes do not see its mounts. All processes in the namespace
-# end with the command or with this script. The first process in the namespace waits for a lock that this script holds, so the
-# process ends with this script.
+# in_namespace COMMAND...: runs the command in a namespace. Other processes do not see the mounts of this namespace. All processes
+# in the namespace end with the command or with this script. The first process in the namespace waits for a lock that this script
+# holds, so the process ends with this script.
 in_namespace() {
   # shellcheck disable=SC2016
   "${as_root[@]}" unshare --mount --pid --fork --kill-child bash -c '

@@ -3,8 +3,8 @@
 """read_sources.py BUILD_FOLDER STANDARD... [-FLAG...]
 
 Lets the compiler of a configured folder read every C and C++ file that the folder would compile, with its flags. Each file is
-read in each of these standards of C++. The compiler makes no code. If the folder was configured with warnings as errors, a
-warning is a failure. Files of C are read once.
+read in each named standard of C++. The compiler makes no code. If the folder was configured with warnings as errors, a warning is
+a failure. Files of C are read once.
 """
 import concurrent.futures
 import json

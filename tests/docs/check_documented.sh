@@ -58,7 +58,7 @@ documented() {
   ' | sort -u
 }
 
-# undocumented DIRECTORY HEADER...: prints the names without a description. Doxygen writes its files into that directory.
+# undocumented DIRECTORY HEADER...: prints the names without a description. Doxygen writes its files into DIRECTORY.
 undocumented() {
   local to=$1
   shift

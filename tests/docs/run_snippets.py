@@ -14,7 +14,7 @@ import unittest
 
 import snippets
 
-# These commands make the files that a document expects of its reader. The first snippet of the tutorial makes a tube, here with
+# Commands that make the files that a document expects of its reader. The tube is that of the tutorial's first snippet, with
 # coarser edges.
 TUBE = next(one.text for one in snippets.snippets() if one.document == "docs/tutorial.md")
 COARSE = TUBE[:TUBE.index("gmsh")] + """

@@ -91,7 +91,7 @@ def in_c(type_):
 
 def reader_compared(header):
     """Returns assertions in C. The assertions show that the C compiler and the reader of the header understand the types of the
-    functions alike. The generator of riis_c.f90 uses this reader, and could repeat its mistakes."""
+    functions alike. The generator of riis_c.f90 uses the reader, and could repeat the reader's mistakes."""
     types = [(function, ", ".join(in_c(argument.type) for argument in function.arguments)) for function in header.functions]
     return [f"_Static_assert(_Generic(&{function.name}, {in_c(function.result)}(*)({arguments or 'void'}): 1, default: 0), "
             f'"{function.name} was read wrongly");' for function, arguments in types]

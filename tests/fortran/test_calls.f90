@@ -8,7 +8,7 @@ module log_capture
   implicit none
   public
 
-  ! The user data of the log function is a pointer to this type.
+  ! The type of the log function's user data.
   type, bind(c) :: captured
     integer(c_int32_t) :: n_messages
     integer(c_int32_t) :: n_warnings

@@ -36,7 +36,7 @@ program test_frames
 
 contains
 
-  ! Checks that the square is at this height everywhere and moves up at this speed.
+  ! Checks that the square is at the given height everywhere and moves up at the given speed.
   subroutine check_height(surface, height, speed, what)
     type(riis_triangles) :: all_triangles
     type(riis_surface), intent(in) :: surface
@@ -197,7 +197,8 @@ contains
   ! Velocities are given as xyz or as x, y, z, with ids of either kind. The call that makes the surface gives the velocities, or a
   ! later call does. The placement turns the velocities about z and doubles them.
 
-  ! Landmarks on the attachment of a placed valve are widened and lifted. The warped valve is larger by these factors.
+  ! Landmarks on the attachment of a placed valve are widened and lifted by factors. The warped valve is larger by the same
+  ! factors.
   subroutine test_warps()
     type(riis_valve) :: valve, before, again
     type(riis_warp) :: warp, in_place
@@ -461,7 +462,7 @@ contains
     call check(.not. surface%is_created(), 'a refused surface is empty')
   end subroutine test_bad_velocities
 
-  ! Only the points of a mask or a list get results. These results equal those of a query of all points.
+  ! Only the points of a mask or a list get results, which equal those of a query of all points.
   subroutine test_masks()
     real(c_double), allocatable :: all_distances(:), distance(:), point(:, :), expected_distance(:)
     integer(int8), allocatable :: bytes(:)

@@ -194,7 +194,7 @@ contains
     call valve%destroy()
   end subroutine test_swept_volumes
 
-  ! The valve reaches the walls of this box, so the closed valve divides the box.
+  ! Tests passages in a box. The valve reaches the walls of the box, so the closed valve divides the box.
   subroutine test_passages()
     integer, parameter :: n_side = 17, n_along = 41, n_nodes = n_side * n_side * n_along
     type(riis_valve) :: valve, empty

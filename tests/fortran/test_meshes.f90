@@ -201,7 +201,7 @@ contains
     call marks%destroy()
   end subroutine test_copies
 
-  ! Tests meshes from axes. The marks of such a mesh are those of the box, also with a halo, in another order and in single
+  ! Tests meshes from axes. The marks of a mesh that copies are those of the box, also with a halo, in another order and in single
   ! precision.
   subroutine test_grids()
     type(riis_mesh) :: mesh

@@ -102,7 +102,7 @@ contains
     call test_wrong_landmarks()
   end subroutine test_refusals
 
-  ! These faults are usual at a first try.
+  ! Tests faults in landmarks that are usual at a first try.
   subroutine test_wrong_landmarks()
     type(riis_valve) :: valve
     type(riis_placement) :: placement

@@ -40,7 +40,7 @@ program test_resistance
 
 contains
 
-  ! Makes the square from -1 to 1 at z = 0. The square comes from z = -0.01 in 2 ms, so u is 5 upwards.
+  ! Makes the square from -1 to 1 at z = 0. The square moves there from z = -0.01 in 2 ms, so its velocity u is 5 upwards.
   subroutine make_plate()
     type(riis_valve) :: square
     real(c_double) :: corners(3, 4)

@@ -3,7 +3,7 @@
 # Runs the fuzzing harnesses.
 #   fuzz.sh test BUILD_DIR HARNESS             runs one harness for RIIS_FUZZ_TEST_SECONDS (9) and keeps only findings
 #   fuzz.sh all BUILD_DIR SECONDS N_JOBS OUT   runs all harnesses for SECONDS altogether, N_JOBS at a time, and prints a table.
-#                                              OUT keeps their corpora for the next run, their logs and their findings.
+#                                              OUT keeps the harnesses' logs and findings, and their corpora for the next run.
 # RIIS_FUZZ_SEED is the seed of the mutations: 1 by default; "random" draws one. The seed is printed. The script fails if there is
 # a finding.
 set -euo pipefail
@@ -19,8 +19,8 @@ declare -A shares=([api]=8 [grid]=2 [vtk]=4 [vtu]=3 [vtp]=3 [vti]=2 [vtr]=2 [vts
 harnesses=(api grid vtk vtu vtp vti vtr vts pvd pvtu json stl obj ply command_line cycle msh xdmf foam)
 
 # options HARNESS SECONDS: prints the options for every run of a harness. The options limit the seconds for a single input. The
-# options also limit the memory, most of which the address sanitizer needs. An input of the allowed size should not reach these
-# limits.
+# options also limit the memory, most of which the address sanitizer needs. An input of the allowed size should not reach the
+# limits of time and memory.
 options() {
   local max_len=4096 dictionary=$1
   case $1 in

@@ -152,7 +152,7 @@ void destroy_something(Input &in, State &state) {
 
 namespace {
 
-// An input of zero bytes has no choices. Such an input makes all these calls in this order, and all succeed.
+// An input of zero bytes has no choices. With this input, all calls of the following list are made in order, and all succeed.
 void (*const calls[])(Input &, State &) = {make_valve,
                                            make_surface,
                                            make_mesh,

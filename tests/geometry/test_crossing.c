@@ -44,7 +44,7 @@ static void random_triangle(sample *s, int64_t largest) {
 }
 
 /* Returns the exponent of a random unit 2^exponent. With the smallest exponent, coordinates are just large enough to count as
- * different from 0. With the largest exponent they reach 1e60. */
+ * different from 0. With the largest exponent, coordinates reach 1e60. */
 static int random_exponent(int bits) { return -298 + (int)(random_bits(&rng) % (uint64_t)(298 + 199 - bits)); }
 
 TEST(small_numbers_meet_in_every_way) {
@@ -64,8 +64,8 @@ TEST(small_numbers_meet_in_every_way) {
   assert_true(n_met > n / 10 && n_met < n * 9 / 10 && n_in_plane > n / 10);
 }
 
-/* A segment passes through a corner, a point of a side, or an inner point of a triangle. This point is rounded to whole numbers,
- * and one end of the segment is off by at most 1. */
+/* A segment passes through a corner, a point of a side, or an inner point of a triangle. The point through which the segment
+ * passes is rounded to whole numbers, and one end of the segment is off by at most 1. */
 TEST(numbers_of_38_bits_are_told_apart) {
   int n_met = 0;
   const int n = trials(300000, 300000);

@@ -107,7 +107,7 @@ TEST(test_open_lines) {
   CHECK_NEAR(shim_uncovered_inside(3, lines[0], 0, NULL, n_lines), 0.5, 1e-12);
   assert_true(shim_uncovered_inside(2, lines[0], 0, NULL, n_lines) == -1);
   assert_true(shim_uncovered_inside(0, NULL, 0, NULL, n_lines) == -1);
-  /* Triangles that are seen edge on cover nothing. These triangles lie in three directions: along x, along y and slanted. */
+  /* Triangles that are seen edge on cover nothing, whether they lie along x, along y or slanted. */
   for (int i = 0; i < 4; ++i) {
     const double x = i % 2 ? 0.3 : 0, y = i / 2 ? 0.7 : 0;
     const double flat[3][6] = {{0, 0, 0, x, y, 0}, {x, y, 0, 2 * x, 2 * y, 1}, {2 * x, 2 * y, 1, 0, 0, 0}};
@@ -120,8 +120,8 @@ TEST(test_open_lines) {
   assert_true(shim_uncovered_inside(3, near_y[0], 0, NULL, n_lines) == -1);
 }
 
-/* Two triangles begin in one point of a line, at edges of different slopes. Only one of these edges counts, in every order of the
- * triangles the same edge. */
+/* Two triangles begin in one point of a line, at edges of different slopes. Only one of the two edges counts, and the order of
+ * the triangles does not decide which. */
 TEST(test_order_of_triangles) {
   const double line = 1.0 / n_edge_lines, origin[2] = {0, 0}; /* a line of the upper half passes here */
   const double upright[6] = {-0.5, line - 0.25, -0.5, line + 0.25, 0.5, line + 0.125};

@@ -80,7 +80,7 @@ TEST(agrees_on_needles) {
   int n = 0;
   for (int trial = 0; trial < 200000; ++trial) {
     const sample s = random_sample(pow(10, random_between(&rng, -3, 1)), pow(10, random_between(&rng, -11, -2)), 1);
-    /* So thin a triangle counts as having no area, and never reaches the kernel. */
+    /* A triangle below this height counts as having no area, and never reaches the kernel. */
     if (height_over_longest(s.abc) <= 2e-12) continue;
     check_sample(&s, &worst);
     ++n;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  * Computes distances by a loop over all triangles of a surface, for the tests of hosts. The user files of a host mark points by
- * riis, and their marks must follow from these distances. */
+ * riis, and the marks must follow from the distances of the loop. */
 #ifndef RIIS_HOSTS_BRUTE_H
 #define RIIS_HOSTS_BRUTE_H
 

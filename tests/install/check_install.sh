@@ -26,8 +26,8 @@ quietly() {
 c_flags=(-std=c99 -pedantic -Wall -Wextra -Werror)
 fortran_flags=(-std=f2018 -Wall -Wextra -Werror)
 
-# Lists all examples except those of MPI, which check_mpi_example.sh runs. A few examples need flags besides riis's flags. Such
-# flags follow the examples' names.
+# Lists all examples except those of MPI, which check_mpi_example.sh runs. A few examples need flags besides riis's flags. The
+# additional flags follow the names of the examples.
 all_examples=(first_marking prosthesis opening_valve pressure_opens cell_centres quadrature_points csr_from_elements
   single_precision openmp_caller overlap)
 few_examples=(first_marking openmp_caller)
@@ -67,7 +67,7 @@ expected_of() { # argument: name
   awk -v name="$1" '/^== / { inside = $2 == name; next } inside' "$source/tests/install/expected.txt"
 }
 
-# An example must print the same text in C and in Fortran, however it was built.
+# An example must print the same text in C and in Fortran, with each way to build the example.
 check_example() { # arguments: name, program
   "$2" >"$work/printed.txt" || problem "$2 failed"
   expected_of "$1" | diff - "$work/printed.txt" || problem "$2 does not print what it should"
@@ -327,7 +327,7 @@ done < <(find "$prefix" -type f \( -name '*.so.*' -o -name '*.a' \))
 
 # If a library directory is an absolute path, it does not move with the prefix. Everything must still be found. The check
 # configures the build tree again. Only the test of static libraries configures again, because it has a separate build tree.
-# Afterwards the test's fixture restores this tree.
+# Afterwards the test's fixture restores the build tree.
 is_configured_anew='' examples_of_moved=all
 if [ "$kind" = static ] && [[ $build == "$(dirname "$work")"/* ]]; then
   is_configured_anew=1 examples_of_moved=few

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # check_kernels.sh NM SET OBJECT...
 # Objects compiled for an instruction set must define their tables of kernels, and no other symbol that the linker sees. Otherwise
-# such an object might define a function that other objects also define, such as a weak function from a header. The linker could
-# then take the copy with instructions that the processor lacks.
+# an object might define a function that other objects also define, such as a weak function from a header. The linker could then
+# take the copy with instructions that the processor lacks.
 set -euo pipefail
 nm=$1 set=$2
 shift 2

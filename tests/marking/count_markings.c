@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0
  * count_markings MARKINGS [INSTRUCTIONS [WORD...]]
  * Marks one mesh repeatedly on one thread, so that the instructions of a marking can be counted. INSTRUCTIONS is one of
- * RIIS_INSTRUCTIONS_*, by default the baseline. The words `K` and `sides` request these fields. With the word `moving`, the valve
- * opens before each marking. Any other word is the kind of the valve. Prints the number of marked nodes, and a digest of the
- * nodes and distances. */
+ * RIIS_INSTRUCTIONS_*, by default the baseline. The words `K` and `sides` request K and the sides of nodes. With the word
+ * `moving`, the valve opens before each marking. Any other word is the kind of the valve. Prints the number of marked nodes, and
+ * a digest of the nodes and distances. */
 #include <inttypes.h>
 #include <riis/riis.h>
 #include <stdbool.h>

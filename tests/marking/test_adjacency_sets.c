@@ -23,7 +23,7 @@ typedef struct random_mesh {
   int64_t offsets[most_cells + 1], nodes[most_cells * most_corners]; /* counted from 0 */
 } random_mesh;
 
-/* Makes a mesh. `kind` is the number of corners of its cells, or 0 for a mixture. */
+/* Makes a mesh. `kind` is the number of corners of the mesh's cells, or 0 for a mixture. */
 static void make_mesh(random_mesh *mesh, int kind) {
   static const int kinds[4] = {4, 5, 6, 8};
   const int is_large = below(20) == 0; /* large enough for several blocks of nodes */

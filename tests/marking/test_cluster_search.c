@@ -155,8 +155,8 @@ TEST(masked_nodes_are_left_out) {
   }
 }
 
-/* Each mesh is one node. The size of the node's box is only the allowance for single precision. The limit is the node's distance,
- * or one bit less. */
+/* Each mesh is one node. The node's box is as small as the allowance for single precision. The limit is the node's distance, or
+ * one bit less. */
 TEST(nodes_at_the_limit_are_found) {
   riis_surface_options options = surface_options();
   options.half_thickness = 1e-4;
@@ -213,8 +213,8 @@ static riis_surface *sphere(int n, double radius, double half_thickness) {
 }
 
 /* Every point of the surface is equally far from the sphere's middle, so the filter leaves far more pairs than its buffer can
- * hold. The test counts the pairs that the filter must leave. The triangle of such a pair has a distance that exceeds the
- * smallest distance by at most the error of single precision. */
+ * hold. The test counts the pairs that the filter must leave. A pair must be left if its triangle's distance exceeds the smallest
+ * distance by at most the error of single precision. */
 TEST(more_pairs_than_room) {
   enum { n = 40, room = 4096 };
   riis_surface *surface = sphere(40, 0.9, 0.1);

@@ -103,8 +103,8 @@ TEST(valves_first_open_where_a_ladder_says) {
   }
 }
 
-/* Two plates slide apart along x. The slit between them is 2 * opening wide. A path through the slit exists if the nodes in its
- * middle are farther than the half thickness from both plates. */
+/* Two plates slide apart along x. The slit between the plates is 2 * opening wide. A path through the slit exists if the nodes in
+ * its middle are farther than the half thickness from both plates. */
 TEST(slits_open_at_their_width) {
   const double wide = 3;
   shape closed = {0}, open = {0};

@@ -192,9 +192,9 @@ static slopes slopes_of(double before, double now, double after, double step) {
   return (slopes){(now - before) / step, (after - now) / step, (after - before) / (2 * step)};
 }
 
-/* Tells whether a derivative is right although it differs from the central difference. Such a difference occurs beside a tie:
- * within the step, the closest point jumps from one place of the surface to another. The slope then falls at a kink, and the
- * central difference is off by up to half the kink. The derivative must be the slope on the side without the tie. */
+/* Tells whether a derivative is right although it differs from the central difference. Both differ beside a tie: within the step,
+ * the closest point jumps from one place of the surface to another. The slope then falls at a kink, and the central difference is
+ * off by up to half the kink. The derivative must be the slope on the side without the tie. */
 static int is_beside_tie(slopes s, double gradient, double speed) {
   return s.right < s.left && fmin(fabs(gradient - s.left), fabs(gradient - s.right)) <= 1e-5 * speed;
 }
@@ -558,8 +558,8 @@ TEST(rims_and_the_surface_itself) {
   }
 }
 
-/* K is flat at both ends of the band. At these ends the derivative of K is proportional to the distance from the band's end, and
- * keeps its digits. The square shifts by (1, 2, 3), so the distance of a node above the square falls by 3. */
+/* K is flat at both ends of the band. Near an end of the band, the derivative of K is proportional to the distance from the end,
+ * and keeps its digits. The square shifts by (1, 2, 3), so the distance of a node above the square falls by 3. */
 TEST(K_is_derived_from_the_distance_up_to_both_ends) {
   enum { n_powers = 15, n = 2 * n_powers };
   const double R = random_power_of_ten(&rng, -20, 20), eps = 0.1;
@@ -587,7 +587,8 @@ TEST(K_is_derived_from_the_distance_up_to_both_ends) {
 }
 
 /* Two squares, at z = 0 and z = 1. Only the upper square moves. A node at equal distances gets the derivative of the lower
- * square, which triangle_id names. The distance of such a node has a kink: the derivatives on both sides are 0 and -1. */
+ * square, which triangle_id names. The distance of a node at equal distances has a kink: the derivatives on both sides are 0 and
+ * -1. */
 TEST(ties_take_the_first_triangle) {
   shape two = unit_square();
   add_line(&two, 0, 0, 1, 1, 0, 1);

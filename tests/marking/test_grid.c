@@ -41,7 +41,7 @@ static riis_mesh *mesh_of_grid(const riis_grid *grid) {
   return own(mesh);
 }
 
-/* Returns an ascending axis of n nodes. The steps between its nodes differ by up to a factor of 10. */
+/* Returns an ascending axis of n nodes. The steps between the axis's nodes differ by up to a factor of 10. */
 static double *random_axis(int64_t n, double lower, double upper) {
   double *x = own(malloc((size_t)n * sizeof *x)), sum = 0;
   const int is_graded = any_of(2) == 0;

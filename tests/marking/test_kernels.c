@@ -168,7 +168,8 @@ TEST(decisions_have_the_bits_of_the_scalar_kernel) {
 }
 
 /* Triangles are random, are needles, have coinciding corners, or lie on lattices. One register of eight triangles mixes these
- * kinds. Some points are at corners and on edges. In some units, squares of coordinates nearly overflow or underflow. */
+ * kinds of triangles. Some points are at corners and on edges. In some units, squares of coordinates nearly overflow or
+ * underflow. */
 TEST(located_points_have_the_bits_of_the_scalar_kernel) {
   enum { n = 8 };
   static const int32_t each[n] = {0, 1, 2, 3, 4, 5, 6, 7};
@@ -729,9 +730,9 @@ TEST(points_are_placed) {
 
 /* --- Without any instruction set ------------------------------------------------------------------------------------- */
 
-/* The portable code is for processors without AVX2, AVX-512 and the baseline's instructions. This code does the operations of the
- * baseline set. If the baseline fuses multiplications and additions, its filter rounds differently. The groups are equal even
- * with fused operations, and the tests above check each filter separately. */
+/* The portable code is for processors without AVX2, AVX-512 and the baseline's instructions. The portable code does the
+ * operations of the baseline set. If the baseline fuses multiplications and additions, its filter rounds differently. The groups
+ * are equal even with fused operations, and the tests above check each filter separately. */
 TEST(portable_kernels_have_the_bits_of_the_baseline) {
   if (!kernels_there(portable_set)) skip();
   const int rounds_twice = kernels_baseline_rounds_twice();

@@ -195,8 +195,8 @@ static void add_expected(const riis_loads *loads, int64_t n, const double *nodes
   free_one_owned(w);
 }
 
-/* Gives the edges that hold the leaflets of a surface. These edges are the attachment, or two rows of open edges as a caller
- * would give them. */
+/* Gives the edges that hold the leaflets of a surface. The edges are the attachment, or two rows of open edges as a caller would
+ * give them. */
 static int64_t edges_of(const riis_surface *surface, int kind, double **edges, int32_t **leaflet) {
   riis_attachment held = {0};
   if (kind != 6) CHECK_OK(riis_surface_get_attachment(surface, &held, sizeof held));
@@ -364,7 +364,7 @@ TEST(mirrored_loads_are_mirrored) {
 /* --- A closed valve under pressure ----------------------------------------------------------------------------------- */
 
 /* The pressure falls by `drop` across the band along the distance, and K u = -grad p. The force must be `drop` times the vector
- * area of the surface. The forces at the vertices have this sum, and so have the forces at the tissue. */
+ * area of the surface. The forces at the vertices and the forces at the tissue must add up to this force. */
 static void check_closed(const char *kind, double limit) {
   const double eps = 0.06, r = 1e3, drop = 1.2e4;
   riis_surface_options options = surface_options();
@@ -570,7 +570,7 @@ TEST(refused_loads) {
   FORCES_ARE_REFUSED("sums: entry 3 of leaflet 1 is nan; it must come from riis_loads_add_sums");
   sums[14] = kept;
 
-  /* Leaflet 1 has two nodes, then none. The force on the leaflet would need three nodes. */
+  /* Leaflet 1 has two nodes, then none, but the force on a leaflet needs three nodes. */
   weight[2] = 0;
   memset(sums, 0, sizeof sums);
   CHECK_OK(riis_loads_add_sums(&good, &points, weight, sums));

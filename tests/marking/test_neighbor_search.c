@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  * The neighbour search gives the same result as the exhaustive search, to the last bit. The results agree for any mesh,
  * adjacency, mask, limit, number of threads and earlier marking. The paper's own algorithm finds only the connected part of the
- * band where it starts. This algorithm reports that nodes may be missing. */
+ * band in which it starts, and reports that nodes may be missing. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -147,7 +147,8 @@ TEST(any_adjacency_is_right) {
     options.n_threads = 1 + trial % 4;
     check_same_as_exhaustive(surface, mesh, options, NULL);
   }
-  /* First each node's only neighbour is the next node of a ring. Then every node is its own neighbour, many times. */
+  /* In the first mesh, each node's only neighbour is the next node of a ring. In the second mesh, every node is its own
+   * neighbour, many times. */
   for (int self = 0; self < 2; ++self) {
     nodes.columns = own(malloc((size_t)nodes.n * 5 * sizeof *nodes.columns));
     for (int64_t i = 0; i < nodes.n; ++i) {
@@ -272,8 +273,8 @@ TEST(nodes_at_the_limit_are_found) {
   }
 }
 
-/* The triangles are needles with a height of nearly 0. The nodes are as close to the needles as this height. The limit is the
- * first node's distance. The rounding of distances to needles must not lose a node. */
+/* The triangles are needles with a height of nearly 0. The distance of the nodes from the needles is as small as this height. The
+ * limit is the first node's distance. The rounding of distances to needles must not lose a node. */
 TEST(needles_lose_no_node) {
   static const int32_t ids[3] = {0, 1, 2};
   int n_surfaces = 0;
@@ -424,7 +425,7 @@ TEST(paper_finds_the_piece_that_it_starts_in) {
   }
 }
 
-/* The library chooses the default search. This search is complete with or without an adjacency. */
+/* The search that the library chooses by default is complete with or without an adjacency. */
 TEST(auto_is_never_incomplete) {
   riis_surface *surface = aortic_surface(NULL);
   test_mesh nodes = lattice_around(surface, 0.2, 0.2);

@@ -37,7 +37,7 @@ TEST(any_number_of_threads_gives_the_same_bits) {
         if (stats.n_threads > most[threads]) most[threads] = stats.n_threads;
         free_owned_after(n_outside);
       }
-    /* Several threads must really have run. The paper's search is a single walk. A second thread joins this walk only if the
+    /* Several threads must really have run. The paper's search is a single walk. A second thread joins the walk only if the
      * system schedules the thread in time. */
     for (int repeat = 0; repeat < 500 && most[2] < 2; ++repeat) {
       const int n_outside = n_owned();

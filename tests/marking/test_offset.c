@@ -120,7 +120,7 @@ static void check_marking(const char *kind) {
   }
   assert_int_equal(at, marked.n_nodes);
   /* Every search gives the same lists, with and without a limit, on any number of threads. The opposite offset with reversed
-   * normals also gives these lists. */
+   * normals gives the same lists. */
   for (int k = 0; k < 4; ++k)
     for (int has_limit = 0; has_limit < 2; ++has_limit) {
       riis_mark_options again = asked;
@@ -517,7 +517,8 @@ TEST(refusals) {
                 "options.offset is 0.5, but options.measure is 1, which does not tell the sides of a surface apart",
                 riis_surface_create(valve, &options, &surface));
   options.measure = RIIS_MEASURE_TRIANGLES;
-  /* Two triangles share an edge. Both triangles run along this edge in the same direction, so their normals are opposite. */
+  /* Two triangles share an edge. The corners of both triangles run along the edge in the same direction, so the triangles'
+   * normals are opposite. */
   static const double corner[12] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
   static const int32_t turned[6] = {0, 1, 2, 0, 3, 2}, right[6] = {0, 1, 2, 0, 2, 3};
   riis_surface_arrays arrays = triangle_arrays(4, corner, 2, right);

@@ -35,8 +35,8 @@ static riis_surface_options banded(double half_thickness, double offset, int fli
 
 enum { n_around = 40, n_rows = 5, n_across = 24 };
 
-/* Returns the leak for R = 1, a drop of 1 and the half thickness eps, divided by eps. This quotient equals the area of the moved
- * surface. */
+/* Returns the leak for R = 1, a drop of 1 and the half thickness eps, divided by eps. The returned quotient equals the area of
+ * the moved surface. */
 static double moved_area(const riis_surface_arrays *arrays, double eps, double offset, int flips) {
   const riis_surface_options options = banded(flips ? eps : 2 * eps, offset, flips);
   riis_surface *surface = surface_from(arrays, &options);
@@ -148,7 +148,7 @@ TEST(orifices_reach_less_far_into_the_flow) {
         const double share = vanishing == 0 ? 1 : fmax(0, 1 - offsets[k] / vanishing);
         CHECK_NEAR(found.rim_reach, c * share, 1e-15);
         assert_true(found.half_thickness == eps);
-        /* A band without an offset that reaches equally far leaves the same area. */
+        /* A band without an offset leaves an equal area if the band reaches equally far. */
         const riis_resistance thinner = resistance_of(1, fmax(share * eps, 1e-9), rim);
         const riis_orifice as_far = orifice_of(without, &thinner);
         CHECK_NEAR(found.effective_area, as_far.effective_area, 1e-7 * found.outline_area);

@@ -98,7 +98,7 @@ static int is_among(int64_t node, const int64_t *ids, int64_t n) {
   return i < n;
 }
 
-/* Chooses two ends outside the band. Returns 0 if the mesh has no such ends. */
+/* Chooses two ends of a passage outside the band. Returns 0 if the mesh has too few nodes outside the band. */
 static int random_ends(const test_mesh *rows, const riis_surface *surface, const uint8_t *mask, ends *e) {
   const double half_thickness = info_of(surface).half_thickness;
   e->n_from = e->n_to = 0;

@@ -3,14 +3,15 @@
 # check_same_bits.sh STATE_DIGESTS DIGESTS [all]
 # The bits of all states and placements must be those of the file DIGESTS. The bits must agree for every compiler, number of
 # threads and set of instructions, and for the C library's code for other processors. Prints the first states that differ. With
-# the word all, the program runs with each number of threads from 1 to 8 and each set of instructions. Without this word it runs
-# only with the extremes. After an intended change of bits, the output of STATE_DIGESTS replaces the file.
+# the word all, the program runs with each number of threads from 1 to 8 and each set of instructions. Without the word all, the
+# program runs only with the extreme numbers and sets. After an intended change of bits, the output of STATE_DIGESTS replaces the
+# file.
 set -euo pipefail
 program=$1 expected=$2 runs=${3:-}
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 
-# With these settings, glibc uses its code for processors without FMA and AVX2. Older versions have the names AVX2_Usable and
+# The settings make glibc use its code for processors without FMA and AVX2. Older versions have the names AVX2_Usable and
 # FMA_Usable.
 without_fma=glibc.cpu.hwcaps=-FMA,-AVX2,-FMA4,-AVX2_Usable,-FMA_Usable
 

@@ -225,7 +225,7 @@ static void add_cusps(patient *p, int n_cusps, double cosine, double sine) {
   }
 }
 
-/* Adds twelve points of an annulus. Some of these points have roles. */
+/* Adds twelve points of an annulus, some of which have roles. */
 static void add_annulus(patient *p, const char *kind) {
   const int is_tricuspid = strcmp(kind, "tricuspid") == 0, is_rigid = strcmp(kind, "bileaflet") == 0;
   const double half_root = 0.8660254037844386, wide = is_rigid ? 1.2 : 1.9, deep = is_rigid ? 1.2 : 1.5;

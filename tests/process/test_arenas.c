@@ -102,8 +102,8 @@ TEST_WITH(a_child_of_fork_walks_alone_and_ends, keep, let_go) {
   assert_int_equal(arenas_made(), 1);
 }
 
-/* This handler was registered first, so it runs last. The handler stands for the destructor of a caller's static object, which
- * may start a walk. */
+/* The handler of the process's exit was registered first, so it runs last. The handler stands for the destructor of a caller's
+ * static object, which may start a walk. */
 static pid_t process;
 static void walk_at_exit(void) {
   if (getpid() != process) return; /* a forked child also comes here */

@@ -212,7 +212,7 @@ TEST(parameters_are_refused_by_name) {
   CHECK_SAME(values[0], 1.29);
   CHECK_OK(riis_valve_get(valve, "right.translation", 3, values));
   CHECK_SAME(values[2], -1.0);
-  /* This name is longer than any message. */
+  /* A name may be longer than any message. */
   char long_name[5000];
   memset(long_name, 'x', sizeof long_name - 1);
   long_name[sizeof long_name - 1] = 0;

@@ -84,7 +84,8 @@ static int child_goes_on(const riis_valve *valve) {
 }
 
 /* A second thread holds a lock part of the time, so some forks happen while a lock is held. The address sanitizer of gcc 12 does
- * not unlock its allocator in a child. The child may then wait for ever, so these tests are omitted with this sanitizer. */
+ * not unlock its allocator in a child. The child may then wait for ever, so the tests of forks are omitted with the address
+ * sanitizer of gcc. */
 static void children_go_on_beside(void *(*other)(void *)) {
   if (is_sanitized()) skip();
   pthread_t thread;
@@ -130,7 +131,7 @@ static riis_status mark(const scene *s, int32_t search, int32_t n_threads, riis_
   return status ? status : riis_mark_nodes(s->surface, s->mesh, &options, result);
 }
 
-/* Makes each call with this n_threads. Returns how many calls give the status, and counts the calls. */
+/* Makes each call with the given n_threads. Returns how many calls give the status, and counts the calls. */
 static int with_status(const scene *s, int32_t n_threads, riis_status expected, const char *text, int *n_calls) {
   riis_mark_options options;
   riis_surface_options of_surface;

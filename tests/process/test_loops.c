@@ -113,8 +113,8 @@ TEST(the_choice_lasts_for_a_while) {
   assert_false(takes_team_at(12401, 8, waits, ends));
 }
 
-/* Two waits double the pause to 500 ms. Then n_calm loops do not wait, and the last loop waits. All these loops end at 1000
- * ms. */
+/* Two waits double the pause to 500 ms. Then n_calm loops do not wait, and the last loop waits. The n_calm loops and the last
+ * loop end at 1000 ms. */
 static int takes_team_after_calm(double now, int n_calm) {
   double waits[40] = {10, 5}, ended[40] = {100, 400};
   for (int i = 0; i <= n_calm; ++i) ended[2 + i] = 1000;
@@ -144,7 +144,7 @@ TEST(a_loop_is_alone_for_the_mean_loss) {
   double lost[64] = {4}, ended[64] = {0};
   for (int i = 0; i < 64; ++i) ended[i] = 100;
   assert_true(alone_at(1, 0, NULL, NULL) == 0);
-  /* A sixteenth of a loss counts. After each second, half of it still counts. */
+  /* A sixteenth of a loss counts, and the counted part halves in each second. */
   CHECK_NEAR(alone_at(100, 1, lost, ended), 4.0 / 16, 1e-5);
   CHECK_NEAR(alone_at(1100, 1, lost, ended), 4.0 / 32, 1e-5);
   CHECK_NEAR(alone_at(3100, 1, lost, ended), 4.0 / 128, 1e-5);

@@ -156,7 +156,8 @@ static int64_t try_one(const scenario *s, const reference *expected, int whose, 
       after.embree_bytes == before.embree_bytes && attempt < 5)
     return try_one(s, expected, whose, n, and_all_after, attempt + 1);
   const int grew = memcmp(&before, &after, sizeof before) != 0;
-  /* A first call of its kind may allocate memory and keep it. The test accepts such memory only for one call. */
+  /* A first call of its kind may allocate memory and keep it. The test accepts memory that stays only for one call of each
+   * kind. */
   if (grew && (!(s->flags & IS_FIRST) || n_grown++ > 0))
     fail_msg("%s, allocation %lld: leaks %lld of the library's, %lld of Embree's, %lld bytes of Embree's", s->name,
              (long long)n, (long long)(after.library - before.library), (long long)(after.embree - before.embree),

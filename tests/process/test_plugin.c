@@ -14,7 +14,7 @@ typedef int64_t mark_function(int32_t n_threads);
 
 static const char *path; /* of the plug-in */
 
-/* Loads the plug-in, marks nodes and unloads it. During the pause afterwards, waiting threads can run their code. */
+/* Loads the plug-in, marks nodes and unloads it. During the pause after the unloading, waiting threads can run their code. */
 static int64_t mark_by_plugin(int32_t n_threads) {
   void *const plugin = dlopen(path, RTLD_NOW | RTLD_LOCAL);
   mark_function *mark = NULL;

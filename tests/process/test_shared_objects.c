@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
  * Threads share new objects. A part of an object is made when a thread first needs it. There are more threads than processors, so
  * the system also interrupts a thread that is making a part. ./run tsan shows whether each part is handed over in an order that
- * every processor keeps. The emulator of ./run arm64 keeps the order of the processor on which it runs, so it cannot show
- * this. */
+ * every processor keeps. The emulator of ./run arm64 keeps the order of the processor on which it runs, so it cannot show a wrong
+ * order. */
 #include <omp.h>
 #include <riis/riis.h>
 
@@ -49,7 +49,7 @@ static uint64_t add_bytes(uint64_t digest, const void *bytes, int64_t n) {
   return digest;
 }
 
-/* The calls that make a part. Each call returns a digest of its result, or 0 after an error, and asserts nothing. */
+/* Calls that make a part of an object. Each call returns a digest of its result, or 0 after an error, and asserts nothing. */
 static uint64_t digest_of_marks(const shared_objects *of, int32_t search) {
   riis_mark_options options;
   riis_marks *result = NULL;

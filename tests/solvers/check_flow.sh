@@ -86,7 +86,7 @@ sed -i '$d' drops/runs.csv
 refuses "drops.py: /bin/false kind='trileaflet' opening=1.0 flow_rate=250.0 cells=24 eps=1.5e-3 offset=0.75 failed" \
   /usr/bin/python3 -B "$source/examples/flow_fortran/drops.py" /bin/false drops --short
 
-# Bad input must be refused with these texts.
+# Bad input must be refused with the following texts.
 at_20='flow: step 0, .000000 s: '
 refuses "$at_20"'the restart file whole/restart_140.bin is of another run: it has "valve trileaflet", here it is "valve aortic"' \
   "$flow" cells=16 kind="'aortic'" restart="'whole/restart_140.bin'"

@@ -33,7 +33,7 @@ OPEN = HEAD + "0.3,2e-5,0,5\n0.5,1e-4,0,5\n1,3e-4,0,5\n"
 
 
 def square(n, velocity):
-    """Returns the points y and z of a square of 80 mm below z = 0. Also returns its triangles and the velocities at the
+    """Returns the points y and z of a square of 80 mm below z = 0. Also returns the square's triangles and the velocities at the
     points."""
     y, z = np.meshgrid(np.linspace(-40e-3, 40e-3, n), np.linspace(-80e-3, 0, n), indexing="ij")
     points = np.column_stack([y.ravel(), z.ravel()])
@@ -136,7 +136,7 @@ class Dilated(unittest.TestCase):
         return case, points, np.array(faces)
 
     def test_start_of_the_wall(self):
-        """The run starts with the volume of the heart model without space. All further volumes also follow this model."""
+        """The run starts with the volume of the heart model without space, and all later volumes follow from this model."""
         case, points, faces = self.case()
         time = np.arange(0, zero_d.PERIOD, 1e-3)
         rows = np.ones((len(time), len(zero_d.COLUMNS)))

@@ -798,7 +798,7 @@ class Beat(Files):
 
 class Model(Files):
     def cases(self, spoil=None, by=0.0, last="0.04"):
-        """Writes a run, and its run by modelFoam. One value of the field `spoil` differs."""
+        """Writes a run, and its repetition by modelFoam. In the field `spoil`, the two runs differ at one value."""
         k = numpy.where(numpy.arange(N) < 150, self.random.random(N) + 1, 0)
         values = {check.K_NAME: k, "p": self.random.random(N), "U": self.random.random((N, 3))}
         shutil.rmtree(self.folder / "box-model", ignore_errors=True)

@@ -28,7 +28,7 @@ def limit_of(path, text):
 
 
 def limits_of_document(lines, most):
-    """Yields the limit of each line, or None for a line without a limit. `most` is the limit of text."""
+    """Yields the limit of each line, or None for a line without a limit. `most` is the limit of lines of text."""
     fence, is_comment, is_output, previous = None, False, False, ""
     for line in lines:
         mark = re.match(r"\s*```+\s*(\w*)", line)

@@ -9,7 +9,7 @@
 extern "C" {
 #endif
 
-/* A keeper of arenas. Each handle of the library has such a keeper. TBB's arenas exist until the last keeper is gone. */
+/* A keeper of arenas, which each handle of the library has. TBB's arenas exist until the last keeper is gone. */
 typedef struct arenas_keeper arenas_keeper;
 arenas_keeper *arenas_keep(void);
 void arenas_let_go(arenas_keeper **keeper);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Finds the nodes outside a band with an offset. A flood fill then passes through these nodes. Include after band_oracle.h and
- * flood_fill.h. */
+ * Finds the nodes outside a band with an offset, for a flood fill that passes through these nodes. Include after band_oracle.h
+ * and flood_fill.h. */
 #ifndef RIIS_TEST_BAND_FLOODS_H
 #define RIIS_TEST_BAND_FLOODS_H
 

@@ -25,8 +25,8 @@ static inline void free_edge_lengths(const riis_surface *surface, double *length
     }
 }
 
-/* Returns the area of the opening inside a disc around the axis, seen along the axis. No triangle covers this area, which is
- * counted on a grid of n x n squares. */
+/* Returns the area of the opening inside a disc around the axis, seen along the axis. The uncovered area is counted on a grid of
+ * n x n squares. */
 static inline double orifice_area(const riis_surface *surface, double radius, int n) {
   const riis_triangles all = triangles_of(surface);
   const double h = 2 * radius / n;

@@ -112,8 +112,8 @@ int64_t order_found_nodes(const riis_surface *surface, int64_t n_nodes, int n_th
  * code, which runs on any processor. */
 enum { baseline_set = 0, portable_set = 3, n_kernel_sets = 4 };
 int kernels_there(int set);
-/* Returns whether the baseline lacks fused multiply-add instructions. NEON has these instructions, and flags of the build can
- * switch them on. */
+/* Returns whether the baseline lacks fused multiply-add instructions. NEON has fused multiply-add instructions, and flags of the
+ * build can switch such instructions on. */
 int kernels_baseline_rounds_twice(void);
 const char *kernels_name(int set);
 

@@ -202,7 +202,7 @@ static riis_status update_from_triangles(world *w) {
   return riis_surface_update_from_arrays(w->surface, &arrays, &options);
 }
 
-/* Makes this surface's first query that also asks for a side. */
+/* Makes the first query of a surface that also asks for a side. */
 static riis_status closest_point(world *w) {
   const double point[3] = {0.1, 0.2, 0.3};
   riis_closest closest, before;
@@ -321,7 +321,7 @@ static riis_status mark_masked_and_wide(world *w) {
   options.node_mask = mask;
   return riis_mark_nodes(w->surface, w->mesh, &options, w->result);
 }
-/* These scenarios mark into a result that was used before. After one earlier marking, the result needs more memory. After
+/* The following scenarios mark into a result that was used before. After one earlier marking, the result needs more memory. After
  * several, it has enough. */
 static void marked_before(world *w) {
   ready_to_mark(w);

@@ -99,7 +99,7 @@ static real parameter_at(const cubic *c, real s) {
   return t;
 }
 
-/* Gives the control points of the curve between the parameters a and b. These points are the blossom's values at (a,a,a),
+/* Gives the control points of the curve between the parameters a and b. The control points are the blossom's values at (a,a,a),
  * (a,a,b), (a,b,b), (b,b,b). */
 static void restrict_to(const cubic *c, real a, real b, real part[4][3]) {
   for (int i = 0; i < 4; ++i)

@@ -21,9 +21,9 @@ typedef struct mitral_oracle mitral_oracle;
 mitral_parameters mitral_defaults(void);
 
 /* Makes the valve at the opening closed->opening, and ignores open->opening. The control points of the closed state come from
- * *closed, and those of the open state from *open. These points, anterior_ratio, triangle_size_ratio, tan(surface_angle), the
- * translation and the cleft's parameter are interpolated linearly. For a valve with one set of parameters, pass this set twice.
- * Returns NULL if memory runs out. */
+ * *closed, and those of the open state from *open. The control points, anterior_ratio, triangle_size_ratio, tan(surface_angle),
+ * the translation and the cleft's parameter are interpolated linearly. For a valve with one set of parameters, pass this set
+ * twice. Returns NULL if memory runs out. */
 mitral_oracle *mitral_oracle_create(const mitral_parameters *closed, const mitral_parameters *open);
 void mitral_oracle_destroy(mitral_oracle *oracle);
 

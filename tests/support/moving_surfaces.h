@@ -38,7 +38,7 @@ static inline kept_vertices vertices_of(const riis_surface *surface) {
   return made;
 }
 
-/* A valve's root that widens unevenly, tilts and shifts during a beat. `of` gives the sizes of these motions. */
+/* A valve's root that widens unevenly, tilts and shifts during a beat. `of` gives the sizes of the root's motions. */
 static inline void beat(const double *x, double time, const double *of, double *y) {
   const double phase = 2 * acos(-1) * time, angle = atan2(x[1], x[0]), tilt = of[0] * sin(phase);
   const double wide = 1 + of[1] * sin(phase + 0.3) * (1 + 0.5 * cos(2 * angle));

@@ -58,8 +58,8 @@ static inline double largest_velocity(const riis_triangles *s, const double *vel
   return largest;
 }
 
-/* Returns the rounding error of distances near p. If the distances of two points differ by less, rounding decides which point is
- * nearer. */
+/* Returns the rounding error of distances near p. If the distances of two points differ by less than the rounding error, rounding
+ * decides which point is nearer. */
 static inline long double rounding_near(const double *p, double half_thickness) {
   return 1e-13L * (half_thickness + fabs(p[0]) + fabs(p[1]) + fabs(p[2]));
 }

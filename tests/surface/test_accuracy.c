@@ -19,7 +19,8 @@ static riis_patches sheets(int64_t n, const int32_t *degree, const double *contr
   return patches;
 }
 
-/* The parabolic cylinder z = x^2 / (4 focal), |x| <= 2 focal, 0 <= y <= 1. Curves of degree 2 represent this surface exactly. */
+/* The parabolic cylinder z = x^2 / (4 focal), |x| <= 2 focal, 0 <= y <= 1. Curves of degree 2 represent a parabolic cylinder
+ * exactly. */
 static const double focal = 0.05;
 
 static riis_patches parabola(void) {

@@ -119,7 +119,7 @@ static int compare(const void *a, const void *b) {
 }
 
 TEST(annuli_are_fitted_or_refused) {
-  /* For these annuli, a fit with a single start ends at a wrong inclination. */
+  /* For the annuli of the following seeds, a fit with a single start ends at a wrong inclination. */
   static const uint64_t with_two_minima[] = {8067555987785431393u, 5133953779223791632u, 940912489951417561u};
   enum { n_known = sizeof with_two_minima / sizeof *with_two_minima, most_trials = 200 + n_known };
   const int n = is_long_test() ? most_trials : 20 + n_known;

@@ -208,7 +208,8 @@ TEST(fixed_triangulations) {
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "has an open state|fixed for none", riis_surface_update(surface, other, NULL));
 }
 
-/* Absurd values of the open state are refused. At opening 0 a valve with such values nevertheless has a surface. */
+/* Absurd values of the open state are refused. At opening 0, a valve with absurd values of the open state nevertheless has a
+ * surface. */
 TEST(absurd_open_states_are_refused) {
   riis_valve *valve = new_valve("aortic");
   riis_surface *surface = NULL;

@@ -260,8 +260,8 @@ TEST(a_ring_is_the_housing) {
   }
 }
 
-/* Cubic curves approximate the arcs, so they deviate from circles. The error bound includes this deviation. A tolerance that is
- * not larger than the deviation is refused. */
+/* Cubic curves approximate the arcs, and the error bound includes the deviation of the cubic curves from circles. A tolerance
+ * that is not larger than the deviation is refused. */
 TEST(the_bound_counts_that_arcs_are_cubics) {
   riis_valve *valve = new_valve("bileaflet");
   riis_surface *surface = NULL;

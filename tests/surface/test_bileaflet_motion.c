@@ -206,7 +206,7 @@ static int rim_at(const riis_surface *surface, const double *p) {
   return fields.rim[0];
 }
 
-/* Closed leaflets meet in an edge that is not a rim. A band that is cut at rims therefore has no slit at this edge. */
+/* Closed leaflets meet in an edge that is not a rim. A band that is cut at rims therefore has no slit between closed leaflets. */
 TEST(leaflets_that_meet_have_no_rim_there) {
   bileaflet of = bileaflet_defaults();
   of.ring_height = 0.4;

@@ -324,7 +324,7 @@ TEST(turns_are_told) {
   CHECK_NEAR(least.range.most, area_of_blades(turn), 5e-3);
   CHECK_NEAR(least.range.least, area_of_blades(1), 5e-3);
   assert_true(least.range.least_at == 1);
-  /* The search reaches the largest area, although no sample has this area. */
+  /* The search reaches the largest area, although none of its samples has the largest area. */
   const solution largest = solve(valve, "opening", least.range.most, &search);
   CHECK_NEAR(largest.value, turn, 1e-3);
   search.from = 0.5;

@@ -293,8 +293,8 @@ static point on_patch(const half *of, int patch, double u, double v) {
 }
 
 /* The angle between the tangent planes of both patches along the coaptation line, in degrees. Differences are of second order. If
- * the zone begins just above the root, the leaflet turns upwards within some micrometres (bend_radius). The step stays far below
- * this radius. Rounding then causes at most 1e-4 degrees. */
+ * the zone begins just above the root, the leaflet turns upwards within some micrometres (bend_radius). The step of the
+ * differences stays far below this radius. Rounding then causes at most 1e-4 degrees. */
 static double crease(const half *of, double u) {
   const double step = 1e-6;
   const point along = sum(1, on_patch(of, 0, u + step, 1), -1, on_patch(of, 0, u - step, 1));
@@ -459,7 +459,8 @@ static double off_side(const riis_valve_patches *patches, int32_t patch_id, int 
 }
 
 /* A zone that begins just above the root also has no crease. Beside the root, the leaflet turns upwards with a radius of 4
- * micrometres, as docs/theory/coapting.md says. Differences coarser than this radius would report the turn as a crease. */
+ * micrometres, as docs/theory/coapting.md says. Differences over steps longer than this radius would report the turn as a
+ * crease. */
 TEST(a_low_zone_turns_sharply_without_a_crease) {
   static const double low[n_sizes] = {1.3233848, 1.0696550, 1.2100624, 0.3307880, 0.2947382, 0.00658190, 39.099050,
                                       0.5418369, 0.4873270, 0.5369197, 0.4438359, 0.8011948, 0.0445718};
@@ -485,7 +486,7 @@ TEST(a_low_zone_turns_sharply_without_a_crease) {
   }
 }
 
-/* With these sizes, the fully open leaflet is nearly tangent to itself beside the root. The triangles of the default tolerance
+/* With some sizes, the fully open leaflet is nearly tangent to itself beside the root. The triangles of the default tolerance
  * cross by a fraction of a micrometre, but the valve does not. */
 TEST(a_nearly_tangent_leaflet_does_not_cross) {
   static const double near[n_sizes] = {0.98866634, 0.92969360, 1.24758771, 0.44617366, 0.39553918,
@@ -504,8 +505,8 @@ TEST(a_nearly_tangent_leaflet_does_not_cross) {
   printf("a nearly tangent leaflet: at %lld of 11 openings only triangles cross\n", (long long)n_shallow);
 }
 
-/* Each cusp equals its mirror image, and a turn by 120 degrees maps the valve to itself. Both symmetries hold with either
- * triangulation, even for random sizes. Cusps have the same bits at the commissures. */
+/* Each cusp equals its mirror image, and a turn by 120 degrees maps the valve to itself. The symmetry by mirroring and the
+ * symmetry by turning hold with either triangulation, even for random sizes. Cusps have the same bits at the commissures. */
 TEST(cusps_are_equal) {
   random_source random = random_start("test_coapting");
   for (int trial = 0; trial < trials_of(18); ++trial) {
@@ -803,7 +804,7 @@ TEST(every_parameter_by_name) {
   riis_valve *valve = new_valve("coapting");
   int64_t n;
   CHECK_OK(riis_valve_get_n_parameters(valve, &n));
-  /* These parameters are the translation, the opening, the length of a skirt and the edge's stretch. The parameters of
+  /* Parameters that are no sizes: the translation, the opening, the length of a skirt and the edge's stretch. The parameters of
    * commissures, cusps and bumps follow. */
   assert_int_equal(n, n_sizes + 4 + 3 * 2 + 3 * 4 + 6 * 6);
   riis_surface *half_open = new_surface(valve_at("coapting", 0.5), NULL);

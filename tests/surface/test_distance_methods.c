@@ -334,7 +334,7 @@ TEST(minimisation_is_never_below) {
 }
 
 /* A known failure: the search starts in the middle, goes to the wrong arm of the hairpin and stays there. The distance and the
- * mark are then wrong. */
+ * mark from this search are wrong. */
 TEST(minimisation_ends_in_local_minima) {
   riis_valve *valve = hairpin();
   riis_surface_options options = surface_options();
@@ -417,8 +417,8 @@ static void mark(const riis_surface *surface, const riis_mesh *mesh, int32_t sea
   CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
 }
 
-/* All complete searches find the nodes that a query of every node finds, for any number of threads. The paper's search finds a
- * part of these nodes. */
+/* All complete searches find the nodes that a query of every node finds, for any number of threads. The paper's search may find
+ * only a part of the nodes. */
 TEST(searches_agree) {
   random_source rng = random_start("searches_agree");
   riis_valve *hairpin_valve = hairpin();

@@ -215,7 +215,7 @@ TEST(a_triangle_without_area_keeps_its_id) {
   check_same_topology(&first, &now);
 }
 
-/* If the surface angle is 0, the leaflets are Coons patches. These patches share their edges only at opening 0. */
+/* If the surface angle is 0, the mitral leaflets are Coons patches, which share their edges only at opening 0. */
 TEST(flat_mitral_leaflets_stay_within_the_bound) {
   rng = random_start("test_fixed_triangulation");
   riis_valve *valve = new_valve("mitral");

@@ -655,7 +655,7 @@ TEST(test_exact_mitral) {
     if (trial % 3 == 1) memset(p.flow, 0, sizeof p.flow); /* the commissures show the atrium's side */
     place_patient(&p, scales[trial % 3]);
     /* With the default noise, some valves have a size that counts as undetermined. Exact landmarks still give the exact value of
-     * such a size. */
+     * an undetermined size. */
     if (trial % 2 == 0) p.noise = 0.01 * p.scale;
     riis_valve *valve = new_valve("mitral");
     const answer found = place(valve, &p);
@@ -1183,7 +1183,7 @@ TEST(test_refused_sectors_and_saddles) {
   REFUSED("mitral_coapting", left, "flow points to the atrium", p.flow[2] = 1);
   REFUSED("mitral_coapting", left, "landmark 0 (trigone) has a role", p.role[0] = RIIS_LANDMARK_TRIGONE);
 #undef REFUSED
-  /* These commissures leave less than 50 degrees to a cusp. */
+  /* The commissures may leave less than 50 degrees to a cusp, which is refused. */
   patient narrow = pair;
   for (int i = 1; i < 4; i += 2) narrow.xyz[i][0] = 1.19, narrow.xyz[i][1] *= 0.13;
   answer found;

@@ -227,8 +227,8 @@ TEST(vertices_move_as_the_oracles) {
   printf("at random points the velocity is off by %.3f of tolerance, per unit of opening, at most\n", share);
 }
 
-/* The mean velocity over a step is the velocity at the step's middle. At the step's end, the error of this velocity is therefore
- * proportional to the length of the step. */
+/* The mean velocity over a step is the velocity at the step's middle. The mean velocity therefore differs from the velocity at
+ * the step's end in proportion to the length of the step. */
 TEST(the_error_falls_with_the_time_between) {
   double last = 0;
   for (int i = 1; i <= 3; ++i) {

@@ -189,7 +189,8 @@ TEST(leaflets_and_patches) {
 }
 
 /* An edge of only one triangle lies on the annulus or on the free edge of an open valve. Any other such edge lies inside another
- * triangle's edge, up to rounding. Such edges occur where quads of different levels or polylines of different patches meet. */
+ * triangle's edge, up to rounding. Edges inside another edge occur where quads of different levels or polylines of different
+ * patches meet. */
 TEST(has_no_cracks) {
   for (int i = 0; i <= 2; ++i) {
     const int owned_before = n_owned();
@@ -258,8 +259,8 @@ TEST(closed_leaflets_share_their_edge) {
   assert_true(n_shared >= 6 && 3 * n_shared >= n_of_edge);
 }
 
-/* Two neighbouring grid lines of a patch join the same two sides. Returns the least distance of two such lines, as a fraction of
- * the longer side. */
+/* Two neighbouring grid lines of a patch join the same two sides. Returns the least distance of two neighbouring grid lines, as a
+ * fraction of the longer side. */
 static double least_step(const riis_triangles *c, int32_t patch, double *longer) {
   double length_of[2] = {0, 0}, *u = own(malloc((size_t)c->n_triangles * 2 * sizeof *u));
   size_t n = 0;

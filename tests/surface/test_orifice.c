@@ -200,7 +200,8 @@ static double area_by_turned_lines(const riis_surface *surface, double radius, c
 
 /* Orifices inside the disc or the attachment are compared with the results of turned lines. The attachment of the aortic valve is
  * not a closed line. The free edges of the coapting valve extend beyond the attachment. The orifices must also equal expected
- * numbers from polygons, which other programs made. These numbers are for valves whose axis of view follows from symmetry. */
+ * numbers from polygons, which other programs made. The numbers from polygons are for valves whose axis of view follows from
+ * symmetry. */
 TEST(orifices_are_those_of_turned_lines) {
   static const double openings[] = {0, 0.25, 0.5, 0.75, 1};
   static const double by_polygons[n_kinds][5] = {{-1, -1, -1, -1, -1},

@@ -85,8 +85,8 @@ static double length_of_commissure(const riis_surface *surface) {
   return length;
 }
 
-/* Arrays of a valve's triangles have the valve's free edges. A patch may have vertices inside the edges of its neighbours. Such
- * edges do not count as boundary. The attachment is the outline. */
+/* Arrays of a valve's triangles have the valve's free edges. A patch may have vertices inside the edges of its neighbours, and
+ * these edges do not count as boundary. The attachment is the outline. */
 TEST(arrays_have_the_edges_of_their_valve) {
   static const char *const kinds[3] = {"trileaflet", "aortic", "mitral"};
   for (int trial = 0; trial < trials_of(36); ++trial) {

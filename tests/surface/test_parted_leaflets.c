@@ -18,7 +18,7 @@ static riis_orifice orifice_of(const riis_surface *surface) {
   return orifice;
 }
 
-/* Triangles, before and after they are changed. */
+/* Arrays of triangles, which a test changes. */
 typedef struct soup {
   int64_t n_vertices, n_triangles;
   double *xyz;

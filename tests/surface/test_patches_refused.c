@@ -88,7 +88,7 @@ TEST(curves_are_checked) {
   CHANGED_IS_REFUSED(square.degree[2] = 4, RIIS_INVALID_PARAMETER, "degree of curve 2 is 4;");
   CHANGED_IS_REFUSED(square.degree[0] = -1, RIIS_INVALID_PARAMETER, "degree of curve 0 is -1;");
   CHANGED_IS_REFUSED(square.degree[3] = INT32_MAX, RIIS_INVALID_PARAMETER, "degree of curve 3 is 2147483647;");
-  /* These arrays have six numbers for each straight curve. */
+  /* The array `control` has six numbers for each straight curve. */
   CHANGED_IS_REFUSED(arrays.control[23] = NAN, RIIS_INVALID_PARAMETER,
                      "z of control point 1 of curve 3 is nan;|at most 1e+30");
   CHANGED_IS_REFUSED(arrays.control[0] = -INFINITY, RIIS_INVALID_PARAMETER, "x of control point 0 of curve 0 is -inf;");

@@ -216,7 +216,7 @@ static void check_pair(const riis_crossing_list *pairs, int64_t at, const double
   double middle[3];
   const double length = oracle_segment(a, b, middle);
   CHECK_NEAR(pairs->depth[at], depth, 0x1p-24 * longest + 0x1p-48 * largest);
-  /* The angle between the planes is at least depth / longest. The smaller this ratio, the less exact is the segment. */
+  /* The angle between the planes is at least depth / longest. If this ratio is smaller, the segment is less exact. */
   const double error = 0x1p-44 * (longest + largest) * longest / depth;
   CHECK_NEAR(pairs->length[at], length, error);
   for (int i = 0; i < 3; ++i) CHECK_NEAR(pairs->point[3 * at + i], middle[i], error);

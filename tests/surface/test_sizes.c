@@ -345,7 +345,7 @@ TEST(all_values_are_set_when_read_back) {
   options.triangulation = RIIS_TRIANGULATION_FIXED;
   riis_surface *surface = new_surface(valve, &options);
   assert_true(is_same_content(surface, new_surface(back, &options)));
-  /* The fixed triangulation accepts the other valve, because only values count. */
+  /* A fixed triangulation accepts a valve with equal values, whether the values were set or follow rules. */
   CHECK_OK(riis_surface_update(surface, back, NULL));
   for (int k = 0; k < 2; ++k) CHECK_OK(riis_valve_set_scalar(k ? back : valve, "leaflet_height", 1.3));
   CHECK_NEAR(value_of(valve, "bending_height"), 0.65, 1e-15);
@@ -612,7 +612,7 @@ static double bound_of_power(const riis_valve *valve, int k) {
                                         value_of(valve, of_cusp(k, "leaflet_angle"))});
 }
 
-/* Every size, angle and exponent of an aortic valve varies by this share. The sum of the angles stays 180 degrees. */
+/* Makes an aortic valve whose sizes, angles and exponents vary by at most `share`. The sum of the angles stays 180 degrees. */
 static riis_valve *random_aortic(double share, int power) {
   riis_valve *valve = new_valve("aortic");
   double sum = 0;
@@ -710,8 +710,8 @@ static int attachment_turns_back(const riis_valve *valve) {
   return turns_back;
 }
 
-/* Returns whether the attachments of two closed neighbours pass each other below their commissure. At every height both
- * attachments are at the same t. The distance of a cusp beyond the plane through the axis and the commissure is (1 - t) (c0 + c1
+/* Returns whether the attachments of two closed neighbours pass each other below their commissure. At every height, the parameter
+ * t is equal on both attachments. The distance of a cusp beyond the plane through the axis and the commissure is (1 - t) (c0 + c1
  * t). The distance is -R sin(a) at t = 0, and -b sin(a - a_b) at s. If the sum of both (c0 + c1) is positive, the sum of both
  * distances is positive at some height. Opening moves the attachments apart. */
 static int attachments_pass(const riis_valve *valve) {
@@ -793,7 +793,7 @@ TEST(an_open_cusp_may_fold) {
   }
 }
 
-/* With these bending angles, the attachments of the right and the left cusp pass each other. Nothing else is wrong. */
+/* With some bending angles, the attachments of the right and the left cusp pass each other. Nothing else is wrong. */
 TEST(passing_attachments_cross) {
   riis_valve *valve = new_valve("aortic");
   for (int passes = 0; passes < 2; ++passes) {
@@ -811,7 +811,7 @@ TEST(passing_attachments_cross) {
   }
 }
 
-/* Four causes explain every valve that crosses. If leaflet_power is not set, these causes are rare. */
+/* Four causes explain every valve that crosses. If leaflet_power is not set, all four causes are rare. */
 TEST(aortic_cusps_rarely_cross) {
   const int n = trials(6, 300);
   for (int power = follows; power <= any_power; ++power)

@@ -289,7 +289,8 @@ TEST(sides_are_right_beside_the_skirt) {
   }
 }
 
-/* A wall around the z axis through (x, y). At each angle, the wall is farther from this axis than the attachment by a gap. */
+/* A wall around an axis that passes through (x, y) along z. At each angle, the wall is farther from the axis than the attachment
+ * by a gap. */
 enum { n_angles = 720 };
 typedef struct wall_shape {
   const riis_attachment *held;
@@ -329,7 +330,7 @@ static int leaks(const riis_surface *surface, const test_mesh *nodes) {
 }
 
 /* The closed valve stands in a mesh with a gap between the attachment and the wall. A skirt as long as the gap closes the gap.
- * The aortic valve is left out, because it leaks in such a mesh even if the wall cuts its attachment. */
+ * The aortic valve is left out, because it leaks even if the wall cuts its attachment. */
 TEST(skirts_seal_gaps) {
   static const double gaps[4] = {0.05, 0.1, 0.15, 0.2};
   for (int kind = 0; kind < 4; kind += kind == 1 ? 2 : 1)
@@ -565,7 +566,8 @@ static double largest_step(riis_valve *valve, riis_warp *warp, int n, const doub
   return largest;
 }
 
-/* A quadratic equation gives the gap to a round tube. A skirt to this tube ends on the tube, and the leaflets stay the same. */
+/* A quadratic equation gives the gap to a round tube. A skirt to a round tube ends on the tube, and does not change the
+ * leaflets. */
 TEST(skirts_reach_walls_and_no_farther) {
   for (int trial = 0; trial < n_trials_of_kinds(); trial += trial_step()) {
     const int owned_before = n_owned(), kind = trial % n_skirted;
@@ -623,8 +625,8 @@ TEST(skirts_reach_walls_and_no_farther) {
     CHECK_AT_MOST(farthest, allowed);
     assert_true(all.n_triangles > triangles_of(bare).n_triangles);
 
-    /* The skirt's lengths belong to the valve's shape. A copy of the valve therefore has these lengths, and a fixed triangulation
-     * refuses a valve with other lengths. */
+    /* The skirt's lengths belong to the valve's shape. A copy of the valve has the skirt's lengths, and a fixed triangulation
+     * refuses a valve whose skirt has other lengths. */
     riis_valve *copy = NULL;
     CHECK_OK(riis_valve_copy(valve, &copy));
     own(copy);
@@ -773,8 +775,8 @@ TEST(wrong_skirts_are_refused) {
   new_surface(trileaflet, NULL);
 }
 
-/* If a wall cuts the valve, it is nearer than the attachment in some places. The skirt is thin in these places, and longer in
- * others. */
+/* If a wall cuts the valve, it is nearer than the attachment in some places. The skirt is thin where the wall is nearer than the
+ * attachment, and longer elsewhere. */
 TEST(skirts_to_cutting_walls_cross_nothing) {
   static const char *const kinds[] = {"coapting", "trileaflet", "aortic", "mitral"};
   static const int as_kind[] = {0, 0, 2, 1}; /* the position in `skirted` of a kind with the same axis */
@@ -813,7 +815,7 @@ TEST(skirts_to_cutting_walls_cross_nothing) {
 }
 
 /* The cusps of a warped aortic valve are not joined at the commissures, so their skirts end beside each other. A violent warp may
- * make the cusps go through each other, or fold a patch onto its skirt. The test does not judge the skirts of such warps. */
+ * make the cusps go through each other, or fold a patch onto its skirt. The test does not judge the skirts of a violent warp. */
 TEST(skirts_of_warped_cusps_cross_nothing) {
   const int n_trials = trials(6, 100);
   int n_states = 0, n_judged = 0, n_own = 0;

@@ -435,8 +435,8 @@ static double nearest_share(const strip *at, const double *p) {
   return share;
 }
 
-/* The attachment of a warped valve is material that the map moves. The skirt's inner side moves with this material. The outer
- * side moves with the points that lie outwards from it. */
+/* The attachment of a warped valve is material that the map moves. The skirt's inner side moves with the material of the
+ * attachment. The outer side moves with the points that lie outwards from it. */
 TEST(skirts_move_with_warped_attachments) {
   for (int kind = 0; kind < n_kinds; ++kind)
     for (int fixed = 0; fixed < 2; ++fixed) {
@@ -494,7 +494,7 @@ TEST(skirts_move_with_warped_attachments) {
       smooth_motion_destroy(warped), smooth_motion_destroy(resting);
       printf("%s, %s, warped: off by %.2g %% of the largest speed at the attachment, %.2g %% at the outer edge\n",
              kinds[kind], fixed ? "fixed" : "adapted", 100 * worst[0], 100 * worst[1]);
-      /* A curve of the patches turns by 120 degrees. The slide of its material is less exact. */
+      /* A curve of the patches turns by 120 degrees, so the slide of the curve's material is less exact. */
       const double allowed = kind == of_patches ? 0.03 : 0.01;
       CHECK_AT_MOST(worst[0], allowed);
       CHECK_AT_MOST(worst[1], allowed);

@@ -137,7 +137,8 @@ static void check_same_measures(const riis_surface *with, const riis_surface *ba
 }
 
 /* A valve from arrays has the axis of a valve from patches. For the built-in mitral valve the axis is vertical. For the built-in
- * aortic valve the axis is that of the root. The limits here allow for angles from these axes (docs/theory/skirt.md). */
+ * aortic valve the axis is that of the root. The following limits allow for axes at an angle to these directions
+ * (docs/theory/skirt.md). */
 static const double share_of_length[n_kinds] = {0.005, 0.005, 0.02, 0.1};
 
 TEST(a_valve_that_is_given_back_gets_its_own_skirt) {

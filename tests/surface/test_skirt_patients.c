@@ -26,8 +26,8 @@ enum { n_attachment = 18, n_landmarks = 6 + n_attachment, n_round = 132, n_high 
 
 static double radians(double degrees) { return degrees * acos(-1) / 180; }
 
-/* From this state, the random numbers make an aortic patient with a special plane along the axis. The plane passes through the
- * ends of two cusps, and one cusp's attachment leans across it. Skirts on both sides of the plane would cross. */
+/* From this state of the generator, random numbers make an aortic patient with a special plane along the axis. The plane passes
+ * through the ends of two cusps, and one cusp's attachment leans across it. Skirts on both sides of the plane would cross. */
 static const uint64_t state_of_leaning_patient = 3451592321834770229u;
 
 static root random_root(int is_wide) {

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
- * A surface that is updated in its old memory equals a new surface. Content, closest points and marks have the same bits in both.
- * The equality holds for any earlier content of the surface, and for any number of threads. The equality also holds after updates
- * without a query, and for first queries that several threads make at once. A refused update changes nothing, and its message
- * does not depend on the number of threads. */
+ * A surface that is updated in its old memory equals a new surface. Content, closest points and marks of both surfaces have the
+ * same bits. The equality holds for any earlier content of the surface, and for any number of threads. The equality also holds
+ * after updates without a query, and for first queries that several threads make at once. A refused update changes nothing, and
+ * its message does not depend on the number of threads. */
 #include <pthread.h>
 #include <riis/riis.h>
 

@@ -46,8 +46,8 @@ TEST(closed_free_edges_are_straight) {
 
 static int64_t n_of_pairs, n_of_places;
 
-/* Checks pairs of vertices of different cusps that are nearer than 1e-9. Such a pair must have the same bits, up to the sign of
- * zero. Counts such pairs, and the pairs on the axis. */
+/* Checks pairs of vertices of different cusps that are nearer than 1e-9. The vertices of a pair must have the same bits, up to
+ * the sign of zero. Counts such pairs, and the pairs on the axis. */
 static void check_common_vertices(const riis_surface *surface, double scale) {
   const riis_triangles all = triangles_of(surface);
   int32_t *cusp = own(malloc((size_t)all.n_vertices * sizeof *cusp));

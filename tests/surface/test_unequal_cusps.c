@@ -271,7 +271,7 @@ TEST(neighbours_share_their_points) {
     CHECK_OK(riis_valve_set_scalar(valve, "opening", random_between(&random, 0, 1)));
     CHECK_OK(riis_valve_set_scalar(valve, "skirt_length", trial % 4 < 2 ? 0 : 0.2));
     const riis_triangles all = triangles_of(new_surface(valve, NULL));
-    /* The ends of the attachments, as both neighbours have them. */
+    /* The ends of the attachments at the commissures, which must be equal in both neighbours. */
     double commissures[4][3];
     int is_known[4] = {0, 0, 0, 0}, n_checked = 0;
     for (int64_t i = 0; i < 3 * all.n_triangles; ++i) {
@@ -654,7 +654,8 @@ TEST(equal_cusps_become_unequal_in_motion) {
   CHECK_AT_MOST(worst, 1e-9);
 }
 
-/* A fused commissure has patches that an unfused commissure lacks. A little fusion gives these patches to both states. */
+/* A fused commissure has patches that an unfused commissure lacks. With a little fusion, both states have the patches of a fused
+ * commissure. */
 TEST(fusion_of_one_state_only_is_refused) {
   riis_valve *whole = valve_at("coapting", 0.4), *fused = copy_of(whole), *nearly = copy_of(whole);
   set_of(fused, "commissure", 1, "fusion", 0.3);

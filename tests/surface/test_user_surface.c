@@ -126,8 +126,8 @@ TEST(winding_is_the_callers_unless_flipped) {
   assert_int_equal(closest_to(flipped, 0.9, 0.1, 1).side, -1);
 }
 
-/* Two triangles lie back to back. At the common edges the sum of their normals is 0 up to rounding. The side is therefore taken
- * from the reported triangle alone. */
+/* Two triangles lie back to back. At the common edges, the sum of the triangles' normals is 0 up to rounding, so the side of a
+ * point follows from the reported triangle alone. */
 TEST(side_of_folded_faces_is_the_triangles_own) {
   const double points[9] = {0.1, 0.2, 0.3, 1.7, 0.4, 0.1, 0.3, 1.9, 0.7};
   const int32_t faces[6] = {0, 1, 2, 1, 0, 2};
@@ -244,8 +244,8 @@ TEST(vertices_alone_are_refused_without_their_faces) {
                 riis_surface_update_from_arrays(surface, &vertices, NULL));
 }
 
-/* A closed body with sharp edges. Points inside are recognised even if the closest point is on an edge or a corner. At such
- * points, the normal of a single face would give the wrong side. */
+/* A closed body with sharp edges. Points inside are recognised even if the closest point is on an edge or a corner. On an edge or
+ * a corner, the normal of a single face would give the wrong side. */
 TEST(side_at_edges_and_corners_of_a_wedge) {
   /* A thin tetrahedron. The dihedral angles are far below and far above 90 degrees. */
   const double points[12] = {0, 0, 0, 4, 0, 0, 2, 0.5, 0, 2, 0.25, 0.3};

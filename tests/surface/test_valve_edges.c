@@ -126,7 +126,8 @@ static double open_area(const riis_surface *surface, double root_radius) {
   return orifice_area(surface, half_width, n) - (double)n_beside * pow(2.0 * half_width / n, 2);
 }
 
-/* The orifices at the openings 0, 1/4, 1/2, 3/4 and 1, or -1. Another implementation of the construction gave these orifices. */
+/* The orifices at the openings 0, 1/4, 1/2, 3/4 and 1, from another implementation of the construction. -1 stands for an unknown
+ * orifice. */
 typedef struct orifices {
   const char *kind, *settings;
   double area[5];
@@ -172,7 +173,7 @@ TEST(orifices_are_those_of_the_prototype) {
       CHECK_OK(riis_surface_get_orifice(surface, NULL, &orifice, sizeof orifice));
       printf(" %.2f, %.2f for %.2f;", area, orifice.area, of->area[i]);
       off = fmax(off, fabs(area - of->area[i]));
-      /* The library's outline is the attachment. This outline differs from the disc, because the commissures expand. */
+      /* The library's outline is the attachment, which differs from the disc, because the commissures expand. */
       CHECK_NEAR(orifice.area, area, 0.05 * of->area[4]);
     }
     printf(" off by %.1f %% of the open one\n", 100 * off / of->area[4]);

@@ -229,8 +229,8 @@ TEST(the_bound_is_near) {
     CHECK_AT_MOST(largest, most[kind]);
   }
   /* At opening 0.633 a joint of the annulus passes the end of a mitral patch. The span behind the joint is short at this opening,
-   * and its length changes many times over. A bound that compared the two states on such a span would reach 3.8 times the largest
-   * speed. */
+   * and its length changes many times over. A bound that compared the two states on this short span would reach 3.8 times the
+   * largest speed. */
   riis_valve *passing = new_valve("mitral"), *just_before = new_valve("mitral");
   double worst = 0;
   for (int i = 2; i <= 60; i += trial_step()) {
@@ -244,7 +244,7 @@ TEST(the_bound_is_near) {
   }
   printf("mitral, where a joint passes: the bound is at most %.3g of the largest speed\n", worst);
   CHECK_AT_MOST(worst, 0.2);
-  /* At this opening the leaflets are flat, and begin to bend. */
+  /* At the opening below, the leaflets are flat and begin to bend. */
   riis_valve *valve = new_valve("mitral"), *before = new_valve("mitral"), *open = new_valve("mitral");
   CHECK_OK(riis_valve_set_scalar(valve, "surface_angle", 25));
   CHECK_OK(riis_valve_set_scalar(open, "surface_angle", -25));

@@ -191,9 +191,9 @@ TEST(the_map_solves_its_equations) {
       CHECK_NEAR(info.rms_residual, sqrt(0.6 * 3 * (n - 4.0) / n) * noise, 1e-6 * noise);
     }
     if (isfinite(info.smoothing)) {
-      /* The library's lambda is for coordinates in units of the largest root mean square extent. The test therefore finds lambda
-       * from the residuals. Because K w + P c + residual is the target, each residual is lambda times the weight of its
-       * landmark. */
+      /* The library's smoothing parameter lambda is for coordinates in units of the largest root mean square extent. The test
+       * instead computes lambda from the residuals. Because K w + P c + residual is the target, each residual is lambda times the
+       * weight of its landmark. */
       for (int i = 0; i < n; ++i) {
         for (int k = 0; k < n; ++k) a[i * m + k] = pow(distance3(from + 3 * i, from + 3 * k) / unit, 3);
         for (int k = 0; k < 4; ++k) a[i * m + n + k] = a[(n + k) * m + i] = k == 0 ? 1 : from[3 * i + k - 1] / unit;
@@ -561,7 +561,7 @@ TEST(warped_valves_seal) {
 
 /* --- An annulus that moves -------------------------------------------------------------------------------------------- */
 
-/* A step of a moving annulus. The maps of its two times come from separate warps. */
+/* A step of a moving annulus. The maps at both times of the step come from separate warps. */
 typedef struct {
   riis_valve *now, *before;           /* warped */
   riis_valve *rest_now, *rest_before; /* the same without warps */
@@ -879,8 +879,8 @@ TEST(folds_are_found_and_named) {
   assert_memory_equal(mapped[0], mapped[1], sizeof mapped[0]); /* a refusal changes nothing */
 }
 
-/* A warp may turn over a part of a patch, or fold at a patch but not at landmarks. Such a warp is refused, and the message names
- * the patch. */
+/* A warp may turn over a part of a patch, or fold at a patch but not at landmarks. A warp that turns over or folds a patch is
+ * refused, and the message names the patch. */
 TEST(folds_at_patches_are_named) {
   riis_valve *valve = new_valve("trileaflet");
   riis_surface *surface = new_surface(valve, NULL);
@@ -949,8 +949,8 @@ static double normal(double deviation) {
 }
 
 /* The landmarks of random patients have a clinician's noise, which smooths the warp. No part of a leaflet turns over at any
- * opening. With exact landmarks, no part turns over either. Five times this noise without smoothing folds nearly every valve.
- * RIIS_TEST_LONG=1 takes 100 patients of each sort. */
+ * opening. With exact landmarks, no part turns over either. Five times a clinician's noise without smoothing folds nearly every
+ * valve. RIIS_TEST_LONG=1 takes 100 patients of each sort. */
 TEST(warps_of_patients_do_not_fold) {
   const int n_patients = trials(25, 100), n_openings = is_short_test() ? 5 : 50;
   const struct { double noise, smoothing; } sorts[3] = {{0.03, 0.03}, {0, 0}, {0.15, 0}};

@@ -234,8 +234,8 @@ static flow flow_through(const filled_mesh *in, test_valve valve, const char *na
 }
 
 /* Checks that the valve fills the mesh, and that edges are short enough for the half thickness to close the gap at the wall. An
- * edge in the gap is at most `to_wall` from the attachment. One of its nodes is therefore at most `to_wall` plus half an edge
- * away. */
+ * edge in the gap is at most `to_wall` from the attachment. One node of the edge is therefore at most `to_wall` plus half an edge
+ * away from the attachment. */
 static void expect_filled(flow found) {
   CHECK_AT_MOST(found.to_wall, 0.5 * half_thickness);
   CHECK_AT_MOST(found.to_wall + 0.5 * found.longest_edge, half_thickness);

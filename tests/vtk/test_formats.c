@@ -15,7 +15,7 @@
 #include "scratch.h"
 #include "vtk_shim.h"
 
-/* Reads a mesh and writes it again. The reader must report these notes. */
+/* Reads a mesh and writes it again. The reader must report the given notes. */
 static void rewrite(const char *from, const char *to, const char *notes) {
   riis_vtk_mesh *mesh = NULL;
   const char *text = NULL;
@@ -339,7 +339,7 @@ TEST(test_meshio) {
   }
   rewrite("single.xdmf", "again.vtu", "its points have single precision");
   expect_same("again.vtu", "plain.vtu", SHIM_FLOATS, 27);
-  /* A slash separates HDF5's groups, so the datasets of these three arrays need other names. */
+  /* A slash separates HDF5's groups, so the datasets of arrays with a slash in their names need other names. */
   scratch_write_text("named.py",
                      "import os, sys, meshio, numpy\n"
                      "os.chdir(sys.argv[1])\n"

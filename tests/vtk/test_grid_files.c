@@ -196,7 +196,7 @@ TEST(test_axes) {
       grid = random_grid(0);
       grid.is_single = any_of(3) == 0;
       check_file("grid.vtr", encoding, &grid, 1);
-      /* Legacy files of text have fewer digits of the origin. The first index of such a file is 0. */
+      /* Legacy files of text have fewer digits of the origin. The first index of a legacy file is 0. */
       grid = random_grid(any_of(2) == 0);
       for (int c = 0; c < 3; ++c) grid.first[c] = 0, grid.origin[c] = 0.125 * c, grid.spacing[c] = 0.25;
       check_file("grid.vtk", grid.x[0] ? SHIM_LEGACY_BINARY : SHIM_LEGACY_ASCII + trial % 2, &grid, 1);

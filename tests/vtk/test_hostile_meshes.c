@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Tests files of meshes that cannot be read. Each such file causes an error, and the message names the file. The call prints and
- * returns nothing. A truncated file is never read as a smaller mesh. */
+ * Tests files of meshes that cannot be read. Each file that cannot be read causes an error, and the message names the file. The
+ * call prints and returns nothing. A truncated file is never read as a smaller mesh. */
 #include <riis/riis_vtk.h>
 #include <stdint.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Compares the adjacency of meshes from files with the edges of VTK's cells. Also compares it with the edges of other cells on
- * the same nodes. */
+ * Compares the adjacency of meshes from files with the edges of VTK's cells. Also compares the adjacency with the edges of other
+ * cells on the same nodes. */
 #include <math.h>
 #include <riis/riis_vtk.h>
 #include <stdint.h>
@@ -385,8 +385,8 @@ TEST(test_quadratic_tetrahedra) {
   plain_free(&corners);
 }
 
-/* riis counts cells whose edges it does not know. Such cells are a convex point set, a Lagrange tetrahedron with nodes beyond its
- * lattice, and a Lagrange wedge of 21 nodes. Faces and points do not count as volume cells. */
+/* riis counts cells whose edges it does not know. The cells with unknown edges are a convex point set, a Lagrange tetrahedron
+ * with nodes beyond its lattice, and a Lagrange wedge of 21 nodes. Faces and points do not count as volume cells. */
 TEST(test_unknown_cells) {
   const struct {
     const char *cells;

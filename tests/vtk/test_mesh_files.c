@@ -134,7 +134,8 @@ TEST(test_legacy_keywords) {
   assert_true(rank[0] == 7 && rank[1] == 8);
 }
 
-/* The file has bit arrays and blocks of METADATA. VTK's writer puts such blocks after arrays whose range was queried. */
+/* The file has bit arrays and blocks of METADATA. VTK's writer puts a block of METADATA after each array whose range was
+ * queried. */
 TEST(test_legacy_metadata) {
   for (int i = 0; i < 4; ++i) {
     int64_t n = 0, n_read_cells = 0;

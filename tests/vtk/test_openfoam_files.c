@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Tests meshes of OpenFOAM. OpenFOAM's programs make them: blockMesh as text, binary and compressed, gmshToFoam with all linear
- * cells, polyDualMesh with polyhedra, and decomposePar. foamToVTK and gmsh write these meshes independently. */
+ * Tests meshes that OpenFOAM's programs make: blockMesh as text, binary and compressed, gmshToFoam with all linear cells,
+ * polyDualMesh with polyhedra, and decomposePar. foamToVTK and gmsh write these meshes independently. */
 #include <math.h>
 #include <riis/riis_vtk.h>
 #include <stdint.h>

@@ -624,8 +624,8 @@ static void expect_corners(const char *name, int red, int green, int blue) {
   free(picture.rgb);
 }
 
-/* The background has the colour of the options. A transparent picture can be laid on white and on black. The transparent picture
- * then equals the pictures drawn on these colours, up to the rounding of each layer. */
+/* The background has the colour of the options. A transparent picture can be laid on white and on black. On either colour, the
+ * transparent picture equals a picture that is drawn on this colour, up to the rounding of each layer. */
 TEST(test_backgrounds) {
   static const char *const on[2] = {"white.png", "black.png"};
   riis_vtk_picture_options options = looks(0.2, 0.4, 0.6, 1, RIIS_VTK_CAPTIONS_ALL);

@@ -211,8 +211,8 @@ class Panel:
             self.points(to, color=color, size=2.2, zorder=6)
 
     def edge_towards(self, to, *texts):
-        """Returns the point at which a leader leaves texts. This is the point of the texts' bounding box that is nearest to the
-        leader's end."""
+        """Returns the point at which a leader leaves texts. The leader leaves at the point of the texts' bounding box that is
+        nearest to the leader's end."""
         renderer = self.sheet.figure.canvas.get_renderer()
         boxes = [text.get_window_extent(renderer) for text in texts]
         x, y = self.axis.transData.transform(to)

@@ -27,7 +27,7 @@ ends 1 "known is CaNS 245a233" "${patch[@]}" "$cans" --undo
 ends 1 "cannot read $work/none/src/main.f90" "${patch[@]}" "$work/none"
 [[ $before == "$(tree_of "$work/folder")" ]] || problem "a refusal changed the tree"
 
-# The file contains the lines around the calls. One of its bytes is not valid UTF-8.
+# A file that contains the lines around the calls, and a byte that is not valid UTF-8.
 cat >"$cans/src/main.f90" <<END
 program cans
   use mod_updatep        , only: updatep

@@ -41,7 +41,7 @@ for ranks in (1, 2, 4):
     if ranks > 1:
         RUNS[f"plate_20_{ranks}/points.001"] = POINTS.splitlines(True)[1]
 
-# A file, a text of it, and the text of the fault.
+# Each fault is a file, a text in this file, and the faulty text that replaces it.
 FAULTS = (("plate_0/log", "1.000127100", "1.021"), ("plate_20_1/log", "1.000127100", "0.979"),
           ("plate_20_2/log", "1.000127100", "1.000147100"), ("plate_20_4/points.001", "0.0000000000000000E+00", "1E-3"),
           ("plate_20_2/points.000", "4.0000000000000000E+05", "4.0000000000100000E+05"),

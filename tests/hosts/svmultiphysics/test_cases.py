@@ -168,7 +168,7 @@ class Cases(unittest.TestCase):
                                                  "outer": self.side(cases.OUTER)})
         self.assertAlmostEqual(pipe.volume(), inner * HEIGHT, places=12)
         self.assertAlmostEqual(wall.volume(), (outer - inner) * HEIGHT, places=12)
-        # Both sides of the interface have the same nodes.
+        # The pipe's side and the wall's inner side have the same nodes.
         sides = [sorted(Part(path / name).places) for name in ("pipe/side.vtp", "wall/inner.vtp")]
         self.assertEqual(*sides)
         self.assertEqual([entry.get("type") for entry in root.findall("Add_equation")], ["FSI", "mesh"])
