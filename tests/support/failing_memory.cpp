@@ -32,7 +32,7 @@ Object object_of(const char *function) {
     std::uintptr_t address;
     Object found;
   } sought{reinterpret_cast<std::uintptr_t>(dlsym(RTLD_DEFAULT, function)), {}};
-  // A static library exports nothing, so its functions are in the object of this function.
+  // The names of a static library cannot be looked up. Its functions are in the executable that also contains object_of.
   if (!sought.address) sought.address = reinterpret_cast<std::uintptr_t>(&object_of);
   dl_iterate_phdr(
       [](dl_phdr_info *info, std::size_t, void *data) {

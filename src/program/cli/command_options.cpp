@@ -302,7 +302,7 @@ void declare_style(Command &command, PictureStyle &style) {
   command.parsed("--picture-size", "WIDTHxHEIGHT", "Pixels of pictures and movies (default 1600x800)", style.size,
                  parse_size);
   command.parsed("--picture-background", "COLOUR",
-                 "white (default), black, transparent, or a colour such as f4f1ea: riis help pictures",
+                 "white (default), black, transparent, or a colour such as f4f1ea; see riis help pictures",
                  style.background, parse_background);
   command.choice("--picture-captions", "Captions: all (default), scale (only the scale bar) or none", caption_names,
                  style.captions, "WHICH");

@@ -286,7 +286,7 @@ std::optional<PassageReport> passage_within(const MarkOptions &options, const Me
   const auto are_joined = [&] { return ways.are_joined(placed[0].place, placed[1].place); };
   for (const auto &[p, q] : matched.joined) ways.unite({p, {0, 0}}, {q, {0, 0}});
   if (are_joined()) {
-    // Both ends are one node, or a way beyond the limit joins the ends.
+    // Both ends are the same node, or a path of nodes beyond the limit joins the ends.
     if (placed[0].place.is_region()) return std::nullopt;
     return passage_at(placed[0].node, band.half_thickness, ends);
   }

@@ -48,9 +48,8 @@ class Movie {
   std::size_t n_frames_ = 0;
 };
 
-// Draws the pictures of a run at its first time. In a series, also draws the movie. The pictures and the movie show all valves as
-// one surface, and the marks of the whole mesh.
-
+// Draws the pictures of a run at the first of its times. In a series, also draws the movie. The pictures and the movie show all
+// valves as one surface, and the marks of the whole mesh.
 class RunPictures {
  public:
   // The mesh gets the arrays that pictures show, so it must not be written to a file afterwards. Without a mesh, the pointer is

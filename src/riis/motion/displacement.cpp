@@ -131,8 +131,8 @@ struct MaterialArcs {
 
 using OfSides = std::array<std::array<Vec3, n_material>, 4>;  // vectors on the sides v0, v1, u0, u1.
 
-// Vectors at the even shares of a patch's warped sides. The vectors lie on the polynomials that pass through the vectors at the
-// shares `nodes`.
+// The vectors at evenly spaced points of a patch's warped sides. The vectors lie on the polynomials that pass through the vectors
+// at the shares `nodes` of each side.
 class AtShares {
  public:
   AtShares(const std::array<std::array<double, n_material>, 4> &nodes, const OfSides &values) {
