@@ -44,8 +44,8 @@ constexpr double first_drop = 0.2;
 constexpr std::array<double, 4> edge_rise{0, 0, 0.6, 1};
 // A bump's lift acts on a meridian's first inner control point by this share.
 constexpr double lift_of_start = 0.3;
-// Next to a commissure, bumps lift a leaflet at most by this share of commissure_length more than at the commissure. A leaflet that
-// is steeper there would go through its neighbour, because the two lie close together.
+// Next to a commissure, bumps lift a leaflet at most by this share of commissure_length more than at the commissure. A leaflet
+// that is steeper there would go through its neighbour, because the two lie close together.
 constexpr double most_lift_by_commissure = 0.5;
 // A leaflet that is too short moves back in steps until it lacks less than this share of its length.
 constexpr int most_steps = 60;
