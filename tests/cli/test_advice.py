@@ -109,7 +109,7 @@ class Advice(unittest.TestCase):
     def test_a_search_that_misses_nodes(self):
         self.box(n=40, holes=lambda cell: cell[0] in (19, 20))
         done = self.riis("mark", "mesh.vtk", "--search", "paper", "--output", "marked.vtu")
-        advised = self.advised(done, r"; (--search neighbor) finds them")
+        advised = self.advised(done, r"; (--search neighbor) finds these nodes")
         complete = self.riis("mark", "mesh.vtk", *advised, "--output", "marked.vtu")
         self.assertNotIn("incomplete", complete.stderr)
 

@@ -44,7 +44,7 @@ constexpr double first_drop = 0.2;
 constexpr std::array<double, 4> edge_rise{0, 0, 0.6, 1};
 // A bump lifts a meridian's first inner control point by only `lift_of_start` of its lift.
 constexpr double lift_of_start = 0.3;
-// Next to a commissure, bumps lift a leaflet at most `most_lift_by_commissure` commissure_length farther than the commissure.
+// Next to a commissure, bumps lift a leaflet at most `most_lift_by_commissure` * commissure_length farther than the commissure.
 // A steeper leaflet would go through its neighbour, because leaflets lie close together there.
 constexpr double most_lift_by_commissure = 0.5;
 // A leaflet that is too short moves back in steps until it lacks less than this share of its length.
