@@ -124,7 +124,7 @@ sv_cases() (
     "${write[@]}" fluid tube.msh cases/short 10 20000 0.1 ramp.xml &&
     "${write[@]}" fluid tube.msh cases/plain 30 20000 0.1 plain.xml &&
     "${write[@]}" fluid tube.msh cases/two 11 20000 0.1 first.xml second.xml &&
-    "${write[@]}" taylor-hood coarse.msh cases/th 5 20000 0.1 plain.xml &&
+    "${write[@]}" taylor-hood coarse.msh cases/th 1 20000 0.1 plain.xml &&
     "${write[@]}" fsi elastic.msh cases/fsi 9 20000 0.1 plain.xml
 )
 
