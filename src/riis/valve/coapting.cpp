@@ -276,10 +276,13 @@ struct CuspMotion {
 
 // Returns the states between which a cusp moves. A long open edge hangs deep. If such an edge leaves the commissures steeply, the
 // leaflet folds beside its attachment. The nearer a cusp is to a fold, the flatter its edge therefore leaves the commissures.
-// Three equal cusps keep the shape that they have always had.
+// Three equal cusps keep their usual edge, because their bits must not change. Fused cusps also keep it, because the patches beside
+// the fused part would become too narrow.
 CuspMotion motion_of(const CuspSizes &closed, CuspSizes open) {
   EndStates usual = end_states(closed, open);
-  if (open.keeps_ratio) return {std::move(usual), false};
+  const bool is_fused =
+      std::any_of(open.sides.begin(), open.sides.end(), [](const CuspSizes::Side &side) { return side.fusion > 0; });
+  if (open.keeps_ratio || is_fused) return {std::move(usual), false};
   const double rise = least_rise_on_way(usual);
   if (!(rise < usual_rise)) return {std::move(usual), false};
   open.open_sag *= std::max(0.0, 1 - (usual_rise - rise) / rise_until_level);
