@@ -276,8 +276,8 @@ struct CuspMotion {
 
 // Returns the states between which a cusp moves. A long open edge hangs deep. If such an edge leaves the commissures steeply, the
 // leaflet folds beside its attachment. The nearer a cusp is to a fold, the flatter its edge therefore leaves the commissures.
-// Three equal cusps keep their usual edge, because their bits must not change. Fused cusps also keep it, because the patches beside
-// the fused part would become too narrow.
+// Three equal cusps keep their usual edge, because their bits must not change. Fused cusps also keep it, because the patches
+// beside the fused part would become too narrow.
 CuspMotion motion_of(const CuspSizes &closed, CuspSizes open) {
   EndStates usual = end_states(closed, open);
   const bool is_fused =
