@@ -258,20 +258,27 @@ double least_rise_of(const Vector<Vector<HalfCusp>> &halves) {
   return least;
 }
 
-// Returns the least rise at the root at the openings at which cusps fold. An edge that hangs too low is refused elsewhere.
-double least_rise_on_way(const EndStates &states) {
+// The least rise at the root at the openings at which cusps fold, without the openings at which the edge hangs too low.
+struct RiseOnWay {
   double least = std::numeric_limits<double>::infinity();
+  bool hangs_too_low = false;  // at one of these openings
+};
+RiseOnWay rise_on_way(const EndStates &states) {
+  RiseOnWay rise;
   for (const double at : openings_of_folds) {
     const CuspNumbers cusp = blend(states.closed, states.open, at);
     const double depth = edge_depth(cusp);
-    if (!hangs_lower(cusp, depth, least_height)) least = std::min(least, least_rise_of(halves_at(cusp, depth)));
+    if (hangs_lower(cusp, depth, least_height))
+      rise.hangs_too_low = true;
+    else
+      rise.least = std::min(rise.least, least_rise_of(halves_at(cusp, depth)));
   }
-  return least;
+  return rise;
 }
 
 struct CuspMotion {
   EndStates states;
-  bool would_fold;  // with the usual open edge
+  enum class Fold { unknown, none, with_usual_edge } fold;
 };
 
 // Returns the states between which a cusp moves. A long open edge hangs deep. If such an edge leaves the commissures steeply, the
@@ -282,11 +289,12 @@ CuspMotion motion_of(const CuspSizes &closed, CuspSizes open) {
   EndStates usual = end_states(closed, open);
   const bool is_fused =
       std::any_of(open.sides.begin(), open.sides.end(), [](const CuspSizes::Side &side) { return side.fusion > 0; });
-  if (open.keeps_ratio || is_fused) return {std::move(usual), false};
-  const double rise = least_rise_on_way(usual);
-  if (!(rise < usual_rise)) return {std::move(usual), false};
+  if (open.keeps_ratio || is_fused) return {std::move(usual), CuspMotion::Fold::unknown};
+  const auto [rise, hangs_too_low] = rise_on_way(usual);
+  if (!(rise < usual_rise))
+    return {std::move(usual), hangs_too_low ? CuspMotion::Fold::unknown : CuspMotion::Fold::none};
   open.open_sag *= std::max(0.0, 1 - (usual_rise - rise) / rise_until_level);
-  return {end_states(closed, open), !(rise >= least_rise)};
+  return {end_states(closed, open), rise >= least_rise ? CuspMotion::Fold::unknown : CuspMotion::Fold::with_usual_edge};
 }
 
 // Returns the halves with the derivatives of their control points by the opening. The derivatives are computed as differences.
@@ -307,8 +315,8 @@ Vector<MovingHalf> moving_halves(const CuspNumbers &closed, const CuspNumbers &o
 // checked, because one set of values defines both states.
 void check_cusp(const ValveValues &values, std::size_t k) {
   const CuspSizes sizes = values.sizes(k, values.has_equal_halves());
-  const auto [states, would_fold] = motion_of(sizes, sizes);
-  const auto &[closed, open] = states;
+  const CuspMotion motion = motion_of(sizes, sizes);
+  const auto &[closed, open] = motion.states;
   // Equal cusps have no names in messages. Names are made only if a check fails.
   const bool is_half = closed.size() == 1;
   const auto name = [&](const char *of_equal, const char *before, std::size_t number, const char *behind) {
@@ -334,6 +342,8 @@ void check_cusp(const ValveValues &values, std::size_t k) {
            " times root_radius, which is ", sizes.root_radius,
            ", above the root: look at commissure_height, effective_height");
   }
+  if (motion.fold == CuspMotion::Fold::none) return;
+  const bool would_fold = motion.fold == CuspMotion::Fold::with_usual_edge;
   for (const double at : openings_of_folds) {
     const CuspNumbers cusp = blend(closed, open, at);
     const double rise = least_rise_of(halves_of(cusp));

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -205,6 +206,18 @@ class Valve {
         {};  // changes atomically, because several threads may read a valve
   };
 
+  // The digest of the last shape whose values were checked, or 0. It changes atomically, because several threads may read a
+  // valve.
+  struct CheckedShape {
+    std::atomic<std::uint64_t> digest{0};
+    CheckedShape() = default;
+    CheckedShape(const CheckedShape &other) : digest(other.digest.load()) {}
+    CheckedShape &operator=(const CheckedShape &other) {
+      digest = other.digest.load();
+      return *this;
+    }
+  };
+
   const ValveKind *kind_;
   // The positions of the parameters that define the disc. Each time step needs these positions, and a search by name is slow.
   std::optional<std::size_t> radius_;
@@ -213,6 +226,7 @@ class Valve {
   std::optional<ValveState> open_;
   std::optional<Warp> warp_;
   SkirtLengths skirt_lengths_;  // empty for a skirt of one length
+  mutable CheckedShape checked_;
   std::uint64_t revision_ = next_revision();
 };
 
