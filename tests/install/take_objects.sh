@@ -24,4 +24,5 @@ if [[ ${!#} -nt $taken ]]; then
   exec "$@"
 fi
 cp -- "$taken" "$object"
-[[ ! $rules ]] || printf '%s: %s\n' "$object" "${!#}" >"$rules"
+# If the build tree compiles the object again, for example after a change of a header, the object must be copied again.
+[[ ! $rules ]] || printf '%s: %s %s\n' "$object" "${!#}" "$taken" >"$rules"
