@@ -116,9 +116,11 @@ class Flow:
 def leak(runs, judge):
     flow = Flow(runs, "closed")
     formula = numbers(lines_of(runs, "closed", "RIIS_LEAK")[0])[0]
-    ratio = flow.outflow[-1] / formula
-    judge.row(f"closed valve, {flow.drive[-1]:.0f} dyn/cm^2: leak of {flow.outflow[-1]:.4f} ml/s over the formula's "
-              f"{formula:.4f}", f"{ratio:.4f}", "0.95 to 1.05", 0.95 <= ratio <= 1.05)
+    # In a band as thick as the distance of two points, blood beside the leaflets accelerates, and the leak slowly grows.
+    for step, least, most in ((flow.step.index(5), 0.98, 1.02), (-1, 0.95, 1.05)):
+        ratio = flow.outflow[step] / formula
+        judge.row(f"closed valve, {flow.drive[step]:.0f} dyn/cm^2, step {flow.step[step]:.0f}: leak of {flow.outflow[step]:.4f} "
+                  f"ml/s over the formula's {formula:.4f}", f"{ratio:.4f}", f"{least} to {most}", least <= ratio <= most)
 
 
 def share(runs, judge):

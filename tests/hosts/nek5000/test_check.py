@@ -41,13 +41,17 @@ for ranks in (1, 2, 4):
     if ranks > 1:
         RUNS[f"plate_20_{ranks}/points.001"] = POINTS.splitlines(True)[1]
 
+LEAK = "0.00{}000 0.00000  10000.0 1.231100000E+00 {}"  # the time of a step, and the leak in it
+
 # Each fault is a file, a text in this file, and the faulty text that replaces it.
 FAULTS = (("plate_0/log", "1.000127100", "1.021"), ("plate_20_1/log", "1.000127100", "0.979"),
           ("plate_20_2/log", "1.000127100", "1.000147100"), ("plate_20_4/points.001", "0.0000000000000000E+00", "1E-3"),
           ("plate_20_2/points.000", "4.0000000000000000E+05", "4.0000000000100000E+05"),
           ("plate_0/log", "differ   0", "differ   1"), ("closed/log", "6.98E-16", "6.98E-12"),
           ("whole/log", "marked    4511", "marked 0"),
-          ("closed/log", "RIIS_LEAK    1.235000", "RIIS_LEAK    1.300000"), ("beat/log", "3.90000", "4.10000"),
+          ("closed/log", "RIIS_LEAK    1.235000", "RIIS_LEAK    1.300000"),
+          ("closed/log", LEAK.format(5, "1.2311"), LEAK.format(5, "1.2011")),
+          ("closed/log", LEAK.format(8, "1.2311"), LEAK.format(8, "1.1511")), ("beat/log", "3.90000", "4.10000"),
           ("beat/log", "-1.05", "-1.25"), ("beat/log", "0.800000", "0.700000"),
           ("restart/points.000", "2.0E+00   2.0E+00", "2.0E+00   2.00001E+00"),
           ("restart/points.000", "4.0000000000000000E+05", "4.00001E+05"))
