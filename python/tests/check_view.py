@@ -131,9 +131,10 @@ class Browser:
         return self.driver.find_element(By.CSS_SELECTOR, selector)
 
     def settle(self):
-        """Waits for the end of all transitions, such as those of dialogs and of parts that unfold."""
-        script = """return document.getAnimations().every(each =>
-          each.playState !== "running" || each.effect.getComputedTiming().iterations === Infinity)"""
+        """Waits for the end of all transitions, such as those of dialogs and of parts that unfold. Sliders move as long as a
+        heartbeat plays, so their transitions do not count."""
+        script = """return document.getAnimations().every(each => each.playState !== "running" ||
+          each.effect.getComputedTiming().iterations === Infinity || each.effect.target.closest(".v-slider"))"""
         self.wait(lambda: self.driver.execute_script(script), "the end of all transitions")
 
     def click(self, find):
@@ -267,9 +268,8 @@ def place_by_clicks(browser):
     say("a drag in the picture and a typed number move the valve")
 
 
-def play(browser):
-    browser.press("#play")
-    browser.wait(lambda: browser.get("playing") and len(browser.get("curves")) == 3, "it plays, with curves")
+def watch_times(browser):
+    """Waits until the page has shown eight times of a heartbeat."""
     times, end = [], time.monotonic() + LIMIT
     while len(set(times)) < 8 and time.monotonic() < end:
         times.append(browser.get("time"))
@@ -277,6 +277,21 @@ def play(browser):
         if 0.1 < times[-1] < 0.35:
             browser.shot("6-playing")
     assert len(set(times)) >= 8, sorted(set(times))
+
+
+def play(browser):
+    browser.press("#play")
+    browser.wait(lambda: browser.get("playing") and len(browser.get("curves")) == 3, "it plays, with curves")
+    watch_times(browser)
+    # The heartbeat continues if the event "load" of a picture comes before the picture's number, or not at all.
+    browser.driver.execute_script(
+        "window.riis_hide = (event) => event.stopImmediatePropagation();"
+        'document.getElementById("riis-picture").addEventListener("load", window.riis_hide, true)'
+    )
+    watch_times(browser)
+    browser.driver.execute_script(
+        'document.getElementById("riis-picture").removeEventListener("load", window.riis_hide, true)'
+    )
     browser.press("#play")
     browser.wait(lambda: not browser.get("playing"), "it pauses")
     browser.rest()

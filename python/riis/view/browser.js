@@ -3,9 +3,18 @@
 // server answers, so that a slow server skips pictures and never lags behind the hand.
 "use strict";
 (() => {
-  let image = null, busy = false, gesture = null, ended = false, start = null;
+  let image = null, busy = false, gesture = null, ended = false, start = null, acknowledged = 0;
 
-  const send = (name, ...values) => window.trame.trigger(name, values);
+  // Tells whether the server answered. It cannot while the connection is lost, or is being made again.
+  const send = async (name, ...values) => {
+    try {
+      await window.trame.trigger(name, values);
+      return true;
+    } catch (error) {
+      if (window.trame.client?.isConnected()) throw error;
+      return false;
+    }
+  };
 
   async function sendGesture() {
     if (busy) return;
@@ -51,9 +60,18 @@
     return { width, height, left: (image.clientWidth - width) / 2, top: (image.clientHeight - height) / 2 };
   }
 
+  // A picture may be loaded before its number arrives. The number is then acknowledged when it is looked at again.
+  async function acknowledge() {
+    const number = image ? Number(image.dataset.number) : acknowledged;
+    if (number === acknowledged || !image.complete) return;
+    acknowledged = number;
+    if (!await send("riis_seen", number)) acknowledged = 0;
+  }
+  setInterval(acknowledge, 250);
+
   function attach(element) {
     image = element;
-    image.addEventListener("load", () => send("riis_seen", Number(image.dataset.number)));
+    image.addEventListener("load", acknowledge);
     image.addEventListener("dragstart", (event) => event.preventDefault());
     image.addEventListener("contextmenu", (event) => event.preventDefault());
     image.addEventListener("pointerdown", (event) => {
