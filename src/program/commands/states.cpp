@@ -146,7 +146,7 @@ States frame_of(const StatesOptions &options, Measured &valve) {
     states.names.push_back(name_of_leaflet(options, info, leaflet.leaflet_id));
     if (leaflet.free_edge == 0 && leaflet.leaflet_id != info.skirt_leaflet_id)
       states.why_no_edges =
-          is_valve ? "a leaflet has no side v = 1 on its rim" : "a leaflet has no open edge besides the outline";
+          is_valve ? "a leaflet has no side v = 1 that is free" : "a leaflet has no open edges except on the outline";
   }
   // A rigid leaflet only turns, so its lengths do not change.
   if (info.housing_leaflet_id >= 0) states.why_no_edges = "the leaflets are rigid";
@@ -258,7 +258,7 @@ std::string text_of_area(const States &states, double riis_orifice::*area) {
 }
 
 std::string text_of_orifice(const States &states) {
-  if (states.disc.empty()) return "not measured: no open edges surround an area";
+  if (states.disc.empty()) return "not measured, because no open edges surround an area";
   return text_of_area(states, &riis_orifice::area) + "; " + states.disc + " has " + rounded(states.disc_area);
 }
 
@@ -348,7 +348,7 @@ std::string summary_of(const States &states, const StatesOptions &options) {
   else
     summary.add("valve", options.valve + ": " +
                              (can_open ? counted(n, "opening") + " from 0 to 1"
-                                       : "only opening 0, because it has no open state"));
+                                       : "only opening 0, because the valve has no open state"));
   add_leaflets(states, summary);
   summary.add("orifice", text_of_orifice(states));
   if (!states.disc.empty())

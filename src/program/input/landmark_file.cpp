@@ -138,7 +138,7 @@ class Collector {
     if (ends_.size() == 1)
       refuse_file(file_.path, ends_.begin()->first + " is given without " +
                                   (ends_.begin()->first == flow_from ? flow_to : flow_from));
-    if (file_.flow) refuse_file(file_.path, "the flow is given twice, by flow and by flow_from and flow_to");
+    if (file_.flow) refuse_file(file_.path, "the file gives the flow twice: by flow, and by flow_from and flow_to");
     const auto &from = ends_.at(flow_from), &to = ends_.at(flow_to);
     file_.flow = {to[0] - from[0], to[1] - from[1], to[2] - from[2]};
     file_.flow_ends = {from[0], from[1], from[2], to[0], to[1], to[2]};

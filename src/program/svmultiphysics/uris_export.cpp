@@ -371,7 +371,7 @@ std::string title_of(const ExportOptions &options) {
 // Returns the line of the block about units. Two dashes in a row would end the comment in the XML file.
 std::string text_of_units(const ExportOptions &options) {
   if (!options.unit) return "the units are assumed to be g, cm and s, because no unit was given";
-  const std::string units = "units are g, cm and s: R is in g/(cm s)";
+  const std::string units = "the units are g, cm and s, so R is in g/(cm s)";
   if (options.to_solver == 1) return units;
   return units + "\n     lengths were converted from " + name_of(*options.unit) + ": in its Add_mesh, the mesh in " +
          name_of(*options.unit) + " needs Mesh_scale_factor " + shortest(options.to_solver);

@@ -123,7 +123,7 @@ void UrisLeaflets::find_forward(double opening) {
   const double length = hypotenuse(forward_[0], forward_[1], forward_[2]);
   if (!(length > 0))
     refuse_data((subject_.empty() ? "" : subject_ + ": ") +
-                "the leaflets' normals cancel, so they tell no direction of forward flow");
+                "the normals of the leaflets cancel, so the direction of forward flow is not known");
   for (double &x : forward_) x /= length;
 }
 

@@ -149,8 +149,9 @@ riis_reaction checked_reaction(const riis_reaction *reaction) {
     riis::fail(RIIS_INVALID_ARGUMENT, "reaction.n_edges is ", whole.n_edges, "; it must be from 0 to 2^40");
   if (!whole.force && !whole.moment && !whole.leaflet_force && !whole.leaflet_moment && !whole.edge_force &&
       !whole.edge_moment)
-    riis::fail(RIIS_INVALID_ARGUMENT,
-               "reaction has no sum to add to: force, moment and the sums of leaflets and edges are NULL");
+    riis::fail(
+        RIIS_INVALID_ARGUMENT,
+        "reaction has no sum to add to, because the fields force, moment and those of leaflets and edges are NULL");
   return whole;
 }
 
@@ -197,7 +198,8 @@ void require_edges(const riis::Mesh &mesh, const char *purpose) {
 // Refuses marks of a mesh with another number of nodes. A mesh with the same number of nodes passes, even if it is a different
 // mesh.
 void check_are_of_mesh(const riis::Mesh &mesh, const riis::Marks &marks) {
-  if (!marks.was_marked) riis::fail(RIIS_INVALID_ARGUMENT, "marks are empty: call riis_mark_nodes with them first");
+  if (!marks.was_marked)
+    riis::fail(RIIS_INVALID_ARGUMENT, "marks are empty: first call riis_mark_nodes with these marks");
   if (marks.stats.n_nodes != mesh.nodes().n)
     riis::fail(RIIS_INVALID_ARGUMENT, "marks are of a mesh with ", marks.stats.n_nodes, " nodes, mesh has ",
                mesh.nodes().n);

@@ -114,7 +114,8 @@ void check_can_add_direction(const riis_surface &surface) {
   const riis::Surface &content = surface.updatable.surface();
   if (!content.patches())
     riis::fail(RIIS_INVALID_ARGUMENT,
-               "surface was made from arrays, which have no parameters: a direction needs the surface of a valve");
+               "surface was made from arrays, which have no parameters: a direction needs a surface that was made from "
+               "a valve");
   if (content.n_directions() == max_directions)
     riis::fail(RIIS_LIMIT_EXCEEDED, "surface has ", max_directions, " directions, the largest number");
 }

@@ -518,10 +518,10 @@ KindOfLandmarks tricuspid_landmarks(const Valve &valve, const Landmarks &landmar
   check_count(landmarks, tricuspid.kind, RIIS_LANDMARK_COMMISSURE, 3, 3);
   const Outline outline = outline_of(landmarks);
   check_spread(landmarks, landmarks.with_role(RIIS_LANDMARK_COMMISSURE), 0.02);
-  const LeafletsAround leaflets{{"anterior", "septal", "posterior"},
-                                "counter-clockwise",
-                                "between which of the anterior, septal and posterior leaflets each commissure is: name "
-                                "the leaflets of two commissures"};
+  const LeafletsAround leaflets{
+      {"anterior", "septal", "posterior"},
+      "counter-clockwise",
+      "between which two leaflets each commissure lies: name the leaflets of two commissures"};
   check_leaflet_ids(landmarks, leaflets);
   // Without the flow, the names show the side of the atrium.
   Vec3 up = outline.normal;

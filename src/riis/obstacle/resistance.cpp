@@ -201,7 +201,7 @@ Resistance checked_resistance(const riis_resistance &resistance, const char *nam
 }
 
 Resistance checked_resistance(const riis_resistance &resistance, const Marks &marks) {
-  if (!marks.was_marked) fail(RIIS_INVALID_ARGUMENT, "marks are empty: call riis_mark_nodes with them first");
+  if (!marks.was_marked) fail(RIIS_INVALID_ARGUMENT, "marks are empty: first call riis_mark_nodes with these marks");
   const Resistance checked = checked_resistance(resistance, "resistance", marks.band, marks.distance_limit);
   if (checked.cuts_rim) require_field(marks, RIIS_FIELD_RIM, "RIIS_FIELD_RIM", "RIIS_RIM_CUT");
   return checked;
@@ -253,7 +253,7 @@ void add_reaction(const Marks &marks, const Resistance &resistance, const riis_f
   const bool wants_edges = to.edge_force || to.edge_moment, wants_leaflets = to.leaflet_force || to.leaflet_moment;
   const bool wants_points = wants_edges || to.moment || to.leaflet_moment;
   if (wants_points)
-    require_field(marks, RIIS_FIELD_POINT, "RIIS_FIELD_POINT", "a moment or a force by edge in reaction");
+    require_field(marks, RIIS_FIELD_POINT, "RIIS_FIELD_POINT", "a moment or the force on an edge in reaction");
   if (wants_leaflets) check_leaflets(marks, to);
   const Edges edges = wants_edges ? edges_of(to) : Edges{};
   const Vector<std::int64_t> nearest = wants_edges ? nearest_edges(marks, resistance, edges) : Vector<std::int64_t>();

@@ -99,15 +99,15 @@ ValveKind make_kind(const char *name, double default_stretch) {
      longest, {"0.3 commissure_radius, at most 0.6 effective_height", coaptation_height_rule}},
     {"gap", length, "distance between closed cusps in the coaptation zone", 1, {0.016 * 1.25}, shortest, longest,
      {"0.016 commissure_radius", gap_rule}},
-    {"bottom_angle", degree, "angle of the closed cusp to the root's plane, at the root", 1, {20}, 0, 80},
+    {"bottom_angle", degree, "angle between the closed cusp and the plane of the root, at the root", 1, {20}, 0, 80},
     {"belly", number, "largest start tangent of the closed symmetry curve, as a multiple of root_radius", 1, {0.5}, 0.05, 0.8},
-    {"edge_rise", number, "closed free edge: rise of the control point beside the commissure, as a share of the whole rise",
+    {"edge_rise", number, "rise of the closed free edge's control point beside the commissure, as a share of the whole rise",
      1, {0.3}, 0, 0.9},
     {"attachment_width", number, "start tangent of the attachment, as a multiple of root_radius", 1, {0.6}, 0.1, 1.2},
     {"attachment_drop", number, "end tangent of the attachment, as a multiple of commissure_height", 1, {0.5}, 0.1, 0.9},
-    {"open_radius_ratio", number, "open state: radius of the free edge at the symmetry plane, as a multiple of commissure_radius",
+    {"open_radius_ratio", number, "radius of the open free edge at the symmetry plane, as a multiple of commissure_radius",
      1, {0.85}, 0.3, 1.1},
-    {"commissure_expansion", number, "open state: how far the commissures move outwards, as a multiple of commissure_radius",
+    {"commissure_expansion", number, "how far the commissures move outwards during opening, as a multiple of commissure_radius",
      1, {0.05}, 0, 0.3},
     {"translation", length, "shift of the valve", 3, {0, 0, 0}, -longest, longest},
     opening_spec("0 closed to 1 open", 0),
@@ -115,23 +115,23 @@ ValveKind make_kind(const char *name, double default_stretch) {
   kind.has_exact_contacts = true;
   kind.is_seen_along_z = true;
   Vector<ParameterSpec> &specs = kind.parameters;
-  specs.push_back({"edge_stretch", number, "open state: how much longer the free edge is than in the closed state", 1,
+  specs.push_back({"edge_stretch", number, "how much longer the free edge is in the open than in the closed state", 1,
                    {default_stretch}, 0, 0.2});
   for (std::size_t k = 0; k < n_cusps; ++k) {
     const std::string owner = "commissure_" + std::to_string(k) + ".";
     add_own(specs, owner, "height", commissure_height);
-    specs.push_back({owner + "fusion", number, "share of the meeting line over which the two cusps are fused", 1, {0}, 0, 0.6});
+    specs.push_back({owner + "fusion", number, "share of the line where the two cusps meet over which they are fused", 1, {0}, 0, 0.6});
   }
   for (std::size_t k = 0; k < n_cusps; ++k) {
     const std::string owner = "cusp_" + std::to_string(k) + ".";
-    specs.push_back({owner + "sector", degree, "angle between the cusp's commissures; all sectors are scaled to a sum of 360", 1,
+    specs.push_back({owner + "sector", degree, "angle between the cusp's two commissures; the sectors are scaled to a sum of 360 degrees", 1,
                      {360.0 / n_cusps}, 1, 360});
     add_own(specs, owner, "effective_height", effective_height);
     add_own(specs, owner, "coaptation_height", coaptation_height);
     add_own(specs, owner, "open_radius_ratio", open_radius_ratio);
   }
   if (n_cusps == 2)
-    specs.push_back({"meeting_shift", number, "x of the middle of the closed meeting line, as a multiple of commissure_radius",
+    specs.push_back({"meeting_shift", number, "coordinate x of the middle of the line where closed cusps meet, as a multiple of commissure_radius",
                      1, {0}, -0.5, 0.5});
   add_bump_specs(specs, n_cusps, BumpLift::no);
   return kind;

@@ -171,7 +171,7 @@ namespace {
 ValveKind make_kind() {
   ValveKind kind{
       "patches",
-      {opening_spec("from 0 (this state) to 1 (the open state); it stays 0 without riis_valve_set_open_state", 0)},
+      {opening_spec("from 0 (this state) to 1 (the open state); it must be 0 without riis_valve_set_open_state", 0)},
       0,
       false,
       nullptr,

@@ -492,7 +492,7 @@ ValveKind with_skirt(ValveKind kind, SkirtAxis axis) {
   kind.skirt_length = kind.parameters.size();
   kind.parameters.push_back({"skirt_length",
                              "length",
-                             "length of the skirt that leads outwards from the attachment to the wall; 0: no skirt",
+                             "length of a skirt, a strip from the leaflets to the wall; 0 means no skirt",
                              1,
                              {0},
                              0,

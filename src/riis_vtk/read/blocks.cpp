@@ -270,7 +270,7 @@ vtkSmartPointer<vtkUnstructuredGrid> read_exodus(const std::string &path, const 
 
 vtkSmartPointer<vtkUnstructuredGrid> read_exodus(const std::string &path, const CaughtOutput &) {
   check_readable(path);
-  fail_file(path, "is an Exodus file, and this riis was built without VTK's IOExodus");
+  fail_file(path, "is an Exodus file, but this riis was built without VTK's IOExodus");
 }
 
 #endif
