@@ -110,8 +110,8 @@ RIIS_API riis_status riis_opening_switch_advance(const riis_opening_switch *law,
 /* The angle law of T. Korakianitis and Y. Shi, "A concentrated parameter model for the human cardiovascular
  * system including heart valve dynamics and atrioventricular interaction", Med. Eng. Phys. 28 (2006):
  *   angle'' = -friction angle' + (pressure_gain dp + flow_gain Q) cos(angle)
- *             - vortex_gain max(Q, 0) sin(2 angle)
- * In this equation angles are in radians. The motion stops at angle_min and angle_max. The opening grows linearly with the angle
+ *             - vortex_gain max(Q, 0) sin(2 angle).
+ * Angles are in radians in this equation. The motion stops at angle_min and angle_max. The opening grows linearly with the angle
  * from 0 at angle_min to 1 at angle_max. The paper's values, for mmHg, ml and s: pressure_gain 5500, flow_gain 2, friction 50,
  * vortex_gain 7 for the aortic and 3.5 for the mitral valve. */
 typedef struct riis_opening_angle {

@@ -120,18 +120,18 @@ ValveKind make_kind(const char *name, double default_stretch) {
   for (std::size_t k = 0; k < n_cusps; ++k) {
     const std::string owner = "commissure_" + std::to_string(k) + ".";
     add_own(specs, owner, "height", commissure_height);
-    specs.push_back({owner + "fusion", number, "share of the line where the two cusps meet over which they are fused", 1, {0}, 0, 0.6});
+    specs.push_back({owner + "fusion", number, "share of the two cusps' meeting line that is fused", 1, {0}, 0, 0.6});
   }
   for (std::size_t k = 0; k < n_cusps; ++k) {
     const std::string owner = "cusp_" + std::to_string(k) + ".";
-    specs.push_back({owner + "sector", degree, "angle between the cusp's two commissures; the sectors are scaled to a sum of 360 degrees", 1,
+    specs.push_back({owner + "sector", degree, "angle between the commissures of the cusp; all sectors are scaled to a sum of 360", 1,
                      {360.0 / n_cusps}, 1, 360});
     add_own(specs, owner, "effective_height", effective_height);
     add_own(specs, owner, "coaptation_height", coaptation_height);
     add_own(specs, owner, "open_radius_ratio", open_radius_ratio);
   }
   if (n_cusps == 2)
-    specs.push_back({"meeting_shift", number, "coordinate x of the middle of the line where closed cusps meet, as a multiple of commissure_radius",
+    specs.push_back({"meeting_shift", number, "x of the middle of the closed valve's meeting line, as a multiple of commissure_radius",
                      1, {0}, -0.5, 0.5});
   add_bump_specs(specs, n_cusps, BumpLift::no);
   return kind;
