@@ -124,14 +124,14 @@ ValveKind make_kind(const char *name, double default_stretch) {
   }
   for (std::size_t k = 0; k < n_cusps; ++k) {
     const std::string owner = "cusp_" + std::to_string(k) + ".";
-    specs.push_back({owner + "sector", degree, "angle between the commissures of the cusp; all sectors are scaled to a sum of 360", 1,
+    specs.push_back({owner + "sector", degree, "angle between the cusp's commissures; all sectors are scaled to a sum of 360", 1,
                      {360.0 / n_cusps}, 1, 360});
     add_own(specs, owner, "effective_height", effective_height);
     add_own(specs, owner, "coaptation_height", coaptation_height);
     add_own(specs, owner, "open_radius_ratio", open_radius_ratio);
   }
   if (n_cusps == 2)
-    specs.push_back({"meeting_shift", number, "x of the middle of the closed valve's meeting line, as a multiple of commissure_radius",
+    specs.push_back({"meeting_shift", number, "x where closed cusps meet in the middle, as a multiple of commissure_radius",
                      1, {0}, -0.5, 0.5});
   add_bump_specs(specs, n_cusps, BumpLift::no);
   return kind;
