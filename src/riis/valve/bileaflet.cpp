@@ -46,7 +46,8 @@ ValveKind make_kind() {
   kind.absent = {
     {"stj", "its housing has one radius, and it has no commissures at a sinotubular junction"},
     {"skirt_length", "it has a ring that closes the gap to the wall; ring_height sets the ring"},
-    {"effective_height", "only cusps have an effective height; hinge_height and closed_angle determine the height of rigid leaflets"},
+    {"effective_height", "only cusps have an effective height; hinge_height and closed_angle determine the height "
+                         "of rigid leaflets"},
   };
   kind.is_rigid = true;
   return kind;
