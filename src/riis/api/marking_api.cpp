@@ -63,8 +63,8 @@ riis::InstructionSet instructions_asked_for(std::int32_t instructions) {
   return set;
 }
 
-// Returns the arrays of a list, with NULL for an empty array. The array of a field stays NULL if the marking needed the field
-// only to compute K.
+// Returns the arrays of a list, with NULL for an empty array. The array of a field stays NULL if the field was computed only for
+// K.
 riis_mark_list arrays_of(const riis::ListedNodes &list, const riis::WantedData &data) {
   const auto array = [](const auto &values) { return values.empty() ? nullptr : values.data(); };
   const auto field = [&](std::int32_t which, const auto &values) {
@@ -114,7 +114,7 @@ void check_stride(const char *name, std::int64_t stride, std::int64_t n_nodes) {
                " entries at this stride exceed what memory can hold");
 }
 
-// Checks that all three components of a vector are given. If may_lack is true, all three may also be NULL.
+// Checks that all three components of a vector are given. If may_lack is true, all three components may also be NULL.
 template <class Real>
 void check_components(const char *name, Real *const (&components)[3], bool may_lack) {
   if (may_lack && !components[0] && !components[1] && !components[2]) return;
@@ -136,7 +136,7 @@ riis_flow_arrays checked_flow(const riis_flow_arrays *flow, const riis::Marks &m
   return whole;
 }
 
-// Checks the numbers of a reaction. The reaction's leaflets and edges are compared with the marks later.
+// Checks the fields of a reaction. The leaflets and edges of the reaction are compared with the marks later.
 riis_reaction checked_reaction(const riis_reaction *reaction) {
   const riis_reaction whole = riis::completed(require(reaction, "reaction"), "reaction", default_reaction);
   for (int c = 0; c < 3; ++c)
@@ -219,7 +219,7 @@ void check_are_of_marking(const riis::SearchRequest &request, const riis::Marks 
                now.offset, ": mark the nodes again");
 }
 
-// Checks the nodes of one end of a passage. `name` is the end's name, "from" or "to".
+// Checks the nodes of one end of a passage. `name` is the name of this end, "from" or "to".
 riis::ArrayView<const std::int64_t> checked_end(const riis::SearchRequest &request, const char *name, std::int64_t n,
                                                 const std::int64_t *ids) {
   const std::int64_t n_nodes = request.mesh.nodes().n;

@@ -18,7 +18,7 @@ struct PatchSides {
 };
 
 // A line of the grid. Two vertices on opposite sides whose parameters nearly agree share a line, so no sliver quads arise. Both
-// vertices keep their places. Neighbouring patches therefore fit without cracks.
+// vertices keep their places. Neighbouring patches therefore meet without cracks.
 struct GridLine {
   double t0, t1;                                // the line's parameters on the first and the second of its two sides
   double middle;                                // the mean of both, which is the line's u (or v) in the grid

@@ -17,16 +17,15 @@ struct ValueAndRate {
 
 class KeyTimes {
  public:
-  // Borrows the keys' times and checks the fields. `name` is the name of the struct with these fields. Fails with
-  // RIIS_INVALID_ARGUMENT. The message names the field or key, and its value.
+  // Borrows the keys' times and checks the fields. `name` is the name of the struct that has these fields. Fails with
+  // RIIS_INVALID_ARGUMENT. A message names the field or the key, and its value.
   KeyTimes(const char *name, std::int64_t n_keys, const double *time, double period, std::int32_t interpolation);
 
-  // Returns whether the last key is exactly one period after the first key. The values of these two keys must be equal if the
-  // keys are one period apart.
+  // Returns whether the last key is exactly one period after the first key. If so, the values of these two keys must be equal.
   bool is_closed() const { return is_closed_; }
 
   // The keys around a time and the times between these keys. The value at the time follows from these keys and these times
-  // between keys. A key is a position in the arrays, so a time one period later has the same keys.
+  // between keys. A key is given by its position in the arrays, so a time one period later has the same keys.
   struct KeysAround {
     std::array<std::int64_t, 4> key;  // before the interval, at its two ends, after it
     std::array<double, 3> width;      // the time from each of these keys to the next key; infinite without a next key

@@ -42,7 +42,7 @@ Vector<Vec3> points_on(const PatchSet &set, const Side &side, const Vector<doubl
   return made;
 }
 
-// Returns the points of a patch at all pairs (u, v) of the shares, in the order of QuadGrid::points.
+// Returns the points of a patch at all pairs (u, v) of the given shares, in the order of QuadGrid::points.
 Vector<Vec3> points_of(const PatchSet &set, const Patch &patch, const Vector<double> &shares) {
   SideVectors sides{points_on(set, patch.v0, shares), points_on(set, patch.v1, shares), {}, {}};
   if (patch.bulge == 0) {

@@ -385,7 +385,7 @@ OwnAdjacency adjacency_from_faces(const riis_mesh_faces &faces, int n_threads) {
   }
   const IntegerArray owner{faces.owner, faces.id_bits == 64}, neighbor{faces.neighbor, faces.id_bits == 64};
   const std::int64_t base = faces.index_base;
-  // Compares the numbers before it subtracts the base, because the difference of an unchecked number may overflow.
+  // Compares the numbers before it subtracts the base, because a difference of unchecked numbers may overflow.
   const auto check = [&](const char *which, std::int64_t face, const IntegerArray &ends, std::int64_t least) {
     const std::int64_t given = ends[face * faces.stride];
     if (given < least || given >= faces.n_cells + base)

@@ -34,7 +34,7 @@ struct NodeFrame {
   Vec3 centre{0, 0, 0};
   double scale = 1;
 
-  // Takes a point that is known to be within the nodes' box.
+  // Takes a point that lies within the nodes' box.
   void place_inner(Vec3 p, float *x) const {
     const Vec3 q = scale * (p - centre);
     x[0] = static_cast<float>(q.x), x[1] = static_cast<float>(q.y), x[2] = static_cast<float>(q.z);
@@ -268,7 +268,7 @@ class NodeSorter {
   }
 
   // Returns the box of some items. Compares four numbers at once, because comparing them one by one would take longer than
-  // reading the memory. The fourth number is arbitrary and is not used.
+  // reading the memory. The fourth number has any value and is not used.
   static NodeBox box_of(const Item *items, const Part &part) {
     typedef float Four __attribute__((vector_size(16)));
     static_assert(sizeof(Item) >= sizeof(Four));
@@ -295,7 +295,7 @@ class NodeSorter {
     return box;
   }
 
-  // Calls visit(item, quarter) for all items of a part. The items of each quarter are visited in their order.
+  // Calls visit(item, quarter) for all items of a part, in four quarters. The items of each quarter are visited in their order.
   template <class Visit>
   static void for_each_by_quarters(const Item *items, const Part &part, const Visit &visit) {
     const std::int64_t size = part.size() / n_quarters;

@@ -24,7 +24,7 @@ double coefficient_at(const Resistance &resistance, double distance) {
 }
 
 // Returns the derivative of K with respect to the distance from the middle of the band. K is flat in the middle and at the edge
-// of the band. The sine is computed from the nearer of these two places, so that few digits are lost near both places.
+// of the band. The sine is computed from the nearer of these two places, where it loses fewer digits.
 double slope_at(const Resistance &resistance, double distance) {
   const double eps = resistance.band.half_thickness;
   if (!(distance < eps)) return 0;
@@ -152,7 +152,7 @@ Edges edges_of(const riis_reaction &reaction) {
   return checked_edges("reaction", reaction.n_edges, reaction.edges, reaction.edge_leaflet_id);
 }
 
-// A thread takes blocks of nodes_per_block nodes. A list of fewer than few_nodes nodes uses one thread.
+// A thread takes blocks of nodes_per_block nodes. For a list of fewer than few_nodes nodes, one thread does the work.
 constexpr std::int64_t nodes_per_block = 4096, few_nodes = 16384;
 // The search for nearest edges has smaller limits, because each node takes ten times as long.
 constexpr std::int64_t edge_nodes_per_block = 512, few_edge_nodes = 2048;

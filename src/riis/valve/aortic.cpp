@@ -128,7 +128,7 @@ ValveKind make_kind() {
       {of + "bending_angle", degree, "angle from the symmetry plane to the bending curve's end",
        1, {value[bending_angle]}, 5, 175},
       {of + "bending_power", number, "exponent of the bending curve's profile", 1, {value[bending_power]}, 1, 20},
-      {of + "rotation", degree, "rotation angles of the cusp about x, y and z, in this order", 3, {0, 0, value[rotation]}, -360, 360,
+      {of + "rotation", degree, "rotation of the cusp about x, then y, then z", 3, {0, 0, value[rotation]}, -360, 360,
        rotation_rules[cusp]},
       {of + "translation", length, "shift of the cusp after its rotation", 3, {0, 0, value[translation]}, -longest, longest},
     });

@@ -561,7 +561,7 @@ const ValveKind *new_kind(const char *name, KindSizes sizes) {
     sizes.flat_ratio,
     {"commissure_length", length, "length of the leaflets at the commissures of the closed valve",
      1, {sizes.commissure_length}, shortest, longest},
-    {"commissure_angle", degree, "direction of the commissures in the closed valve: 0 is inwards, 90 is straight down", 1, {70}, 20, 90},
+    {"commissure_angle", degree, "direction of the closed commissures: 0 is inwards, 90 is straight down", 1, {70}, 20, 90},
     {"commissure_coaptation", number, "height of the coaptation zone at the commissures, as a multiple of commissure_length",
      1, {0.5}, 0.05, 0.8},
     {"tenting_height", length, "depth of the closed valve's coaptation below the mean height of the annulus",
