@@ -206,7 +206,8 @@ struct Lanes {
   }
 
 // The body of a function that works register by register: register i of the result depends only on the registers i of the
-#arguments. define RIIS_LANEWISE(Result, expression) \
+// arguments.
+#define RIIS_LANEWISE(Result, expression)                       \
   Result r;                                                     \
   for (int i = 0; i < n_registers; ++i) r.part[i] = expression; \
   return r
