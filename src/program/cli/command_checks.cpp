@@ -104,8 +104,8 @@ void finish_valve(const Command &command, ValveOptions &options) {
   finish_units(options);
 }
 
-// Completes the options of a surface in a mesh. Options that the command does not have are left at their defaults.
-// `sweeps_openings` says whether the command opens the valve by itself.
+// Completes the options of a surface in a mesh. If the command lacks an option, the option has its default. `sweeps_openings`
+// says whether the command opens the valve by itself.
 void finish_surface_in_place(const Command &command, MarkOptions &options, bool sweeps_openings = false) {
   check_valve(command, options);
   check_series(command, options);
@@ -158,8 +158,8 @@ void check_solver_scale(const ExportOptions &options) {
                " in place of --scale, and riis export converts");
 }
 
-// svMultiPhysics gets numbers in grams, centimetres and seconds. Without --unit, numbers are taken as they are, in the solver's
-// units.
+// svMultiPhysics gets numbers in grams, centimetres and seconds. Without --unit, numbers are taken as they are, because they are
+// in the solver's units.
 void finish_solver_units(ExportOptions &options) {
   check_solver_scale(options);
   const auto in_solver_units = [&](const std::optional<Amount> &given, const Quantity &quantity, double usual) {

@@ -356,7 +356,7 @@ CLI::Option *declare_case(Command &command, SeriesOptions &series) {
                       series.case_file);
 }
 
-// Excludes the options whose values are in the case file.
+// Excludes the options whose values come from the case file.
 void exclude_by_case(const Command &command, CLI::Option *all_of_it) {
   for (const char *name :
        {"--surface", "--leaflets",      "--valve",         "--opening",        "--params",         "--params-open",

@@ -412,7 +412,8 @@ void read_surfaces(Case &all) {
       continue;
     }
     KeyframeFiles read = read_keyframes(options, all.seconds);
-    // Outputs are written after all frames are read. Without a check, the user would not notice an output that replaces a frame.
+    // Outputs are written after all frames are read. Without this check, an output could replace a frame, and the user would not
+    // notice.
     check_no_output_is("a frame of --surface " + options.surface, read.files, options);
     source.keyframes = std::move(read.keyframes);
     all.files.insert(all.files.end(), read.files.begin(), read.files.end());

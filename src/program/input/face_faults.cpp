@@ -94,7 +94,7 @@ class FaceCheck {
     return view(places_)[triangles_.vertex_id[3 * face + k % 3]];
   }
 
-  // Returns the faces that have different corners. Of several faces with the same corners, returns only the first.
+  // Returns the faces that have different corners. If several faces have the same corners, returns only the first of them.
   std::vector<std::int64_t> different_faces() const {
     using Key = std::array<std::int64_t, 3>;
     std::vector<std::pair<Key, std::int64_t>> sorted;

@@ -275,8 +275,8 @@ double distance_from_nodes(const LandmarkFile &landmarks, int64_t n_nodes, const
 
 void check_at_nodes(const LandmarkFile &landmarks, std::int64_t n_nodes, const double *nodes, const std::string &of,
                     Reader reader) {
-  // Landmarks lie on the wall, so nodes of the mesh must be near them. If landmarks are a centimetre away from the nodes, they
-  // belong to another place.
+  // Landmarks lie on the wall, so nodes of the mesh must be near them. Landmarks that are a centimetre away from the nodes
+  // therefore belong to another place.
   const double near = factor_between(Unit::centimetre, landmarks.unit);
   const double apart = distance_from_nodes(landmarks, n_nodes, nodes, 1, 1);
   if (apart <= near) return;

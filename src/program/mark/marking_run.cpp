@@ -371,7 +371,7 @@ bool is_sealed(const Report &report) {
   });
 }
 
-// Returns whether a check found the fault for which it looks.
+// Returns whether a check found what it looks for, such as a leak.
 bool has_fault(const MarkOptions &options, const Report &report) {
   const bool crosses = std::any_of(report.valves.begin(), report.valves.end(), [](const ValveReport &valve) {
     return valve.crossings && valve.crossings->found.n_pairs > 0;

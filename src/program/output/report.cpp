@@ -26,7 +26,7 @@ std::string bytes_text(double n) {
 }
 
 bool has_slits(const riis_orifice &orifice) {
-  // An orifice consists of slits if a circle with a hundredth of its area has a longer perimeter.
+  // An orifice counts as slits if a circle with a hundredth of its area has a longer perimeter.
   const bool has_no_rim = orifice.perimeter * orifice.perimeter < 4 * pi * 0.01 * orifice.area;
   return has_no_rim && orifice.area > 1e-3 * orifice.outline_area && orifice.effective_area < 0.5 * orifice.area;
 }

@@ -17,7 +17,7 @@ namespace riis::program {
 namespace {
 
 // Two vertices of open sides are joined if their distance is below a tiny share of the wall's size. In single precision, the
-// rounding errors of a root at a metre from the origin are a sixth of the share.
+// rounding errors of a root that is a metre away from the origin are a sixth of this share.
 constexpr double joined_share = 1e-5;
 // A piece is an island of the segmentation if its area is below a small share of the largest piece's area.
 constexpr double island_share = 0.01;

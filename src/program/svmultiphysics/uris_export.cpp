@@ -284,7 +284,7 @@ std::string vtu_text(const std::vector<double> &xyz, const UrisLeaflet &leaflet)
          "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
 }
 
-// Stops the export after a frame if a signal is waiting. The message is never printed, because the signal ends the process after
+// Stops the export after a frame if a signal is waiting. This message is never printed, because the signal ends the process after
 // the files are removed.
 void stop_if_interrupted() {
   if (UnbrokenWrite::has_signal()) refuse_data("riis export: interrupted, and nothing is left");

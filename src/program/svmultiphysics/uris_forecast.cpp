@@ -24,7 +24,7 @@ constexpr double band_end = 5;
 // The least sufficient drop, as a share of (R / eps) u. The second number is the largest half thickness that is tried, divided by
 // the given half thickness.
 constexpr double enough = 0.9, most_thickness = 2;
-// A drop is no forecast if it exceeds (R / eps) u by more than a small share.
+// If a drop exceeds (R / eps) u by more than a small share, it is no forecast.
 constexpr double least_of_sensible = 0.95;
 
 // Returns whether two corners are the ends of an edge.

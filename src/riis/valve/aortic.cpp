@@ -12,8 +12,8 @@
 namespace riis {
 namespace {
 
-// Positions in the list of specs below. First come parameters of the whole valve, then of each cusp, and last of
-// the open state.
+// The positions in the list of specs below. First come parameters of the whole valve, then of each cusp, and last of the open
+// state.
 // clang-format off
 enum General {
   root_height, root_radius, leaflet_height, bending_height, t3_leaflet, t3_bending, t0_leaflet, t0_bending, xq, zq, opening,
@@ -91,7 +91,7 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
 
 // clang-format off
 ValveKind make_kind() {
-  // The limits of lengths suit a valve in any unit from kilometres to micrometres. The ratios of lengths are checked by
+  // The limits of lengths allow a valve in any unit from kilometres to micrometres. The ratios of lengths are checked by
   // check_together.
   constexpr double shortest = 1e-9, longest = 1e9;
   const char *length = "length", *degree = "degree", *number = "1";

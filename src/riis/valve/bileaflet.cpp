@@ -17,7 +17,7 @@
 namespace riis {
 namespace {
 
-// Positions in the list of specs below.
+// The positions in the list of specs below.
 enum Parameter { radius, hinge_offset, hinge_height, gap, closed_angle, open_angle, ring_height, opening };
 
 void check_values(const ParameterValues &values);
@@ -26,7 +26,7 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double a
 
 // clang-format off
 ValveKind make_kind() {
-  // The limits of lengths suit a valve in any unit from kilometres to micrometres. The ratios of lengths are checked by
+  // The limits of lengths allow a valve in any unit from kilometres to micrometres. The ratios of lengths are checked by
   // check_values.
   constexpr double shortest = 1e-9, longest = 1e9;
   const char *length = "length", *degree = "degree";
@@ -122,7 +122,7 @@ class Turn {
   SineCosine closed_, now_;
 };
 
-// Every arc has `n_spans` spans. A quarter of a circle is then accurate to 1e-9 of its radius.
+// Every arc has `n_spans` spans. The distance of a quarter of a circle from the true circle is then at most 1e-9 of its radius.
 constexpr int n_spans = 8;
 
 // Bounds the distance of an arc's spans from the circle, in radii. For a span of the angle a, the distance is 2/27 sin^6(a/4) /

@@ -21,7 +21,7 @@
 namespace riis {
 namespace {
 
-// Positions in the lists of specs below. The parameters of all commissures and then of all cusps follow, and then those of bumps.
+// The positions in the lists of specs below. The parameters of all commissures and then of all cusps follow, then those of bumps.
 // clang-format off
 enum Parameter {
   root_radius, commissure_radius, commissure_height, effective_height, coaptation_height, gap, bottom_angle, belly, edge_rise,
@@ -40,10 +40,10 @@ constexpr double least_height = 0.05;
 constexpr std::array<double, 4> openings_of_folds{0.6, 0.75, 0.9, 1};
 // At the root, the leaflet must rise by at least `least_rise` times the rise of a leaflet without sag.
 constexpr double least_rise = 0.05;
-// If a cusp rises by less than `usual_rise`, its open edge leaves the commissures flatter. The edge leaves the commissures level
-// if the rise is less than `usual_rise` by `rise_until_level` or more.
+// If a cusp rises by less than `usual_rise`, its open edge leaves the commissures at a smaller slope. If the rise is less than
+// `usual_rise` by `rise_until_level` or more, the edge leaves the commissures level.
 constexpr double usual_rise = 0.1, rise_until_level = 0.15;
-// If a cusp needs a flatter edge because it would fold otherwise, the height of this edge above the root must stay at least
+// If a cusp needs a smaller slope because it would fold otherwise, the height of its edge above the root must stay at least
 // `least_height_of_flat` times root_radius. In a lower leaflet, triangles would cross near the attachment.
 constexpr double least_height_of_flat = 0.08;
 // Fused commissures must leave an open orifice of at least `least_orifice` of the area inside the commissures.
@@ -56,7 +56,7 @@ constexpr double rate_step = 1e-4;
 using Rule = std::array<double, 3>;
 Rule commissure_radius_rule(const ParameterValues &values) { return {values[root_radius][0]}; }
 Rule commissure_height_rule(const ParameterValues &values) { return {1.4 * values[commissure_radius][0]}; }
-// The line from the middle of a free edge to the commissure rises by 34 degrees, whose tangent is 0.6745.
+// The line from the middle of a free edge to the commissure has a slope of 34 degrees, whose tangent is 0.6745.
 Rule effective_height_rule(const ParameterValues &values) {
   const double h = values[commissure_height][0];
   return {std::max(h - 0.6745 * values[commissure_radius][0], 0.3 * h)};
@@ -258,7 +258,7 @@ double least_rise_of(const Vector<Vector<HalfCusp>> &halves) {
   return least;
 }
 
-// The least rise at the root at the openings at which cusps fold, without the openings at which the edge hangs too low.
+// The least rise at the root, over the openings at which cusps fold. Openings at which the edge hangs too low do not count.
 struct RiseOnWay {
   double least = std::numeric_limits<double>::infinity();
   bool hangs_too_low = false;  // at one of these openings

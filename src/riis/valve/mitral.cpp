@@ -87,8 +87,8 @@ std::array<Bezier, 3> half_annulus(const ParameterValues &values, bool flat) {
                              flat ? 0 : value(posterior_horn_height)});
 }
 
-// The annulus, from which the leaflets hang. A(u) is its point, and N(u) is the tangent there, turned inwards by 90 degrees in
-// the plane z = 0.
+// The annulus, from which the leaflets hang. A(u) is a point of the annulus. N(u) is the tangent there, turned inwards by 90
+// degrees in the plane z = 0.
 class Annulus {
  public:
   explicit Annulus(const std::array<Bezier, 3> &half) : half_({half.begin(), half.end()}) {}
@@ -230,8 +230,8 @@ class Patches {
         is_closed ? anterior_middle : set_.add(up_to_symmetry_plane(half.middle_scallop, 0.5)).curve;
     const Side commissure = set_.add(Bezier::point(side_edge.first()));
 
-    // u runs along the annulus. Beside the triangle, the annulus is divided between the spans of the anterior edge in
-    // proportion to their lengths.
+    // u runs along the annulus. Beside the triangle, the spans of the anterior edge share the annulus in proportion to their
+    // lengths.
     const double u_pm = half.u_commissure, u_triangle = u_pm + half.triangle_width;
     const double side_length = arc_length(side_edge), middle_length = arc_length(middle_edge);
     const double u_anterior_cleft = u_triangle + side_length / (side_length + middle_length) * (0.5 - u_triangle);
@@ -264,7 +264,7 @@ class Patches {
   void begin_at(double u, Vec3 on_edge) { last_arc_ = arc(u, on_edge); }
 
   // Patches run clockwise, and down from the anterior point. S_u x S_v therefore points into the ventricle, downstream. The minus
-  // sign is there because O points along (edge - annulus) x (the annulus' counter-clockwise direction).
+  // sign is needed because O points along (edge - annulus) x (the annulus' counter-clockwise direction).
   void add_patch(Side edge, double to_u, Vec3 on_edge, std::int32_t leaflet_id, std::int32_t patch_id,
                  std::int32_t mirrored_patch_id) {
     const Arc from = last_arc_, to = arc(to_u, on_edge);

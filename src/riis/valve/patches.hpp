@@ -20,8 +20,8 @@ enum class Mirror { none, in_x, in_y };
 
 inline constexpr std::size_t no_patch = static_cast<std::size_t>(-1);
 
-// The placement of a patch. The patch may first be mirrored; after that it is turned and moved. All images of a patch come from
-// the same operations on the same points. A patch and its mirror image therefore meet in the mirror's plane to the last bit.
+// The placement of a patch. The patch may first be mirrored. Then it is turned and moved. All images of a patch come from the
+// same operations on the same points. A patch and its mirror image therefore meet in the mirror's plane to the last bit.
 struct PatchImage {
   Mirror mirror;
   Rotation rotation;
@@ -107,7 +107,7 @@ struct MaterialPoints {
   std::array<Vec3, n_material> point;    // of the warped curve
   std::array<double, n_material> share;  // of the warped curve's length up to that point
 
-  // Returns the points in the order of the reversed curve, which has this many spans.
+  // Returns the points in the order of the reversed curve. The curve has this many spans.
   MaterialPoints reversed(std::size_t n_spans) const {
     MaterialPoints made{};
     for (std::size_t k = 0; k < n_material; ++k) {
@@ -134,9 +134,9 @@ struct AttachedEnd {
   std::size_t patch;
   bool is_last;
 };
-// Two ends of attached sides that are neighbours but are not joined, because they belong to different leaflets. Around the axis
-// of the attachment, one side ends where the next side begins. In some valves a skirt is turned at such ends only after a warp.
-// Such valves store the angles, in radians, by which the skirt would be turned at both ends before the warp.
+// Two ends of attached sides that are neighbours but are not joined, because they belong to different leaflets. In the order
+// around the axis of the attachment, one side ends where the next side begins. In some valves a skirt is turned at such ends only
+// after a warp. Such valves store the angles, in radians, by which the skirt would be turned at both ends before the warp.
 struct NeighbourEnds {
   AttachedEnd before, after;
   std::optional<std::array<double, 2>> turns_at_rest = {};

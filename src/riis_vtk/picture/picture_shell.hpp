@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: the faces of a wall. Out: a translucent shell with lighting, which is open at the wall's flat ends. Lines show its rims.
+// The inputs are the faces of a wall. The result is a translucent shell with lighting, which is open at the wall's flat ends.
+// Lines show its rims.
 #pragma once
 
 #include <vtkSmartPointer.h>
