@@ -254,7 +254,7 @@ module riis_c
     real(c_double) :: lower(3), upper(3)     !< bounds of the triangles, mesh units
     real(c_double) :: seconds_triangles      !< wall time of the last call that made or updated the surface: for checks
                                              !! and triangles
-    real(c_double) :: seconds_scene          !< wall time of the same call: for groups of triangles, sampling and
+    real(c_double) :: seconds_scene          !< wall time of the same call for groups of triangles, sampling and
                                              !! minimisation. Embree's tree is not included, because the first query
                                              !! that needs the tree builds it
     real(c_double) :: error_bound            !< the largest possible error of a distance: the difference between the
@@ -640,9 +640,9 @@ module riis_c
     real(c_double) :: from, to          !< the values that were searched
     real(c_double) :: least, most       !< the least and the largest area
     real(c_double) :: least_at, most_at !< a value with that area
-    real(c_double) :: turns(4)          !< the first values at which the area changes from growing to falling or back.
-                                        !! NaN fills the unused entries. A change by less than 1e-4 of the largest area
-                                        !! does not count
+    real(c_double) :: turns(4)          !< the first values at which a growing area begins to fall, or a falling area
+                                        !! begins to grow. NaN fills the unused entries. A change by less than 1e-4 of
+                                        !! the largest area does not count
     real(c_double) :: seconds           !< wall time of riis_find_by_area
     integer(c_int64_t) :: n_turns       !< the number of turns. Without a turn, the area only grows or only falls
     integer(c_int64_t) :: n_surfaces    !< the number of surfaces that were made, which is the cost of the search
@@ -667,7 +667,7 @@ module riis_c
   !> The first opening at which the marked mesh has a passage.
   type, bind(c) :: riis_first_passage
     real(c_double) :: opening        !< the first opening with a passage; 0 for ALWAYS, 1 for NEVER, 0 for NONE
-    real(c_double) :: closed_opening !< FOUND: the largest opening below `opening` that was found closed. Else:
+    real(c_double) :: closed_opening !< the largest opening below `opening` that was found closed, with FOUND; else
                                      !! `opening`
     integer(c_int64_t) :: node_id    !< the passage at `opening`, as in riis_passage
     real(c_double) :: distance       !< as in riis_passage

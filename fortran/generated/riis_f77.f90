@@ -5480,8 +5480,8 @@ subroutine riisf_find_first_passage(valve, mesh, n_from, from_num, n_to, to_num,
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int32), intent(inout) :: state                  !< RIIS_FIRST_PASSAGE_*.
   real(c_double), intent(inout) :: opening                !< The opening that was tried and has a passage.
-  real(c_double), intent(inout) :: closed_opening         !< FOUND: the largest opening below `opening` that was found closed.
-                                                          !! Else: `opening`.
+  real(c_double), intent(inout) :: closed_opening         !< The largest opening below `opening` that was found closed, with
+                                                          !! FOUND; else `opening`.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   integer(int64), allocatable, target :: c_from_num(:)
   integer(int64), allocatable, target :: c_to_num(:)
@@ -5550,8 +5550,8 @@ subroutine riisf_find_first_passage_64(valve, mesh, n_from, from_num, n_to, to_n
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int32), intent(inout) :: state                  !< RIIS_FIRST_PASSAGE_*.
   real(c_double), intent(inout) :: opening                !< The opening that was tried and has a passage.
-  real(c_double), intent(inout) :: closed_opening         !< FOUND: the largest opening below `opening` that was found closed.
-                                                          !! Else: `opening`.
+  real(c_double), intent(inout) :: closed_opening         !< The largest opening below `opening` that was found closed, with
+                                                          !! FOUND; else `opening`.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   integer(int64), allocatable, target :: c_from_num(:)
   integer(int64), allocatable, target :: c_to_num(:)
@@ -5611,10 +5611,10 @@ subroutine riisf_opening_from_table(n_keys, key_time, key_opening, period, inter
   integer(int32), intent(in) :: n_keys                    !< 1 to 1,000,000.
   real(c_double), intent(in) :: key_time(*)               !< (n_keys), strictly ascending, magnitude at most 1e30.
   real(c_double), intent(in) :: key_opening(*)            !< (n_keys), 0 to 1.
-  real(c_double), intent(in) :: period                    !< > 0: the table repeats with this period. All keys lie within one
-                                                          !! period of the first key. If the last key is one period after the
-                                                          !! first, it must have the same opening. 0: the opening is constant
-                                                          !! before the first key and after the last.
+  real(c_double), intent(in) :: period                    !< Above 0, the table repeats with this period. All keys lie within
+                                                          !! one period of the first key. If the last key is one period after
+                                                          !! the first, it must have the same opening. 0: the opening is
+                                                          !! constant before the first key and after the last.
   integer(int32), intent(in) :: interpolation             !< RIIS_INTERPOLATION_*, usually RIIS_INTERPOLATION_LINEAR.
   real(c_double), intent(in) :: time                      !< Magnitude at most 1e30.
   real(c_double), intent(inout) :: opening                !< Written on success.
@@ -5645,7 +5645,8 @@ subroutine riisf_opening_from_times(opening_start, opening_duration, closing_sta
   real(c_double), intent(in) :: closing_duration          !< How long closing takes, > 0.
   real(c_double), intent(in) :: closed                    !< The opening when closed, 0 to 1; usually 0.
   real(c_double), intent(in) :: open                      !< The opening when open, 0 to 1; usually 1.
-  real(c_double), intent(in) :: period                    !< > 0: the valve opens and closes once in each period. 0: only once.
+  real(c_double), intent(in) :: period                    !< Above 0, the valve opens and closes once in each period. 0: only
+                                                          !! once.
   real(c_double), intent(in) :: time                      !< Magnitude at most 1e30.
   real(c_double), intent(inout) :: opening                !< Written on success.
   real(c_double), intent(inout) :: rate                   !< Written on success.
@@ -5881,8 +5882,8 @@ subroutine riisf_warp_create(n_landmarks, xyz, noise, scale, rotation_axis, rota
   real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< Mesh units; -1e50 to 1e50, usually 0. Refused for a valve if
-                                                          !! coordinates would be rounded by more than a thousandth of
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Refused for a
+                                                          !! valve if coordinates would be rounded by more than a thousandth of
                                                           !! tolerance * half_thickness.
   integer(int64), intent(inout) :: warp                   !< Written on success. Free it with riisf_warp_destroy.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.

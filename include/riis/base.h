@@ -61,10 +61,10 @@ enum {
 /* Sets the log function of the process. Any thread may call riis_set_log.
  *   `function`: receives the messages; NULL, the default, means no log.
  *   `user_data`: a pointer that the library passes to the function. The pointer must stay valid as long as the function is set.
- * If another thread is just sending a message, the previous function may still receive the message. With a log function, the
- * library also searches surfaces for crossings (riis_find_crossings). The library searches a shape only if the caller has chosen
- * its parameters, patches or open state. A search for crossings takes longer than an update. The openings from 0 to 1 are divided
- * into five ranges, which end at 0, 0.05, 1/3, 2/3 and 1. In each range, a shape is searched only at its first opening there. A
+ * If another thread is just sending a message, the previous log function may still receive it. With a log function, the library
+ * also searches surfaces for crossings (riis_find_crossings). The library searches a shape only if the caller has chosen its
+ * parameters, patches or open state. A search for crossings takes longer than an update. The openings from 0 to 1 are divided
+ * into five ranges, which end at 0, 0.05, 1/3, 2/3 and 1. A shape is searched once in each range, at its first opening there. A
  * shape is not searched again after its first warning. */
 RIIS_API void riis_set_log(riis_log_function function, void *user_data);
 

@@ -41,8 +41,8 @@ typedef struct riis_direction {
 } riis_direction;
 /* Gives the rates of a surface's vertices along a direction, until the surface's next update or its destruction.
  *   `direction_id`: 0 for the direction that was added first after the last update, 1 for the next direction, and so on. From the
- *     rates a caller can compute the derivative of any number that depends on the triangles (docs/theory/gradients.md). With any
- *     measure of the surface, the rates are those of its triangles.
+ *     rates a caller can compute the derivative of any number that depends on the triangles (docs/theory/gradients.md). The rates
+ *     are those of the triangles, even if distances are measured by sampling or minimisation.
  * Errors: RIIS_INVALID_ARGUMENT for a direction that the surface lacks. */
 RIIS_API riis_status riis_surface_get_direction(const riis_surface *surface, int64_t direction_id,
                                                 riis_direction *direction, int64_t struct_size);

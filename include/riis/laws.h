@@ -31,8 +31,8 @@ typedef struct riis_opening_table {
   int64_t n_keys;        /* 1 to 1,000,000 */
   const double *time;    /* (n_keys), strictly ascending, magnitude at most 1e30 */
   const double *opening; /* (n_keys), 0 to 1 */
-  double period;         /* > 0: the table repeats with this period. All keys lie within one period of the first key. If the last
-                            key is one period after the first, it must have the same opening. 0, the default: the opening is
+  double period;         /* above 0, the table repeats with this period. All keys lie within one period of the first key. If the
+                            last key is one period after the first, it must have the same opening. 0, the default: the opening is
                             constant before the first key and after the last */
   int32_t interpolation; /* RIIS_INTERPOLATION_*, default RIIS_INTERPOLATION_LINEAR */
   int32_t reserved;      /* 0 */
@@ -55,7 +55,7 @@ typedef struct riis_opening_times {
   double closing_start;   /* the time at which the valve begins to close, at least opening_start + opening_duration */
   double closing_duration; /* how long closing takes, > 0 */
   double closed, open;    /* the openings of the closed and of the open valve, 0 to 1. Default 0 and 1 */
-  double period;          /* > 0: the valve opens and closes once in each period. Default 0: only once */
+  double period;          /* above 0, the valve opens and closes once in each period. Default 0: only once */
 } riis_opening_times;
 RIIS_API riis_status riis_opening_times_init(riis_opening_times *times, int64_t struct_size); /* the defaults */
 /* Gives the opening at a time by the times of the ramps. Both `opening` and `rate` may be NULL.

@@ -21,10 +21,10 @@ typedef struct riis_loads {
                                      leaflet's edges than the radius. Default NaN, which is refused */
   double about[3];                /* the reference point of leaflet_moment; magnitude at most 1e60. Default 0 */
   int64_t n_leaflets;             /* the number of columns of sums, leaflet_force and leaflet_moment; 1 to 2^31. Default 0 */
-  const double *leaflet_force;    /* (3, n_leaflets): as riis_reaction.leaflet_force, added up over all ranks. The sums do not
-                                     need it */
-  const double *leaflet_moment;   /* (3, n_leaflets): as riis_reaction.leaflet_moment, added up over all ranks. The sums do not
-                                     need it */
+  const double *leaflet_force;    /* (3, n_leaflets): riis_reaction.leaflet_force, added up over all ranks. The sums do not need
+                                     it */
+  const double *leaflet_moment;   /* (3, n_leaflets): riis_reaction.leaflet_moment, added up over all ranks. The sums do not need
+                                     it */
   int64_t n_edges;                /* 1 to 2^40. Default 0 */
   const double *edges;            /* (3, 2, n_edges): both ends of each edge, for example riis_attachment.edges; magnitude at
                                      most 1e60. An edge may have length 0 */
@@ -36,7 +36,7 @@ typedef struct riis_loads {
 } riis_loads;
 RIIS_API riis_status riis_loads_init(riis_loads *loads, int64_t struct_size); /* the defaults */
 /* Adds the sums over nodes of tissue that riis_loads_add_forces needs.
- *   `loads`: radius, edges and n_leaflets; the forces are not read.
+ *   `loads`: the call reads radius, edges and n_leaflets, but no forces.
  *   `nodes`: the nodes of a surface or a volume of tissue, in the frame of the edges. Nodes farther from the edges than the
  *     radius do not count, and get no force.
  *   `weight` (n_points), 0 to 1e60: the area or volume around a node, 0 for nodes of other ranks. NULL: 1 for each node.
@@ -49,7 +49,7 @@ RIIS_API riis_status riis_loads_add_sums(const riis_loads *loads, const riis_poi
 /* Adds the forces of the leaflets at nodes of tissue. The forces of a leaflet have the sum leaflet_force and the moment
  * leaflet_moment, up to rounding.
  *   `loads`, `nodes`, `weight`: as in riis_loads_add_sums.
- *   `sums` (11, n_leaflets): of riis_loads_add_sums, added up over all ranks.
+ *   `sums` (11, n_leaflets): the sums of riis_loads_add_sums, added up over all ranks.
  *   `node_force` (3, n_points): the array to which the forces are added.
  * The force of a leaflet at a node is m w(d) (a + b x s). Here m is the weight of the node, and d is its distance from the
  * leaflet's edges. Up to the radius, w(d) is (1 + cos(pi d / radius)) / 2. The vector s leads from the middle of the leaflet's

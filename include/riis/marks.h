@@ -31,8 +31,8 @@ enum {
   RIIS_SEARCH_NEIGHBOR = 2,   /* walks from marked nodes to their neighbours (paper, algorithm "Recursive
                                  neighbor search") and also queries every other node that may be near. The mesh must have an
                                  adjacency, which need not be connected */
-  RIIS_SEARCH_PAPER = 3,      /* the paper's algorithm without any change, for comparison. It misses nodes that are not connected
-                                 to its only starting node. The mesh must have an adjacency */
+  RIIS_SEARCH_PAPER = 3,      /* the paper's algorithm without any change, for comparison. This search misses nodes that are not
+                                 connected to its only starting node. The mesh must have an adjacency */
   RIIS_SEARCH_CLUSTERS = 4    /* discards distant clusters of nodes in single precision, and decides about the other nodes in
                                  double precision. The exhaustive search runs instead (stats.search) for 2^32 points and more, and
                                  for a mesh that is a million times as large as the surface or as far away */
@@ -74,8 +74,8 @@ enum {
  * distance from the middle of the band. Here eps is the half thickness of this resistance (riis_surface_create). */
 typedef struct riis_resistance {
   int64_t struct_size;   /* set by the init function */
-  double R;              /* 0 to 1e60, in mass / (length time), such as kg/(m s). A flat closed valve in a flow of velocity u has
-                            a pressure drop of (R / eps) u. Default NaN, which is refused */
+  double R;              /* the resistance, 0 to 1e60, in mass / (length time), such as kg/(m s). A flat closed valve in a flow of
+                            velocity u has a pressure drop of (R / eps) u. Default NaN, which is refused */
   double half_thickness; /* eps, at least 1e-50. If the surface has an offset o, (1 + |o|) eps must be at most the distance limit.
                             Default RIIS_AUTO: the marking's half thickness */
   int32_t rim;           /* RIIS_RIM_*, default RIIS_RIM_ROUND */
@@ -153,7 +153,7 @@ typedef struct riis_mark_list {
                                  0 where K is 0. NULL without a resistance. With an offset, on the surface n is the surface's
                                  normal, and at a rim the normal turns too */
   const double *height;       /* (n_nodes): the signed distance s of riis_surface_create for a surface with an offset. At a rim
-                                 this is n.(x - p). NULL without an offset */
+                                 the signed distance is n.(x - p). NULL without an offset */
 } riis_mark_list;
 /* Gives one of the two lists of the last marking. The list is valid until the marks are destroyed or passed to riis_mark_nodes
  * again.

@@ -36,8 +36,8 @@ RIIS_API riis_status riis_surface_get_leaflet(const riis_surface *surface, int64
 enum {
   RIIS_OUTLINE_NONE = 0,      /* the boundary of the leaflets does not surround a centre, or encloses no area */
   RIIS_OUTLINE_DISC = 1,      /* bileaflet: the disc of radius about the z axis */
-  RIIS_OUTLINE_ATTACHMENT = 2, /* other valves: in each direction from the centre, the farthest edge of the leaflets. This edge is
-                                  the attachment, except where a free edge reaches farther */
+  RIIS_OUTLINE_ATTACHMENT = 2, /* for other valves the farthest edge of the leaflets in each direction from the centre. This edge
+                                  is the attachment, except where a free edge reaches farther */
   RIIS_OUTLINE_BOUNDARY = 3,  /* a surface from arrays or keyframes: in each direction, the farthest edge that only one triangle
                                  has */
   RIIS_OUTLINE_WALL = 4       /* riis_surface_get_orifice_in_wall: the longest line of open edges of the wall */
@@ -89,9 +89,9 @@ typedef struct riis_area_search {
   int64_t struct_size;                 /* set by the init function */
   const riis_surface_options *surface; /* options of the valve's surface. NULL, the default, stands for defaults */
   const riis_resistance *resistance;   /* as in riis_surface_get_orifice. NULL, the default, stands for defaults */
-  double from, to;    /* the range to search, from < to. The default NaN stands for 0 to 1 for the opening, for a tenth to ten
-                         times the scale, and for half to twice a parameter. If the parameter is 0, both numbers must be set,
-                         except for a share, which is searched over all shares */
+  double from, to;    /* the range to search, with `from` below `to`. The default NaN stands for 0 to 1 for the opening, for a
+                         tenth to ten times the scale, and for half to twice a parameter. If the parameter is 0, both numbers must
+                         be set, except for a share, which is searched over all shares */
   double tolerance;   /* the tolerance of an area, as a share of the area, 1e-12 to 1e-2. Default 1e-8 */
   int32_t n_samples;  /* the number of values that are tried first, 2 to 100,001. Default 33 */
   int32_t area;       /* RIIS_AREA_*, default RIIS_AREA_GEOMETRIC */
@@ -103,8 +103,8 @@ typedef struct riis_area_range {
   double from, to;          /* the values that were searched */
   double least, most;       /* the least and the largest area */
   double least_at, most_at; /* a value with that area */
-  double turns[4];          /* the first values at which the area changes from growing to falling or back. NaN fills the unused
-                               entries. A change by less than 1e-4 of the largest area does not count */
+  double turns[4];          /* the first values at which a growing area begins to fall, or a falling area begins to grow. NaN
+                               fills the unused entries. A change by less than 1e-4 of the largest area does not count */
   double seconds;           /* wall time of riis_find_by_area */
   int64_t n_turns;          /* the number of turns. Without a turn, the area only grows or only falls */
   int64_t n_surfaces;       /* the number of surfaces that were made, which is the cost of the search */
@@ -181,7 +181,7 @@ enum {
 /* The first opening at which the marked mesh has a passage. */
 typedef struct riis_first_passage {
   double opening;        /* the first opening with a passage; 0 for ALWAYS, 1 for NEVER, 0 for NONE */
-  double closed_opening; /* FOUND: the largest opening below `opening` that was found closed. Else: `opening` */
+  double closed_opening; /* the largest opening below `opening` that was found closed, with FOUND; else `opening` */
   int64_t node_id;       /* the passage at `opening`, as in riis_passage */
   double distance;       /* as in riis_passage */
   double point[3];       /* as in riis_passage */

@@ -29,7 +29,7 @@ RIIS_API riis_status riis_mesh_create(int64_t n_nodes, const double *x, const do
 RIIS_API riis_status riis_mesh_update(riis_mesh *mesh, int64_t n_nodes, const double *x, const double *y,
                                       const double *z, int64_t stride);
 /* Copies node coordinates and checks them. Use this call for a temporary array of Fortran, or for single precision, which is
- * converted to double exactly. The handle keeps 24 bytes per node.
+ * converted to double exactly. The copies take 24 bytes per node.
  * Errors: as riis_mesh_create. */
 RIIS_API riis_status riis_mesh_create_copy(const riis_points *nodes, riis_mesh **mesh);
 /* Does the same as riis_mesh_update, but copies the coordinates. A mesh may change between borrowed and copied coordinates. */
@@ -70,7 +70,7 @@ RIIS_API riis_status riis_grid_init(riis_grid *grid, int64_t struct_size); /* th
  * Errors: RIIS_INVALID_MESH naming the axis, the index and the value. RIIS_LIMIT_EXCEEDED for numbers from 2^40 on. */
 RIIS_API riis_status riis_mesh_create_grid(const riis_grid *grid, riis_mesh **mesh);
 /* Gives a mesh other axes, or turns a mesh of points into a grid. The call riis_mesh_update turns a grid into points.
- * Errors: as riis_mesh_create_grid; the mesh then keeps its nodes. */
+ * Errors: those of riis_mesh_create_grid; the mesh then keeps its nodes. */
 RIIS_API riis_status riis_mesh_update_grid(riis_mesh *mesh, const riis_grid *grid);
 
 /* Neighbours of nodes, as compressed sparse rows. Let base be index_base. Node i, from 0 to n_rows - 1, has the neighbours
@@ -90,8 +90,8 @@ typedef struct riis_csr {
 RIIS_API riis_status riis_csr_init(riis_csr *csr, int64_t struct_size); /* the defaults */
 
 /* Gives the mesh the adjacency that the neighbour search walks along, and checks it once.
- *   `csr`: the mesh borrows the arrays of the struct. They must stay in place, unchanged, until the handle is destroyed or gets
- *     another adjacency. NULL removes the adjacency, as riis_mesh_update with another n_nodes does.
+ *   `csr`: the mesh borrows the arrays of the struct. These arrays must stay in place, unchanged, until the handle is destroyed
+ *     or gets another adjacency. NULL removes the adjacency, as riis_mesh_update with another n_nodes does.
  * Errors: RIIS_INVALID_MESH naming the row and its value. */
 RIIS_API riis_status riis_mesh_set_adjacency(riis_mesh *mesh, const riis_csr *csr);
 

@@ -76,16 +76,16 @@ RIIS_API riis_status riis_reaction_init(riis_reaction *reaction, int64_t struct_
  * but do not model how a membrane carries loads to its edges. The time for a node grows as log n_edges, or as n_edges if all
  * edges are equally near. The force on a valve at rest is correct. The force on a moving valve includes the inertia of the blood
  * in the band. If a scheme has K at its faces, the pressure equation of a moving valve needs a source. Without the source the
- * force is wrong by newtons (docs/solvers.md, "The source in the band"). The source acts in sets of cells that are enclosed by
- * walls and by faces with K dt > rho. It equals the outflow of u_surface through these faces. Finite elements have the same error
- * for K dt > rho, and no source is known for them.
+ * force is wrong by newtons (docs/solvers.md, "The source in the band"). The source acts in each set of cells that walls and
+ * faces with K dt > rho enclose, and equals the outflow of u_surface through these faces. Finite elements have the same error for
+ * K dt > rho, and no source is known for them.
  * Errors: as riis_marks_add_resistance. RIIS_INVALID_ARGUMENT also if n_leaflets is too small (the message names the leaflet id),
  * if a leaflet lacks an edge, if an edge is bad, and if the reaction has no array. */
 RIIS_API riis_status riis_marks_add_reaction(const riis_marks *marks, const riis_resistance *resistance,
                                              const riis_flow_arrays *flow, const riis_reaction *reaction);
 
 /* Adds the force of the flow on each vertex of the surface, so that a code for shells can move the leaflets.
- *   `surface`: the surface of the marking. It must not have been updated since the marking.
+ *   `surface`: the surface of the marking. The surface must not have been updated since the marking.
  *   `flow`: as in riis_marks_add_reaction.
  *   `n_vertices`: riis_triangles.n_vertices.
  *   `vertex_force` (3, n_vertices): the array to which the forces are added. The three vertices of a node's closest triangle

@@ -180,7 +180,7 @@ typedef struct riis_warp_info {
 /* Gives the quality of a warp. */
 RIIS_API riis_status riis_warp_get_info(const riis_warp *warp, riis_warp_info *info, int64_t struct_size);
 /* Maps points, such as points of the chords of a mitral valve.
- *   `points`: in the coordinates of the landmarks.
+ *   `points`: the points, in the coordinates of the landmarks.
  *   `mapped` (3, n_points); may be the array of the points.
  * Errors: RIIS_INVALID_ARGUMENT naming the point. */
 RIIS_API riis_status riis_warp_map(const riis_warp *warp, const riis_points *points, double *mapped);
@@ -209,7 +209,7 @@ typedef struct riis_gap {
   int64_t n_without_wall;   /* the number of ends without a wall in the skirt's direction. These ends count in no other field */
 } riis_gap;
 /* Measures the gap between a valve's attachment and a wall, such as a patient's vessel.
- *   `wall`: a surface in the same frame, usually by riis_surface_create_from_arrays.
+ *   `wall`: a surface in the valve's frame, usually by riis_surface_create_from_arrays.
  *   `distance` (2, n_edges): receives the gap at both ends of each edge of riis_attachment. RIIS_FAR_DISTANCE stands for an end
  *     without a wall. NULL: not wanted.
  * The gap is the distance to the wall in the skirt's direction, which is outwards from the valve's axis and perpendicular to it

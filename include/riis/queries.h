@@ -45,8 +45,8 @@ typedef struct riis_closest_options {
   const uint8_t *point_mask; /* (n_points): 0 stands for a point without a result, whose coordinates must still be finite. NULL:
                                 no mask */
   int64_t n_point_ids;       /* length of point_ids; 0 without it */
-  const int64_t *point_ids;  /* strictly ascending, 0 to n_points - 1: the call reads only these points, and writes only their
-                                entries. NULL: all points. Not together with point_mask */
+  const int64_t *point_ids;  /* the ids of the points that the call reads, strictly ascending, 0 to n_points - 1; the call writes
+                                only their entries. NULL: all points. Not together with point_mask */
   int32_t n_threads;         /* default 0 */
   int32_t reserved;          /* 0 */
 } riis_closest_options;
@@ -68,7 +68,7 @@ typedef struct riis_closest_arrays {
 RIIS_API riis_status riis_closest_arrays_init(riis_closest_arrays *arrays, int64_t struct_size);
 
 /* Finds the closest points of many points, in parallel.
- *   `arrays`: the arrays to write. They must not overlap each other or the coordinates.
+ *   `arrays`: the arrays to write. These arrays must not overlap each other or the coordinates.
  * Errors: RIIS_INVALID_ARGUMENT naming the first bad point; nothing is then written. */
 RIIS_API riis_status riis_closest_points(const riis_surface *surface, const riis_points *points,
                                          const riis_closest_options *options,

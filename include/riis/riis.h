@@ -2,8 +2,8 @@
  *
  * riis.h - the whole public interface of riis: heart valves as resistive immersed implicit surfaces.
  *
- *   riis_valve  --riis_surface_create-->  riis_surface  --riis_mark_nodes-->  riis_marks
- *   (named parameters)                    (triangles, Embree scene)           (nodes in the band)
+ * From a riis_valve, which has named parameters, riis_surface_create makes a riis_surface of triangles. riis_mark_nodes then
+ * finds the nodes in the band around this surface, and puts them into riis_marks.
  *
  * A flow solver gives the nodes of its mesh, and gets the nodes near the valve's leaflets, with their distances. At these
  * nodes the momentum equation has the term K (u - u_surface), which holds the blood back. No mesh has to follow the
@@ -60,7 +60,7 @@
  *   child requests more threads, the call returns RIIS_UNAVAILABLE. A child cannot make surfaces if another thread was inside the
  *   library during the fork.
  * - Environment: calls and log functions run with the default floating-point environment. At its end, each call restores the
- *   caller's environment. The caller's OpenMP and TBB settings are not changed.
+ *   caller's floating-point environment. The caller's OpenMP and TBB settings are not changed.
  *
  * "Paper" is B. van der Vuurst, J. Kosinka, C. Bertoglio, "Fast generation of 3D flow obstacles from parametric surface
  * models: application to cardiac valves" (2025); docs/theory/departures.md lists every departure.

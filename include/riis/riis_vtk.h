@@ -330,7 +330,7 @@ RIIS_API riis_status riis_vtk_motion_read_files(int64_t n_files, const char *con
  *   `prefix`: the name of each array is the prefix, then "_" or nothing, then a whole number, as in displacement_0 and
  *     displacement_10. Frames are in the order of the numbers, which may have gaps.
  *   `n_times`: the number of arrays of displacements, or 0.
- *   `times` (n_times): the times of the frames. NULL, with n_times 0: the times are in the field array TimeValue.
+ *   `times` (n_times): the times of the frames. NULL, with n_times 0, means that the times are in the field array TimeValue.
  * Errors: RIIS_INVALID_ARGUMENT naming a bad entry of times, and if n_times is not the number of arrays. */
 RIIS_API riis_status riis_vtk_motion_read_displacements(const char *path, const char *prefix, int64_t n_times,
                                                         const double *times, const char *leaflets,

@@ -42,10 +42,10 @@ enum {
 };
 
 /* How the distance of a point to the surface is measured (paper, 4.1). Sampling and minimisation serve comparisons with the
- * paper, and work only for surfaces of valves. They measure the distance to points S(u,v) of the patches, with the error e =
+ * paper, and work only for surfaces of valves. Both measure the distance to points S(u,v) of the patches, with the error e =
  * measure_tolerance * half_thickness (docs/theory/paper-distances.md). Their closest points have the leaflet_id of the patch, the
- * normal of S (0 0 0 if S has none), triangle_id -1, barycentric 0 and side 0. They refuse RIIS_SEARCH_CLUSTERS and arrays for
- * barycentric and side: RIIS_INVALID_ARGUMENT. */
+ * normal of S (0 0 0 if S has none), triangle_id -1, barycentric 0 and side 0. RIIS_INVALID_ARGUMENT refuses both with
+ * RIIS_SEARCH_CLUSTERS, and with arrays for barycentric and side. */
 enum {
   RIIS_MEASURE_TRIANGLES = 0,   /* the closest point of all triangles, without approximation */
   RIIS_MEASURE_SAMPLING = 1,    /* the nearest of up to 16,777,216 sample points, which are spaced evenly on the patches. The
@@ -76,8 +76,8 @@ typedef struct riis_surface_options {
   double scale;            /* 1e-12 to 1e12, default 1 */
   double rotation_axis[3]; /* components up to 1e50, length at least 1e-50; default (0, 0, 1) */
   double rotation_angle;   /* degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6, default 0 */
-  double translation[3];   /* mesh units; -1e50 to 1e50, default 0. Refused for a valve if coordinates would be
-                              rounded by more than a thousandth of tolerance * half_thickness */
+  double translation[3];   /* a shift in mesh units, -1e50 to 1e50, default 0. Refused for a valve if coordinates would be rounded
+                              by more than a thousandth of tolerance * half_thickness */
   double measure_tolerance; /* error of sampling and minimisation, in half thicknesses, 1e-6 to 1. Default: tolerance */
   int32_t measure;         /* RIIS_MEASURE_*, for closest points and marking only; default
                               RIIS_MEASURE_TRIANGLES, the only one for surfaces from arrays */
@@ -97,8 +97,8 @@ RIIS_API riis_status riis_surface_options_init(riis_surface_options *options, in
  *   `valve`: its parameters must fit together.
  *   `options`: accuracy and placement.
  * Normals point downstream: from the ventricular to the sinus face of the cusps, from the atrial to the ventricular face of
- * the mitral valve, and to +z on closed bileaflet leaflets. On the bileaflet ring, normals point outwards. Triangles of zero area
- * are skipped. They lie at the root of each cusp, at the mitral commissures and at the ends of bileaflet middle edges. The
+ * the mitral valve, and to +z on closed bileaflet leaflets. On the bileaflet ring, normals point outwards. Triangles of zero
+ * area, as at the root of each cusp, at the mitral commissures and at the ends of bileaflet middle edges, are skipped. The
  * thickness of the band around a surface is 2 eps, twice the half thickness. With an offset o the middle of the band lies o eps
  * beside the triangles, on the side to which normals point. Let s be the signed distance of a node, with the sign of its side.
  * The band holds the nodes with |s - o eps| <= eps. At a rim with the closest point p and the normal n, the band holds the nodes
@@ -175,7 +175,7 @@ typedef struct riis_surface_info {
   double area;               /* of all triangles, mesh units squared */
   double lower[3], upper[3]; /* bounds of the triangles, mesh units */
   double seconds_triangles;  /* wall time of the last call that made or updated the surface: for checks and triangles */
-  double seconds_scene;      /* wall time of the same call: for groups of triangles, sampling and minimisation. Embree's tree is
+  double seconds_scene;      /* wall time of the same call for groups of triangles, sampling and minimisation. Embree's tree is
                                 not included, because the first query that needs the tree builds it */
   double error_bound;        /* the largest possible error of a distance: the difference between the distances to the triangles
                                 and to the smooth valve. At most tolerance * half_thickness. 0 for a surface from arrays */
@@ -252,8 +252,8 @@ RIIS_API riis_status riis_surface_update_moving(riis_surface *surface, const rii
                                                 const riis_surface_options *options,
                                                 const riis_surface_options *options_before);
 
-/* Interpolation between keys in time. A time is rounded to a key, or to a key plus whole periods, if the difference is at most 8
- * * 2^-52 of the largest of time, key and period. */
+/* Interpolation between keys in time. A time is rounded to a key, or to a key plus whole periods, if the difference is at most
+ * 2^-49 of the largest of time, key and period. */
 enum {
   RIIS_INTERPOLATION_LINEAR = 0, /* the rate jumps at keys; at a key it has the value after the jump */
   RIIS_INTERPOLATION_CUBIC = 1   /* monotone between keys, with a continuous rate (Fritsch, Butland 1984) */

@@ -19,11 +19,11 @@ typedef struct riis_valve riis_valve;
 
 /* Makes a valve with the default parameter values. For "aortic" and "mitral" the defaults come from the paper.
  *   `kind`: one of these names (docs/theory.md). Any other name gives RIIS_INVALID_PARAMETER.
- *     "aortic" and "mitral", the paper's three cusps and two leaflets
- *     "coapting", "bicuspid" and "quadricuspid", three, two and four cusps with a zone of coaptation
- *     "tricuspid" and "mitral_coapting", three and two leaflets of an annulus, with a zone of coaptation
- *     "trileaflet", three equal cusps that close in straight lines
- *     "bileaflet", a mechanical prosthesis. */
+ *     - "aortic" and "mitral", the paper's three cusps and two leaflets
+ *     - "coapting", "bicuspid" and "quadricuspid", three, two and four cusps with a zone of coaptation
+ *     - "tricuspid" and "mitral_coapting", three and two leaflets of an annulus, with a zone of coaptation
+ *     - "trileaflet", three equal cusps that close in straight lines
+ *     - "bileaflet", a mechanical prosthesis. */
 RIIS_API riis_status riis_valve_create(const char *kind, riis_valve **valve);
 /* Makes a second valve with the same parameters, patches and states. The caller destroys both valves. */
 RIIS_API riis_status riis_valve_copy(const riis_valve *valve, riis_valve **copy);
