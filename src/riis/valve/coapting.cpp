@@ -101,7 +101,7 @@ ValveKind make_kind(const char *name, double default_stretch) {
      {"0.016 commissure_radius", gap_rule}},
     {"bottom_angle", degree, "angle between the closed cusp and the plane of the root, at the root", 1, {20}, 0, 80},
     {"belly", number, "largest start tangent of the closed symmetry curve, as a multiple of root_radius", 1, {0.5}, 0.05, 0.8},
-    {"edge_rise", number, "rise of the closed free edge's control point beside the commissure, as a share of the whole rise",
+    {"edge_rise", number, "share of the closed free edge's rise that is reached at the control point before the commissure",
      1, {0.3}, 0, 0.9},
     {"attachment_width", number, "start tangent of the attachment, as a multiple of root_radius", 1, {0.6}, 0.1, 1.2},
     {"attachment_drop", number, "end tangent of the attachment, as a multiple of commissure_height", 1, {0.5}, 0.1, 0.9},
