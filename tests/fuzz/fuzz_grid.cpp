@@ -219,7 +219,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *bytes, std::size_t siz
   Input in(bytes, size);
   const Surface &surface = surfaces[in.below(2)];
   riis_mesh *mesh = nullptr;
-  // A second grid replaces the first one. A refused grid changes nothing.
+  // If two grids are valid, the second grid replaces the first. A refused grid changes nothing.
   Case last;
   for (int turn = 0; turn < 2; ++turn) {
     Case of = case_of(in);

@@ -167,7 +167,7 @@ std::string text_of_file(const std::string &path) {
   std::ifstream file(path);
   std::ostringstream text;
   if (file) text << file.rdbuf();
-  // On Linux, a folder can be opened as a file. Only reading it fails, so folders are recognised here.
+  // On Linux, a folder can be opened as a file. Reading a folder fails, so folders are recognised here.
   if (!file.is_open() || errno != 0) refuse_file(path, "cannot be read: " + system_text(errno));
   std::string content = text.str();
   if (content.empty()) refuse_file(path, "is empty");

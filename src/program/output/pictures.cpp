@@ -369,7 +369,7 @@ void Movie::encode() const {
   if (end.status == 0 && std::rename(temporary.c_str(), place.c_str()) == 0) return;
   const int error = errno;
   std::remove(temporary.c_str());
-  // If the user presses Ctrl-C, the signal also reaches ffmpeg. If so, the failure of ffmpeg needs no message.
+  // If the user presses Ctrl-C, the signal also reaches ffmpeg. If Ctrl-C ended ffmpeg, its failure needs no message.
   if (UnbrokenWrite::has_signal()) return;
   if (end.status == 0) refuse_movie(path_, system_text(error));
   refuse_movie(path_, "ffmpeg ends with status " + std::to_string(end.status) + ": " + end.last_message.substr(0, 200));

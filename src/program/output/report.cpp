@@ -347,7 +347,7 @@ void add_marks(const ValveReport &valve, nlohmann::ordered_json &json) {
                {"outside", valve.outside ? json_of_outside(*valve.outside) : nlohmann::ordered_json()}});
 }
 
-// Returns the JSON keys of a valve. If there is only one valve, the keys of the run are added.
+// Returns the JSON keys of a valve. For a single valve, the keys of the run are added.
 nlohmann::ordered_json json_of_valve(const Report &report, const ValveReport &valve, bool is_only) {
   nlohmann::ordered_json json;
   if (is_only) json["version"] = riis_version_string();

@@ -80,8 +80,8 @@ unsigned own_pool() {
   return own;
 }
 
-// A process may be forked while another thread holds a pool's lock. The child lacks that thread, so the lock would stay held.
-// Therefore the forking thread takes all locks first.
+// A process may be forked while another thread holds a pool's lock. In the child the other thread does not exist, so its lock
+// would stay held. Therefore the forking thread takes all locks first.
 bool prepare_for_forks() noexcept {
   const auto unlock = [] {
     for (Pool &pool : pools) pool.in_use.unlock();

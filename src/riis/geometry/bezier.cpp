@@ -203,7 +203,7 @@ double arc_length(const Bezier &curve, double t0, double t1) {
   return length_between(Speed(curve), length_tolerance(curve), t0, t1);
 }
 
-// Every point has its own variable, and not a place in an array. With an array, the compiler would store the points and load them
+// Every point has its own variable, and no place in an array. With an array, the compiler would store the points and load them
 // again immediately.
 std::pair<Bezier, Bezier> split(const Bezier &curve, double t) {
   const auto &q = curve.control;

@@ -41,7 +41,7 @@ class Bulge {
   // Keeps copies of both curves. The edge may be a point.
   Bulge(Curve base, Curve edge, double factor);
 
-  // A place u on both curves, and O there.
+  // A place u on both curves of a patch of arcs, and the offset O there.
   struct Place {
     double u;
     PointOnSpan on_base, on_edge;

@@ -38,7 +38,7 @@ class Curve {
   // Returns the shares of the length at which one span ends and the next begins, in ascending order.
   Vector<double> joints() const;
 
-  // The point at a share of the length, and the unit tangent there. The tangent is 0 if the curve has no direction.
+  // The point at a share of a curve's length, and the unit tangent there. The tangent is 0 if the curve has no direction.
   struct PointAndTangent {
     Vec3 point, tangent;
   };

@@ -16,7 +16,8 @@ namespace riis {
 struct Quad {
   Vec3 p00, p10, p11, p01;
 
-  // On an edge, the result depends only on the two ends of the edge. Neighbouring quads therefore agree to the last bit.
+  // On an edge, the result depends only on the two ends of the edge. Neighbouring quads therefore agree to the last bit on their
+  // common edge.
   Vec3 at(double s, double t) const { return mix(mix(p00, p10, s), mix(p01, p11, s), t); }
 };
 

@@ -65,7 +65,7 @@ Bounds bounds_of(const StridedPoints &points, double &sum) {
   return bounds;
 }
 
-// Single precision is rare, so one point at a time is fast enough.
+// Coordinates in single precision are rare, so one point at a time is fast enough.
 Bounds bounds_of(const StridedReals<float> &points, double &sum) {
   Bounds bounds;
   for (std::int64_t i = 0; i < points.n; ++i) {

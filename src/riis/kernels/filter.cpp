@@ -448,8 +448,8 @@ int32_t filter_nodes(const FilterTask &task, ClusterTask &cluster, const PairArr
     compare_all<is_one_sided>(task, cluster);
     cluster.next_listed = 0;
   }
-  // Writes those listed nodes whose group is still near after the whole list was compared. The position advances only after such
-  // a node. Writing every node avoids a branch that the processor could not predict.
+  // Writes those listed nodes whose group is still near after the whole list was compared. The position to write advances only
+  // after a node whose group is near. Writing every node avoids a branch that the processor could not predict.
   const GroupBounds *const bounds = task.bounds;
   int32_t *const node_of_pair = pairs.node, *const triangle_of_pair = pairs.triangle;
   const int32_t n_listed = cluster.n_listed;

@@ -384,7 +384,7 @@ RIIS_INLINE uint32_t bits_at_most(Floats a, Floats b) {
 #endif
 }
 
-// Returns one bit for each lane. The bit is set if a and b differ there.
+// Returns one bit for each lane. A bit is set if a and b differ in its lane.
 RIIS_INLINE uint32_t bits_different(Floats a, Floats b) {
 #if defined(__AVX512F__)
   return _mm512_cmp_ps_mask((__m512)a.part[0], (__m512)b.part[0], _CMP_NEQ_UQ);

@@ -90,7 +90,7 @@ std::pair<Vec3, double> axis_and_angle(const Rotation &r) {
   const double angle = arc_tangent(sine, trace - 1) * (180 / pi);
   if (sine > 1e-6) return {unit(twice), angle};
   if (trace > 1) return {{0, 0, 1}, 0};
-  // Here the angle is 180 degrees. For this angle, each column of R + 1 that is not 0 has the direction of the axis.
+  // For an angle of 180 degrees, each column of R + 1 that is not 0 has the direction of the axis.
   const Vec3 columns[3] = {{r.row_x.x + 1, r.row_y.x, r.row_z.x},
                            {r.row_x.y, r.row_y.y + 1, r.row_z.y},
                            {r.row_x.z, r.row_y.z, r.row_z.z + 1}};

@@ -21,7 +21,8 @@ class KeyTimes {
   // RIIS_INVALID_ARGUMENT. A message names the field or the key, and its value.
   KeyTimes(const char *name, std::int64_t n_keys, const double *time, double period, std::int32_t interpolation);
 
-  // Returns whether the last key is exactly one period after the first key. If so, the values of these two keys must be equal.
+  // Returns whether the last key is exactly one period after the first key. If the last key is one period after the first key,
+  // the values of both keys must be equal.
   bool is_closed() const { return is_closed_; }
 
   // The keys around a time and the times between these keys. The value at the time follows from these keys and these times
@@ -32,8 +33,8 @@ class KeyTimes {
     double since;                     // time since the interval's first end
     bool is_at_rest;                  // true before the first key and after the last; key[1] then gives the value
   };
-  // A time counts as a key if it differs from the key by at most 8 units of rounding, apart from whole periods. The key then
-  // becomes the first end of the interval. The unit is 2^-52 times the largest of time, key and period. Fails with
+  // A time counts as a key if it differs from the key by at most 8 units of rounding, apart from whole periods. A key that counts
+  // as the time becomes the first end of the interval. The unit is 2^-52 times the largest of time, key and period. Fails with
   // RIIS_INVALID_ARGUMENT for a time that is not finite. `name` is the time's name in the message.
   KeysAround around(double time, const char *name = "time") const;
 

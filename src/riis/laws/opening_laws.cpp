@@ -164,7 +164,7 @@ class AngleLaw {
                          law_.vortex_gain * std::max(flow, 0.0) * (2 * sine * cosine)};
   }
 
-  // Bounds the rate at which the motion changes. The number of steps follows from this bound.
+  // Bounds the rate at which the motion changes. The number of Runge-Kutta steps follows from this bound.
   double fastest() const {
     const double pressure = std::max(std::abs(from_.pressure_difference), std::abs(to_.pressure_difference));
     const double flow = std::max(std::abs(from_.flow), std::abs(to_.flow));

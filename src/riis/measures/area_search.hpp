@@ -43,8 +43,8 @@ class AreaSearch {
   std::optional<Point> find(double area, double near, double tolerance) const;
 
  private:
-  // The points from `first` to `last`, over which the area only grows or only falls, apart from jumps. No value between these two
-  // points was refused.
+  // The points from `first` to `last`, over which the area only grows or only falls, apart from jumps. No value between `first`
+  // and `last` was refused.
   struct Part {
     std::size_t first, last;
   };

@@ -35,7 +35,7 @@ class Overlap {
 
   double least() const { return least_; }
 
-  // Takes one more direction into account. Returns whether the least overlap is still above the limit.
+  // Also takes the overlap along w into account. Returns whether the least overlap is still above the limit.
   bool along(Vec3 w) {
     const auto [a_low, a_high] = extent(w, a_);
     const auto [b_low, b_high] = extent(w, b_);
@@ -64,8 +64,8 @@ bool cuts_plane(const Triangle &t, Vec3 w, double limit) {
   return std::max({x, y, z}) > least && -std::min({x, y, z}) > least;
 }
 
-// Returns whether e and f are nearly parallel: their parallelogram is narrower than 1e-8 of an edge. The vector w is their cross
-// product.
+// Returns whether e and f are nearly parallel: their parallelogram is narrower than 1e-8 of an edge. The vector w is the cross
+// product of e and f.
 bool are_parallel(Vec3 w, Vec3 e, Vec3 f) { return dot(w, w) <= 1e-16 * dot(e, e) * dot(f, f); }
 
 // Returns the length of the shortest translation of one triangle after which the two triangles only touch, or 0 if the length is

@@ -132,7 +132,7 @@ class NodeSorter {
   static constexpr int n_small_bins = 64, n_small_bins_per_part = 16;
   typedef std::array<Node, n_bins> Counts;
   // Items are counted and moved four at a time, one from each quarter of a block. Neighbouring items often belong to the same
-  // count, and each update of a count waits for the previous update. Each quarter therefore has its own counts.
+  // count, and each update of a count waits for the previous update. Each quarter of the items therefore has its own counts.
   static constexpr int n_quarters = 4;
   typedef std::array<Node, n_quarters> OfQuarters;
   typedef std::array<OfQuarters, n_bins> QuarterCounts;
@@ -162,7 +162,7 @@ class NodeSorter {
   };
 
   // A stream is a run of bins whose items are written to consecutive places, one item after another. A bin that contains a cut is
-  // a stream by itself. All bins between two such bins are one stream. There are fewer streams than bins, so the writes are
+  // a stream by itself. All bins between two bins with a cut are one stream. There are fewer streams than bins, so the writes are
   // faster.
   struct Streams {
     static constexpr int most = 2 * most_parts - 1;
@@ -192,7 +192,7 @@ class NodeSorter {
   };
 
   // A part that is divided into blocks, which threads share. Each block has its box, its counts and the positions of its streams.
-  // OneBlock is such a part for one thread and one block.
+  // OneBlock is a part for one thread and one block.
   struct ManyBlocks {
     const Part &part;
     std::int64_t per_block;

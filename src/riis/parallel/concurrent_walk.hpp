@@ -23,7 +23,7 @@
 // order on the bodies, and thus hide their races.
 namespace riis {
 
-// Slots for any number of ranges. A slot keeps its address.
+// An array of slots for any number of ranges. A slot keeps its address.
 class RangeSlots {
  public:
   struct Slot {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Keeps the library's code in memory once threads may run it, even if a plug-in that uses riis is closed. On Linux the linker's
-// option -z nodelete does that (cmake/RiisPlatform.cmake). Darwin's linker has no such option.
+// option -z nodelete does that (cmake/RiisPlatform.cmake). Darwin's linker has no option like -z nodelete.
 #pragma once
 
 #if defined(__APPLE__)

@@ -11,9 +11,9 @@
 namespace riis {
 
 // Calls work(context, 0) on the calling thread. Also calls work(context, thread), 0 < thread < n_threads, on each further thread
-// that arrives before the calling thread has finished. Returns after all these calls have returned. Returns the number of threads
-// that took part. The number of threads is less than n_threads only if the system refuses a thread, a semaphore or memory. No
-// call may throw.
+// that arrives before the calling thread has finished. Returns after the calls of all threads have returned. Returns the number
+// of threads that took part. The number of threads is less than n_threads only if the system refuses a thread, a semaphore or
+// memory. No call may throw.
 int run_by_team(int n_threads, void (*work)(void *context, int thread), void *context);
 
 // Chooses between OpenMP's threads, a team and the calling thread. OpenMP's threads begin a loop sooner, and they also run the

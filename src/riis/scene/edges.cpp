@@ -105,7 +105,8 @@ class Cancelling {
   };
 
   // Looks for an edge in the opposite direction that covers one end of a given edge. The found edge lies between the vertex at
-  // this end and a point on the given edge. The two edges cancel up to this point. Returns false if there is no such edge.
+  // this end and a point on the given edge. The given edge and the found edge cancel up to this point. Returns false if there is
+  // no such edge.
   bool shorten(std::size_t i, Ends &here, const Ends &there) {
     const OpenEdge edge = edges_[i];
     for (auto [at, last] = there.with.equal_range(edge.*here.end); at != last; ++at) {

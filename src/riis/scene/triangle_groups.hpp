@@ -67,7 +67,7 @@ struct TriangleGroups {
   }
 
  private:
-  // A thread's findings about the groups of one pack.
+  // What a thread finds out about the groups of one pack.
   struct OfPack {
     double size;    // the sum of the extents of its groups' boxes
     bool are_same;  // whether each group has the same triangles as before

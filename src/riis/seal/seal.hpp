@@ -71,7 +71,7 @@ class OpenSets {
   // Puts the node into a new set of its own.
   void open(std::int64_t node) { parent_[node] = node; }
 
-  // Returns the lowest node of the set. Also halves the path to this node, which makes later calls faster.
+  // Returns the lowest node of the set. Also halves the path to the lowest node, which makes later calls faster.
   std::int64_t root(std::int64_t node) {
     for (;;) {
       std::int64_t parent = load(node);

@@ -37,8 +37,8 @@ struct Placing {
 
 #if defined(__SIZEOF_INT128__)
 // A number for each triangle, in the order of closest triangles (is_closer), for finite squares of distances. The first 64 bits
-// are the bits of the square. Squares are not negative, so their bits have the same order. The last 64 bits are the triangle, or
-// the largest number if there is no triangle.
+// of the number are the bits of the square. Squares are not negative, so their bits have the same order. The last 64 bits are the
+// triangle, or the largest number if there is no triangle.
 __extension__ typedef unsigned __int128 Rank;
 Rank rank_of(const ClosestTriangle &closest) {
   std::uint64_t square;
@@ -301,8 +301,8 @@ class ClusterSearch {
     const std::int32_t *const near_groups = own.near_groups.data() + first;
     std::uint16_t *const leaf_bits = own.leaf_bits.data() + first;
     const auto n_near = static_cast<std::int32_t>(n);
-    // If groups are smaller than a cluster's leaves, many groups are near the cluster. In this case, the boxes along the groups'
-    // own axes exclude few clusters.
+    // If groups are smaller than a cluster's leaves, many groups are near the cluster. With many near groups, the boxes along the
+    // groups' own axes exclude few clusters.
     constexpr std::size_t many = 32;
     if (kernels_.near_boxes(task_, leaves, near_groups, n_near, leaf_bits) &&
         (n > many || kernels_.near_own_boxes(task_, leaves, near_groups, n_near, leaf_bits))) {

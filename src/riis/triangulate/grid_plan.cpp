@@ -164,8 +164,8 @@ struct Needs {
   Vector<double> at, need;
 };
 
-// Takes as few of these positions as possible. Each segment's error stays within the share `most` of the allowed error. The first
-// and the last position are always taken.
+// Takes as few positions as possible, always including the first and the last. Each segment's error stays within the share `most`
+// of the allowed error.
 Vector<double> segments(const Needs &needs, double most) {
   Vector<double> made{needs.at.front()};
   for (std::size_t i = 0; i < needs.need.size();) {

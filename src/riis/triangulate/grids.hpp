@@ -11,8 +11,8 @@
 namespace riis {
 
 // The allowed error is divided among these errors as in docs/theory/triangles.md, "Shares of the bound". A point of a Coons patch
-// has three errors: of a u curve, of a v curve, and of merged grid lines. The shares below bound these errors. At least 1 - 2 *
-// (curve_share + merge_share) remains for the split of a quad into triangles.
+// has three errors: of a u curve, of a v curve, and of merged grid lines. The shares below bound the three errors. At least 1 - 2
+// * (curve_share + merge_share) remains for the split of a quad into triangles.
 inline constexpr double curve_share = 0.45, merge_share = 0.01;
 // The errors of a plan's lines reach the share `planned_curve_share` nearly everywhere. With a larger share, too little would
 // remain for the quads, so many quads would be subdivided.

@@ -20,8 +20,9 @@ enum class Mirror { none, in_x, in_y };
 
 inline constexpr std::size_t no_patch = static_cast<std::size_t>(-1);
 
-// The placement of a patch. The patch may first be mirrored. Then it is turned and moved. All images of a patch come from the
-// same operations on the same points. A patch and its mirror image therefore meet in the mirror's plane to the last bit.
+// The placement of a patch. The patch may first be mirrored. After mirroring, the patch is turned and moved. All images of a
+// patch come from the same operations on the same points. A patch and its mirror image therefore meet in the mirror's plane to
+// the last bit.
 struct PatchImage {
   Mirror mirror;
   Rotation rotation;
@@ -107,7 +108,7 @@ struct MaterialPoints {
   std::array<Vec3, n_material> point;    // of the warped curve
   std::array<double, n_material> share;  // of the warped curve's length up to that point
 
-  // Returns the points in the order of the reversed curve. The curve has this many spans.
+  // Returns the points in the order of the reversed curve, which has n_spans spans.
   MaterialPoints reversed(std::size_t n_spans) const {
     MaterialPoints made{};
     for (std::size_t k = 0; k < n_material; ++k) {
@@ -179,7 +180,7 @@ inline Curve along(const PatchSet &set, const Side &side) {
   return side.reversed ? set.curve_of(side).reversed() : set.curve_of(side);
 }
 
-// Returns the offset O (geometry/bulge.hpp) on a side that is itself an arc. The two patches at the side thus get the same bits.
+// Returns the offset O (geometry/bulge.hpp) on a side that is itself an arc. Both patches at such a side thus get the same bits.
 inline Vec3 arc_offset(const PatchSet &set, const Side &side) { return arc_offset(set.curve_of(side).spans().front()); }
 
 }  // namespace riis

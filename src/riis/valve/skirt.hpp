@@ -14,7 +14,7 @@
 
 namespace riis {
 
-// The line from which a skirt leads away. The direction is perpendicular to this line.
+// The line from which a skirt leads away. The direction of a skirt is perpendicular to its line.
 enum class SkirtAxis : std::uint8_t {
   none,      // the kind of valve has no skirt
   of_cusp,   // the z axis before a patch's image is placed, which is the root's axis
@@ -29,7 +29,7 @@ void aim_skirt(PatchSet &set, SkirtAxis axis);
 // does.
 void aim_warped_skirt(PatchSet &set, const PatchSet &at_rest, const BlendedWarp &warp);
 
-// A side at which a patch is attached. No other patch has this side.
+// A side at which a patch is attached. No other patch has the attached side.
 struct HeldSide {
   std::size_t patch;
   Side side;
@@ -44,7 +44,7 @@ inline constexpr std::size_t n_skirt_parts = 32;  // parts of each side with suc
 
 // Returns the attached ends of different leaflets that are neighbours but not joined, such as two aortic cusps at a commissure.
 // Patches are numbered as after a warp, where each image is a patch of its own. With `wants_turns`, the ends also get the turns
-// that they have before the warp. The patches must then have their axes.
+// that they have before the warp. Before the call, the patches must have their axes.
 Vector<NeighbourEnds> neighbour_ends(const PatchSet &set, bool wants_turns);
 
 // An end of a side, with the unit tangent there, which may point either way along the side.
