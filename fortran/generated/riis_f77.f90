@@ -5818,10 +5818,10 @@ subroutine riisf_place(valve, n_landmarks, xyz, role, leaflet_id, scale, noise, 
   integer(int32), intent(in) :: role(*)                   !< (n_landmarks): RIIS_LANDMARK_*.
   integer(int32), intent(in) :: leaflet_id(2, *)          !< (2, n_landmarks): the leaflets of each landmark. A nadir or
                                                           !! attachment point has its cusp and -1, and a commissure has its two
-                                                          !! leaflets in any order. -1 and -1: not known. For an aortic or
-                                                          !! tricuspid valve, the known leaflets must determine the names of
-                                                          !! all leaflets. For other kinds without names, the first nadir lies
-                                                          !! on cusp 0.
+                                                          !! leaflets in any order. -1 and -1 stand for unknown leaflets. For
+                                                          !! an aortic or tricuspid valve, the known leaflets must determine
+                                                          !! the names of all leaflets. For other kinds without names, the
+                                                          !! first nadir lies on cusp 0.
   real(c_double), intent(in) :: scale                     !< Mesh units in a centimetre: 10 for millimetres, 1 for centimetres,
                                                           !! or 0.01 for metres. Must be set.
   real(c_double), intent(in) :: noise                     !< The scatter of the landmarks: the standard deviation of each

@@ -51,12 +51,12 @@ RIIS_API riis_status riis_loads_add_sums(const riis_loads *loads, const riis_poi
  *   `loads`, `nodes`, `weight`: as in riis_loads_add_sums.
  *   `sums` (11, n_leaflets): the sums of riis_loads_add_sums, added up over all ranks.
  *   `node_force` (3, n_points): the array to which the forces are added.
- * The force of a leaflet at a node is m w(d) (a + b x s). Here m is the weight of the node, and d is its distance from the
- * leaflet's edges. Up to the radius, w(d) is (1 + cos(pi d / radius)) / 2. The vector s leads from the middle of the leaflet's
- * nodes to the node. The vectors a and b are constant for a leaflet. Among all forces with the given sum and moment, these forces
- * minimise the sum of |force|^2 / (m w) over the nodes. If the tissue moves rigidly, the power of the forces is force times
- * velocity plus moment times angular velocity. The forces are linear in leaflet_force and leaflet_moment: pass zeros for the
- * other leaflets to get the forces of one leaflet. The forces do not model the mechanics of a membrane.
+ * The force of a leaflet at a node is m w(d) (a + b x s), with two vectors a and b for each leaflet. Here m is the weight of the
+ * node, and d is its distance from the leaflet's edges. Up to the radius, w(d) is (1 + cos(pi d / radius)) / 2. The vector s
+ * leads from the middle of the leaflet's nodes to the node. Among all forces with the given sum and moment, these forces minimise
+ * the sum of |force|^2 / (m w) over the nodes. If the tissue moves rigidly, the power of the forces is force times velocity plus
+ * moment times angular velocity. The forces are linear in leaflet_force and leaflet_moment: pass zeros for the other leaflets to
+ * get the forces of one leaflet. The forces do not model the mechanics of a membrane.
  * Errors: as riis_loads_add_sums. RIIS_INVALID_ARGUMENT also if a loaded leaflet has fewer than three nodes within the radius, or
  * only nodes that lie nearly on a line. Nodes lie nearly on a line if their root-mean-square distance from the line is less than
  * a hundredth of their root-mean-square distance from their middle, or less than a thousandth of the size of the edges

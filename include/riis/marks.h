@@ -107,8 +107,8 @@ RIIS_API riis_status riis_mark_options_init(riis_mark_options *options, int64_t 
  * nodes in the band (riis_surface_create).
  *   `marks`: its content is replaced.
  * The log warns if the mesh and the surface seem to have different units: the largest sides of their bounding boxes differ by
- * more than a factor of 50, or one of these sides is below the half thickness. This warning comes once for each surface and mesh,
- * at most eight times for each mesh, and never for fewer than 1000 nodes.
+ * more than a factor of 50, or one of these sides is below the half thickness. The warning of different units comes once for each
+ * surface and mesh, at most eight times for each mesh, and never for fewer than 1000 nodes.
  * Errors: RIIS_INVALID_MESH for a coordinate that became non-finite after it was given. */
 RIIS_API riis_status riis_mark_nodes(const riis_surface *surface, const riis_mesh *mesh,
                                      const riis_mark_options *options, riis_marks *marks);
@@ -146,9 +146,9 @@ typedef struct riis_mark_list {
   const int32_t *patch_id;    /* (n_nodes): as in riis_triangles */
   int64_t n_directions;       /* the surface's directions during the marking; 0 without RIIS_FIELD_GRADIENT */
   const double *distance_gradient; /* (n_directions, n_nodes): the derivative of the distance in each direction, -n.V. The unit
-                                      vector n points from the closest point to the node. V is the rate of the closest point, as a
-                                      point of the triangle triangle_id. On the surface the derivative is 0, because the distance
-                                      has a kink there. The distance also has a kink at nodes with several nearest places */
+                                      vector n points from the closest point to the node. V is the rate of the closest point in
+                                      the triangle triangle_id. On the surface the derivative is 0, because the distance has a
+                                      kink there. The distance also has a kink at nodes with several nearest places */
   const double *K_gradient;   /* (n_directions, n_nodes): the derivative of K for constant R and half thickness. The derivative is
                                  0 where K is 0. NULL without a resistance. With an offset, on the surface n is the surface's
                                  normal, and at a rim the normal turns too */

@@ -37,7 +37,8 @@ RIIS_API riis_status riis_mesh_update_copy(riis_mesh *mesh, const riis_points *n
 /* Destroys the handle. The caller's coordinates and all marks stay. */
 RIIS_API void riis_mesh_destroy(riis_mesh **mesh);
 /* Makes the clusters of RIIS_SEARCH_CLUSTERS in advance, so that no marking has to make them. Clusters take 41 bytes per node
- * while the handle lives, and 32 more while they are made, because they copy the coordinates. A grid needs no such copy.
+ * while the handle lives, and 32 more while they are made, because they copy the coordinates. A grid needs no copy of
+ * coordinates.
  * Errors: RIIS_LIMIT_EXCEEDED for 2^32 nodes or more. RIIS_INVALID_MESH as riis_mark_nodes. */
 RIIS_API riis_status riis_mesh_prepare(riis_mesh *mesh, int32_t n_threads);
 

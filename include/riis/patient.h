@@ -45,9 +45,9 @@ typedef struct riis_landmarks {
   int64_t stride;            /* of x, y and z. Default 1 */
   const int32_t *role;       /* (n_landmarks): RIIS_LANDMARK_* */
   const int32_t *leaflet_id; /* (2, n_landmarks): the leaflets of each landmark. A nadir or attachment point has its cusp and -1,
-                                and a commissure has its two leaflets in any order. -1 and -1: not known. NULL: all -1. For an
-                                aortic or tricuspid valve, the known leaflets must determine the names of all leaflets. For other
-                                kinds without names, the first nadir lies on cusp 0 */
+                                and a commissure has its two leaflets in any order. -1 and -1 stand for unknown leaflets. NULL:
+                                all -1. For an aortic or tricuspid valve, the known leaflets must determine the names of all
+                                leaflets. For other kinds without names, the first nadir lies on cusp 0 */
   double scale;              /* mesh units in a centimetre: 10 for millimetres, 1 for centimetres, or 0.01 for metres. Must be
                                 set */
   double noise;              /* the scatter of the landmarks: the standard deviation of each coordinate, mesh units, >= 0.

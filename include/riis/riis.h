@@ -51,11 +51,11 @@
  * - Threads: any number of threads may read a handle (const) at once. One thread may write a handle while no other thread reads
  *   it. Different handles never interfere. Results are bitwise the same for any number of threads.
  * - n_threads: 1 to 1024, or 0, the default. By default a call takes one thread, and one more for each 4096 triangles of the
- *   surface, 16,384 nodes, cells or faces, or 2048 points. The triangles count as they were before an update. The default never
- *   exceeds the number of processors in the calling thread's affinity mask. By default, parts of a call with little work take one
- *   thread. With n_threads 1, the library starts no thread. OMP_NUM_THREADS and omp_set_num_threads have no effect. If the system
- *   refuses a thread or its memory, OpenMP and TBB end the process (docs/building.md). The library's own threads block all
- *   signals except the signals of errors, such as SIGSEGV.
+ *   surface, 16,384 nodes, cells or faces, or 2048 points. For an update, the triangles before the update count. The default
+ *   never exceeds the number of processors in the calling thread's affinity mask. By default, parts of a call with little work
+ *   take one thread. With n_threads 1, the library starts no thread. OMP_NUM_THREADS and omp_set_num_threads have no effect. If
+ *   the system refuses a thread or its memory, OpenMP and TBB end the process (docs/building.md). The library's own threads block
+ *   all signals except the signals of errors, such as SIGSEGV.
  * - fork(): if the library has used several threads, a child process may use only one thread, which is then the default. If a
  *   child requests more threads, the call returns RIIS_UNAVAILABLE. A child cannot make surfaces if another thread was inside the
  *   library during the fork.

@@ -99,9 +99,9 @@ RIIS_API riis_status riis_vtk_mesh_copy_cells(const riis_vtk_mesh *mesh, int64_t
 /* Makes the part of the mesh's adjacency that riis_find_leaks needs, in one pass over the cells. The part consists of the edges
  * that are longer than a given length and whose bounding box meets the surface's bounding box. The adjacency borrows nothing from
  * the mesh. Use this part only for riis_find_leaks, because it has too few edges for a search.
- *   `longer_than`: a length of 2 (1 - |o|) half thicknesses of the marking, with the offset o. With 0 the part has all edges near
- *     the surface. Use 0 after a marking by RIIS_SEARCH_PAPER, sampling or minimisation. The part also has edges that are shorter
- *     than longer_than by up to a billionth.
+ *   `longer_than`: a length of 2 (1 - |o|) half thicknesses of the marking, with the offset o. With the length 0, the part has
+ *     all edges near the surface. Use 0 after a marking by RIIS_SEARCH_PAPER, sampling or minimisation. The part also has edges
+ *     that are shorter than longer_than by up to a billionth.
  *   `n_cells_left_out`: as in riis_vtk_mesh_get_volume_cells.
  * Errors: RIIS_INVALID_ARGUMENT if longer_than is below 0 or not finite. */
 RIIS_API riis_status riis_vtk_mesh_create_long_edges(const riis_vtk_mesh *mesh, const riis_surface *surface,
@@ -410,14 +410,14 @@ typedef struct riis_vtk_picture_options {
   int32_t view;           /* RIIS_VTK_VIEW_*. Default RIIS_VTK_VIEW_OBLIQUE */
   int32_t width, height;  /* pixels, 64 to 8192. Default 1600 x 800 */
   int32_t reserved;       /* 0 */
-  double rotation_axis[3]; /* the rotation axis of the valve's placement, for RIIS_VTK_VIEW_VALVE_*. Its range is that of
+  double rotation_axis[3]; /* the rotation axis of the valve's placement, for RIIS_VTK_VIEW_VALVE_*, in the range of
                               riis_surface_options. Default (0, 0, 1) */
   double rotation_angle;  /* degrees. Default 0: the valve has the mesh's axes */
   const riis_surface *wall; /* the wall that is drawn around a surface without a mesh. If there is a mesh, its boundary is drawn
                                instead. Default NULL: none */
-  double background[4];   /* red, green and blue, 0 to 1, then the opacity, 0 or 1. Texts are dark on a bright colour, and bright
-                             on a dark colour. The opacity 0 makes the background transparent, and the colour still determines the
-                             texts. Default (1, 1, 1, 1): white */
+  double background[4];   /* the background: red, green and blue, 0 to 1, then the opacity, 0 or 1. Texts are dark on a bright
+                             colour, and bright on a dark colour. The opacity 0 makes the background transparent, and the colour
+                             still determines the texts. Default (1, 1, 1, 1): white */
   int32_t captions;       /* RIIS_VTK_CAPTIONS_*. Default RIIS_VTK_CAPTIONS_ALL */
   int32_t panels;         /* RIIS_VTK_PANELS_*. Default RIIS_VTK_PANELS_BOTH */
 } riis_vtk_picture_options;
@@ -425,8 +425,8 @@ typedef struct riis_vtk_picture_options {
 RIIS_API riis_status riis_vtk_picture_options_init(riis_vtk_picture_options *options, int64_t struct_size);
 
 /* Draws the surface and the marked cells of the mesh to a .png file, in two panels of the same scale.
- * - The left panel shows the surface with a colour for each leaflet. Six colours are used in turn. The key below this panel names
- *   as many leaflets as fit, and dots replace the others. A leaflet that is seen edge-on appears as a line.
+ * - The left panel shows the surface with a colour for each leaflet. The leaflets have six colours in turn. The key below this
+ *   panel names as many leaflets as fit, and dots replace the others. A leaflet that is seen edge-on appears as a line.
  * - The right panel shows marked cells. A cell with all nodes marked has the colour of the leaflet nearest to
  *   one of them. Other cells with a marked node show only their far side, in a pale colour. If the mesh has
  *   volume cells, flat cells are not drawn.

@@ -31,8 +31,8 @@ RIIS_API void riis_leaks_destroy(riis_leaks **leaks); /* destroys the leaks and 
  * leak. Longer edges may leak beside rims, but seldom if they are at most 2 sqrt(1 - o^2) half thicknesses long. With an offset,
  * an edge does not leak if both of its nodes are on the same side and away from rims, because the edge then only cuts the corner
  * of a fold. If the same triangles are marked again with the half thickness of riis_leak_list, no edge leaks, except with
- * RIIS_SEARCH_PAPER. However, an update with this half thickness moves a valve's triangles by up to tolerance * half_thickness.
- * Search for leaks again after such an update.
+ * RIIS_SEARCH_PAPER. However, an update with this half thickness moves a valve's triangles by up to tolerance * half_thickness,
+ * so search for leaks again after it.
  * Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, for empty marks, and for marks with another number of nodes or
  * another half thickness. RIIS_INVALID_MESH as riis_mark_nodes. */
 RIIS_API riis_status riis_find_leaks(const riis_surface *surface, const riis_mesh *mesh,
@@ -106,8 +106,7 @@ RIIS_API riis_status riis_passage_ends_init(riis_passage_ends *ends, int64_t str
  *   `mesh`: must have an adjacency, and need not have been marked.
  *   `ends`: a path includes its two ends, so the distances of the ends from the surface also limit the passage.
  *   `options`: only node_mask, n_threads and instructions are used. No path passes through a node that node_mask leaves out.
- * An update with another half thickness moves a valve's triangles by up to tolerance * half_thickness. Search again after such an
- * update.
+ * An update with another half thickness moves a valve's triangles by up to tolerance * half_thickness, so search again after it.
  * Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency. Each node in `from` and `to` must be in the mesh and in node_mask,
  * and farther from the surface than the half thickness. RIIS_INVALID_MESH as riis_mark_nodes. */
 RIIS_API riis_status riis_find_passage(const riis_surface *surface, const riis_mesh *mesh,

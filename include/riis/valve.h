@@ -62,7 +62,7 @@ RIIS_API riis_status riis_valve_get(const riis_valve *valve, const char *name, i
  *     quadricuspid).
  *   `effective_height`: the height of the free edges above the annulus, leaflet_height (aortic, trileaflet). The other kinds with
  *     cusps have a parameter of this name, for the middle of the edges.
- * Some parameters have a rule: until they are set, they follow from other parameters. The order of calls does not matter. The
+ * Some parameters have a rule: until they are set, they follow from other parameters. Parameters may be set in any order. The
  * call riis_valve_get gives the present values of such parameters. Copies and open states also know which parameters were set. */
 
 /* Returns a parameter to the value that its rule gives, or to its default if it has no rule.

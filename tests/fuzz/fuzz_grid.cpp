@@ -95,7 +95,7 @@ bool is_made(riis_status status) {
   return false;
 }
 
-// The nodes of the grid as points. Each point has its number.
+// Gives the nodes of the grid as points. Each point has its number.
 struct Points {
   std::vector<double> xyz;
   std::vector<std::int64_t> number;

@@ -34,7 +34,7 @@ int decimal_exponent(double number);
 // Returns 10 to the given power as the nearest double, or 0 if a double cannot hold it.
 double power_of_ten(int exponent);
 
-// Returns the texts of the numbers, separated by the given text.
+// Joins the texts of numbers by the given text.
 std::string numbers_text(const double *numbers, std::size_t n, const char *between,
                          std::string (*as_text)(double) = shortest);
 

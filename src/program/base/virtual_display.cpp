@@ -118,8 +118,8 @@ int file_with_key() {
   _exit(127);
 }
 
-// Reads the number of the display. Xvfb writes the number and a line break when it is ready. Returns "" if Xvfb has ended, or if
-// no time is left.
+// Reads the number of the display from Xvfb. Xvfb writes the number and a line break when it is ready. Returns "" if Xvfb has
+// ended, or if no time is left.
 std::string read_number(int file, Clock::time_point end) {
   std::string text;
   for (;;) {

@@ -389,7 +389,7 @@ class WallRepair {
     return true;
   }
 
-  // A closed line of open sides. The triangles lie to the left of the line.
+  // A closed line of sides with only one triangle. The triangles lie to the left of the line.
   using RimLoop = std::vector<std::int64_t>;
 
   std::vector<RimLoop> open_loops() const {

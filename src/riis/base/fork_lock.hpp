@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keeps a mutex free in each child of fork().
+// Keeps a mutex free in each child process of fork().
 #pragma once
 
 #include <pthread.h>

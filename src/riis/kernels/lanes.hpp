@@ -429,7 +429,7 @@ RIIS_INLINE Floats zero_where_at_least(Floats a, Floats b, Floats x) {
 #endif
 }
 
-// Takes 16 integers, and returns one bit for each: the integer's bit number `bit`.
+// Returns bit number `bit` of each of 16 integers.
 RIIS_INLINE uint32_t lanes_with_bit(const uint16_t *from, int32_t bit) {
 #if defined(RIIS_SSE2)
   // The bit becomes the sign, which is kept when integers are packed to bytes.

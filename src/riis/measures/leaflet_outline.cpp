@@ -131,8 +131,8 @@ namespace {
 
 // ---- Farthest edges ----
 
-// A part of an edge that is farther from the centre than all other edges in its directions. The ends are the shares `from` and
-// `to` of the edge. The part runs counter-clockwise.
+// A part of an edge of the outline that is farther from the centre than all other edges in its directions. The ends are the
+// shares `from` and `to` of the edge. The part runs counter-clockwise.
 struct FarPart {
   std::size_t edge;
   double from, to;

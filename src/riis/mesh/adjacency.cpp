@@ -137,7 +137,7 @@ class RowMaker {
     UnfilledVector<Column> columns;     // columns of one block
   };
 
-  // Makes the rows of each block in the memory of its entries. Writes the rows' lengths where the offsets will be.
+  // Makes the rows of each block in the memory of its entries. Writes the lengths of the rows into `offsets`.
   void make_rows(UnfilledVector<std::int64_t> &offsets) {
     resize(offsets, lists_.n_nodes + 1);
     view(offsets)[0] = 0;

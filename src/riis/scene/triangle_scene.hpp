@@ -127,8 +127,8 @@ class TriangleScene {
       for (int i = 0; i < view(in.bounds)[group].n; ++i) visit(view(in.bounds)[group].triangle[i]);
   }
 
-  // Bounds the error of a computed distance that comes from the rounding of the triangles' coordinates. Errors proportional
-  // to the distance and to |p| are not included.
+  // Bounds the error of a computed distance that comes from the rounding of the triangles' coordinates. Errors proportional to
+  // the distance and to |p| are not included in this bound.
   double rounding() const { return rounding_; }
 
   struct Implementation;  // public, because Embree's callbacks use this type

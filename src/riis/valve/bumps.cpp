@@ -37,7 +37,7 @@ std::array<ParameterSpec, n_parameters> specs_of_one(std::size_t n_leaflets) {
   }};
 }
 
-// A smooth function that is 1 at the place, and 0 at distances of 1 and more.
+// A smooth function that is 1 at the place of the bump, and 0 at distances of 1 and more.
 double hat(double distance) {
   const double inside = std::max(0.0, 1 - distance * distance);
   return inside * inside;

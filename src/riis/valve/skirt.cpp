@@ -236,7 +236,7 @@ class SkirtMaker {
     return Curve(std::move(spans));
   }
 
-  // Returns the material points of the outer side. The outer points lie outwards from the inner side's points.
+  // Returns the material points of the outer side. The points of the outer side lie outwards from those of the inner side.
   MaterialPoints material_of_outer(const Curve &inner, const Side &side, const Curve &outer) const {
     const MaterialPoints &given = *set_.material[side.curve];
     const MaterialPoints points = side.reversed ? given.reversed(inner.spans().size()) : given;

@@ -28,7 +28,7 @@
 namespace riis::vtk {
 namespace {
 
-// A block, and the ids of its nodes in the joined mesh.
+// A block of a mesh, and the ids of the block's nodes in the joined mesh.
 struct Block {
   vtkSmartPointer<vtkUnstructuredGrid> grid;
   std::vector<vtkIdType> new_id;
