@@ -343,8 +343,8 @@ RIIS_API riis_status riis_vtk_motion_read_displacements(const char *path, const 
  * Errors: RIIS_INVALID_ARGUMENT for a bad time_step. */
 RIIS_API riis_status riis_vtk_motion_read_frames(const char *path, double time_step, const char *leaflets,
                                                  riis_vtk_motion **motion);
-/* Adds the faces of another motion with the same times. Each motion is one leaflet, as in riis_vtk_surface_append. The call
- * riis_vtk_motion_get_files then gives the files of both motions. `other` stays.
+/* Adds the faces of another motion with the same times, so that riis_vtk_motion_get_files gives the files of both motions. Each
+ * motion is one leaflet, as in riis_vtk_surface_append. `other` stays.
  * Errors: RIIS_INVALID_ARGUMENT naming the first frame whose time differs. */
 RIIS_API riis_status riis_vtk_motion_append(riis_vtk_motion *motion, const riis_vtk_motion *other);
 /* Gives the files that were read: one for each frame, or the one file with displacements.

@@ -43,7 +43,7 @@ class LeafletsOutside {
 // `closed`. In the warning, `name` names the surface.
 void warn_of_outside(const OutsideReport &report, const std::optional<OutsideReport> &closed, double half_thickness,
                      const std::string &name);
-// Returns a text such as "26 % of the leaflets' area (right 61 %)".
+// Returns the share of the leaflets' area outside the mesh, and of single leaflets, such as "26 %" and "right 61 %".
 std::string outside_text(const OutsideReport &report);
 
 }  // namespace riis::program

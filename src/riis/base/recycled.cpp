@@ -44,8 +44,8 @@ constexpr std::size_t largest_block = std::size_t{1} << largest_class;
 // another thread took. A thread with an empty pool therefore looks into the other pools before the system is asked.
 constexpr unsigned n_pools = 16;
 
-// A lock for a few instructions. Two threads seldom need it at the same time. A mutex would take half of the time that an array's
-// memory costs.
+// A lock that a thread holds for a few instructions. Two threads seldom need it at the same time. A mutex would take half of the
+// time that an array's memory costs.
 class ShortLock {
  public:
   void lock() noexcept {

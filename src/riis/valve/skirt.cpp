@@ -113,9 +113,8 @@ AxisLine warped_axis(const AxisLine &axis, const Vector<Step> &steps, const Blen
   return {centre, size > 0 ? (1 / size) * area : Vec3{0, 0, 0}};
 }
 
-// Returns the line through the centroid of the attachment. If the axis is vertical, the line is vertical. Otherwise the line
-// leads along the attachment's vector area. The direction has length 0 if the attachment encloses no area, and otherwise length
-// 1.
+// Returns the line through the centroid of the attachment. If the axis is vertical, the line is vertical, otherwise it leads
+// along the attachment's vector area. The direction has length 0 if the attachment encloses no area, and otherwise length 1.
 AxisLine axis_of_attachment(const PatchSet &set, const Vector<HeldSide> &sides, SkirtAxis axis) {
   const Vector<Step> steps = steps_of_attachment(set, sides);
   double whole = 0;
