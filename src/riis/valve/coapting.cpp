@@ -100,11 +100,13 @@ ValveKind make_kind(const char *name, double default_stretch) {
     {"gap", length, "distance between closed cusps in the coaptation zone", 1, {0.016 * 1.25}, shortest, longest,
      {"0.016 commissure_radius", gap_rule}},
     {"bottom_angle", degree, "angle between the closed cusp and the plane of the root, at the root", 1, {20}, 0, 80},
-    {"belly", number, "largest start tangent of the closed symmetry curve, as a multiple of root_radius", 1, {0.5}, 0.05, 0.8},
+    {"belly", number, "largest length of a closed cusp's tangent at the root, as a multiple of root_radius", 1, {0.5}, 0.05, 0.8},
     {"edge_rise", number, "share of the closed free edge's rise that is reached at the control point before the commissure",
      1, {0.3}, 0, 0.9},
-    {"attachment_width", number, "start tangent of the attachment, as a multiple of root_radius", 1, {0.6}, 0.1, 1.2},
-    {"attachment_drop", number, "end tangent of the attachment, as a multiple of commissure_height", 1, {0.5}, 0.1, 0.9},
+    {"attachment_width", number, "length of the attachment's tangent at the root, as a multiple of root_radius",
+     1, {0.6}, 0.1, 1.2},
+    {"attachment_drop", number, "length of the attachment's tangent at a commissure, as a multiple of commissure_height",
+     1, {0.5}, 0.1, 0.9},
     {"open_radius_ratio", number, "radius of the open free edge at the symmetry plane, as a multiple of commissure_radius",
      1, {0.85}, 0.3, 1.1},
     {"commissure_expansion", number, "how far the commissures move outwards during opening, as a multiple of commissure_radius",
@@ -131,7 +133,7 @@ ValveKind make_kind(const char *name, double default_stretch) {
     add_own(specs, owner, "open_radius_ratio", open_radius_ratio);
   }
   if (n_cusps == 2)
-    specs.push_back({"meeting_shift", number, "x where closed cusps meet in the middle, as a multiple of commissure_radius",
+    specs.push_back({"meeting_shift", number, "x of the point where closed cusps meet, as a multiple of commissure_radius",
                      1, {0}, -0.5, 0.5});
   add_bump_specs(specs, n_cusps, BumpLift::no);
   return kind;
