@@ -27,8 +27,8 @@ struct Side {
   std::int32_t leaflet;
 };
 
-// Faces that are joined along sides, as disjoint sets. The sets also tell how the faces are oriented against each other. The
-// number i stands for face i as it is, and the number n + i stands for face i turned over. Two numbers are in one set if the
+// Faces that are joined along sides, as disjoint sets. The disjoint sets also tell how the faces are oriented against each other.
+// The number i stands for face i as it is, and the number n + i stands for face i turned over. Two numbers are in one set if the
 // faces are joined and have the same orientation.
 class Pieces {
  public:

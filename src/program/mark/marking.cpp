@@ -368,7 +368,7 @@ void Marking::judge() {
   report_.seconds.leaks += stage.seconds();
 }
 
-// Fills the report of a valve. The marks belong to the valve's least opening.
+// Fills the report of a valve. Its counts of marks belong to the valve's least opening.
 void Marking::report_marks(std::size_t i, std::int64_t n_nodes, const MeshCounts &counts) {
   ValveReport &report = report_.valves[i];
   const MovingValve &valve = valves_[i];

@@ -140,7 +140,7 @@ struct MeshCounts {
 // Returns the sums over all ranks. Refuses a mesh without nodes, and a mesh in which only some pieces have global ids.
 MeshCounts sum_of(const MeshCounts &own, const MeshPieces &mesh);
 
-// Disjoint sets of things, which can be united. At the beginning, each set has one thing.
+// Disjoint sets of things, which can be united. At the beginning, each thing is a set of its own.
 template <class Thing>
 class JoinedSets {
  public:

@@ -50,7 +50,7 @@ inline Ball operator*(double a, const Ball &b) { return {a * b.middle, std::abs(
 inline Ball operator*(Interval a, const Ball &b) {
   return {a.middle * b.middle, std::abs(a.middle) * b.radius + a.radius * b.largest_length()};
 }
-// The radius of a product of two balls, which are vectors or numbers.
+// The radius of the dot or cross products of the vectors of two balls.
 inline double radius_of_product(const Ball &a, const Ball &b) {
   return length(a.middle) * b.radius + a.radius * b.largest_length();
 }

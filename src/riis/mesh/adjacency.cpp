@@ -46,7 +46,7 @@ class PlainMemory {
 };
 
 // Makes the rows. An entry says that a node is in an item. The entries of a block of nodes are stored together, node by node.
-// Later the rows overwrite the entries. Lists is a type with these members:
+// Later the rows of the block overwrite the entries. Lists is a type with these members:
 //   `n_nodes`, `n_items`: the numbers of nodes and items.
 //   `most_neighbors`: the most different nodes that for_each_neighbor visits.
 //   `for_each_entry(range, visit)`: calls visit(node, entry) for every node of every item in a range.

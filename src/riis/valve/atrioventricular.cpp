@@ -252,7 +252,7 @@ Leaflet closed_leaflet(const Sizes &sizes, const Annulus &annulus, std::size_t k
     if (sizes.n_leaflets() == 2) return end == 0 ? Vec3{away.y, -away.x, 0} : Vec3{-away.y, away.x, 0};
     return unit(level(end_of_edge(sizes, annulus.hinge(k, end))) - meeting);
   };
-  // The leaflet stays half the gap away from these lines.
+  // The leaflet stays half the gap away from the lines along which leaflets meet.
   const double sine = std::min(length(cross(away, along(0))), length(cross(away, along(n_cells))));
   Vec3 on_line = meeting + 0.5 * sizes.of(gap) / sine * away - Vec3{0, 0, sizes.of(tenting_height)};
   const auto zone_below = [&] { return sizes.length(k) - closed_length(sizes, hinge, on_line); };

@@ -156,7 +156,7 @@ struct PatchSet {
   // circles.
   double deviation = 0;
   // The derivatives of the spans' control points with respect to the opening, or nothing if the valve does not blend control
-  // points. The list has entries for the first curves. The curves of a skirt come later and have no entry.
+  // points. The list of derivatives has entries for the first curves. The curves of a skirt come later and have no entry.
   Vector<Vector<Bezier>> rates = {};
   // Only warped patches have this list. Each curve has an entry, except the lines between the sides of a skirt. These lines need
   // no entry, because equal shares of their lengths stand for the same points.

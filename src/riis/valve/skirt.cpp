@@ -362,7 +362,7 @@ Vector<NeighbourEnds> neighbour_ends(const PatchSet &set, bool wants_turns) {
 
 Vec3 direction_between(const AxisLine &axis, const SideEnd &before, const SideEnd &after) {
   // Seen along `rise`, one side leaves its end to the left, and the other side leaves its end to the right. The planes of the
-  // skirts' ends contain `rise`.
+  // skirts' ends contain the vector `rise`.
   const auto lean = [&](Vec3 tangent) {
     const double up = dot(tangent, axis.direction);
     return (up / std::max(least_rise * least_rise, up * up)) * (tangent - up * axis.direction);
