@@ -124,7 +124,7 @@ class Marking {
 // marking. TBB's arena of two threads takes 7 kB.
 constexpr double most_growth = 3e5;
 
-// A leak grows in every round. Memory that is allocated only once does not grow.
+// Leaked memory grows in every round. Memory that is allocated only once does not grow.
 bool stays(const Case &of, int n_threads, int n_markings) {
   Marking marking(of, n_threads);
   for (int i = 0; i < 60; ++i) marking.mark();

@@ -413,7 +413,7 @@ class WallRepair {
     return loops;
   }
 
-  // Closes holes whose rims are flat. Later steps decide whether the holes are ends. Refuses holes that are not flat.
+  // Closes holes whose rims are flat. Later steps decide whether the closed holes are ends. Refuses holes that are not flat.
   void close_holes() {
     std::vector<RimLoop> loops = open_loops();
     std::stable_sort(loops.begin(), loops.end(),

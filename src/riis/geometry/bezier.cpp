@@ -161,7 +161,7 @@ bool find_in_one_pass(const SpeedOnPart &part, const double *behind, std::size_t
                                              : stepwise_quadrature(speed, next, closer);
       next = closer;
     }
-    // Near a cusp, Newton's method may not have converged yet. In this case the fast method gives up.
+    // Near a cusp, Newton's method may not have converged yet, and the fast method gives up.
     if (!(std::abs(made - wanted) <= 1e-13 * part.whole_length)) return false;
     at = t[k] = next;
     at_length += made;

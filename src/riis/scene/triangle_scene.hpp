@@ -92,7 +92,7 @@ class TriangleScene {
   // Makes the groups from a copy of the corners, so the set need not be kept. Another call, for triangles that have moved, reuses
   // the memory. After a failure the scene can only be destroyed. The first query builds Embree's tree with n_threads threads. The
   // tree is not built earlier, because a search over clusters never needs it. A query fails with RIIS_INTERNAL_ERROR or
-  // RIIS_OUT_OF_MEMORY if Embree reports an error. The next query tries once more.
+  // RIIS_OUT_OF_MEMORY if Embree reports an error. After an error, the next query tries once more.
   void make(const TriangleSet &set, int n_threads);
 
   // Builds Embree's tree, as the first query does. Several threads may call this function at once.

@@ -228,7 +228,7 @@ class ClosestPoints {
           frame.place_inner(p, items[place].x);
           items[place].node = static_cast<std::uint32_t>(k);
         });
-    // Closes the gaps between the blocks.
+    // Closes the gaps between the points of the blocks.
     std::int64_t n_items = 0;
     bool has_far = false;
     for (std::int64_t begin = 0; begin < n; begin += points_per_block) {

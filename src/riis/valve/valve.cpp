@@ -77,8 +77,8 @@ Naming naming(const ParameterSpec &spec, std::string_view name) {
 }
 
 // Calls action(position, naming) for all parameters that a name means. A parameter's whole name means only this parameter.
-// Another name means the parameter of each leaflet. The function allocates nothing, because a solver sets the opening in each
-// time step.
+// Any other name of a parameter means the parameter of each leaflet. The function allocates nothing, because a solver sets the
+// opening in each time step.
 template <class Action>
 void for_each_meant(const ValveKind &kind, std::string_view name, const Action &action) {
   const auto &specs = kind.parameters;
