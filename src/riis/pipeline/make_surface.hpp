@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The whole pipeline. The pipeline turns a valve's parameters or the caller's arrays into a surface that answers queries for
 // closest points.
-// The pipeline also measures how many seconds this takes.
+// The pipeline also measures how many seconds its stages take.
 #pragma once
 
 #include <riis/riis.h>
