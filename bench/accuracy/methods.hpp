@@ -33,7 +33,7 @@ struct Setting {
   const char *name;
 };
 const char *name_of(std::int32_t method);
-// Minimisation has the paper's tolerances. The other methods have the tolerances 1, 2, 5 and 10 %.
+// Minimisation has the paper's tolerances, and the other methods have the tolerances 1, 2, 5 and 10 %.
 inline constexpr std::array<Setting, 10> settings{{{RIIS_MEASURE_MINIMIZATION, 0.001, "0.001"},
                                                    {RIIS_MEASURE_MINIMIZATION, 0.01, "0.01"},
                                                    {RIIS_MEASURE_SAMPLING, 0.01, "1 %"},

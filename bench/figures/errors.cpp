@@ -132,7 +132,7 @@ json distributions(const accuracy::Leaflet &leaflet, Numbers &numbers) {
 }  // namespace
 
 json errors(Numbers &numbers) {
-  // The rows show a cusp, a part of this cusp, and a mitral leaflet.
+  // The rows of the table show a cusp, a part of this cusp, and a mitral leaflet.
   return {{"paintings",
            {paintings(leaflets[0], false, numbers), paintings(leaflets[0], true, numbers),
             paintings(leaflets[1], false, numbers)}},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// riis-figures writes numbers for draw_page.py and parameters/draw.py. Only the library has these numbers.
+// riis-figures writes numbers that only the library has, for draw_page.py and parameters/draw.py.
 #include <cstdio>
 #include <exception>
 #include <fstream>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // ./run bench peers: gives the library's nodes and triangles to other programs (CGAL, VTK, OpenVDB), on one thread. First the
-// marks of all programs are compared with the marks of a loop over all triangles. Then the programs are timed in turns. One group
-// of bars compares queries of every distance with queries node by node, with FCPW and with CGAL. Fails if the library or CGAL
-// marks other nodes than the loop. Also fails if queries by leaves give other bits than queries node by node.
-//   argv[1]  a file for the results as JSON
+// marks of all programs are compared with the marks of a loop over all triangles. After the comparison of marks, the programs are
+// timed in turns. One group of bars compares queries of every distance with queries node by node, with FCPW and with CGAL. Fails
+// if the library or CGAL marks other nodes than the loop. Also fails if queries by leaves give other bits than queries node by
+// node. argv[1] a file for the results as JSON
 //   argv[2]  thousands of nodes; default 100
 //   argv[3]  a folder for nodes, triangles and distances as raw binary numbers, for peers.py
 #include <algorithm>
@@ -42,7 +42,7 @@ using nlohmann::json;
 constexpr double half_thickness = 0.1;
 constexpr int n_turns = 10, n_slow_turns = 5;
 constexpr double fine = 0.0034;  // the tolerance of the fine triangles of ./run bench marking
-// The width of the box around the points, in widths of the cylinder. In this box, leaves are larger than the valve.
+// The width of the box around the points, in widths of the cylinder. In this wide box, leaves are larger than the valve.
 constexpr double wide = 40;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 

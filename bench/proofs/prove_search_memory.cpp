@@ -120,11 +120,11 @@ class Marking {
 };
 
 // The number of bytes that the markings may add to the memory of the process. A thread that first takes part during the
-// measurement adds its stack and its allocator's first pages. In the short form (300 markings) this limit is 1 kB per marking.
-// TBB's arena of two threads takes 7 kB.
+// measurement adds its stack and its allocator's first pages. In the short form (300 markings) the allowed growth is 1 kB per
+// marking. TBB's arena of two threads takes 7 kB.
 constexpr double most_growth = 3e5;
 
-// A leak grows in every round. Memory that is allocated only once does not grow.
+// Leaked memory grows in every round. Memory that is allocated only once does not grow.
 bool stays(const Case &of, int n_threads, int n_markings) {
   Marking marking(of, n_threads);
   for (int i = 0; i < 60; ++i) marking.mark();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Times several pieces of work in turns, so that other work on the machine slows them equally. Bars are required ratios of these
-// times. The output is JSON, and tables in markdown.
+// Times several pieces of work in turns, so that other work on the machine slows them equally. Bars are required ratios of the
+// times of two contenders. The output is JSON, and tables in markdown.
 #pragma once
 
 #include <functional>
@@ -21,7 +21,7 @@ class Contest {
       const std::string &name, int n_turns, Work work, Work before = [] {});
   // Records a contender that cannot take part here. The contender's bars are left out, and the reason is printed.
   void leave_out(const std::string &name, const std::string &why) { left_out_[name] = why; }
-  // Runs all contenders that were added since the last run. Before the first turn, each contender works once without timing.
+  // Runs all contenders that were added since the last run. Before its first turn, each contender works once without timing.
   void run();
 
   double least(const std::string &name) const;

@@ -56,7 +56,7 @@ class PaperSearch {
   PaperSearch(std::int64_t n_nodes, const double *xyz, const riis_csr &rows)
       : n_nodes_(n_nodes), xyz_(xyz), rows_(rows) {}
 
-  // Finds the nodes where the first search begins. A later search begins at the nodes of the last marking.
+  // Finds the nodes where the first search begins. Later searches begin at the nodes of the last marking.
   void begin_at(const Triangles &triangles);
   // Returns the number of marked nodes. n_asked() returns the number of queried nodes.
   template <class Distance>

@@ -301,7 +301,7 @@ void search_adjacency_of_grid(benchmark::State &state) {
   count_time_per(state, "time/node", static_cast<double>(mesh.n_nodes()));
 }
 
-// The sizes are close to those of the paper's meshes. The numbers of threads are those of the paper.
+// The sizes of the meshes are close to those of the paper's meshes. The measurements use the paper's numbers of threads.
 const std::vector<std::int64_t> valves{0, 1}, sizes{110, 260, 500, 1000, 1480}, threads{1, 2, 4, 8, 12};
 
 void with(benchmark::internal::Benchmark *benchmark, const std::vector<std::vector<std::int64_t>> &arguments) {

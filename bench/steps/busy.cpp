@@ -56,7 +56,7 @@ void keep_two_processors() {
   if (sched_setaffinity(0, sizeof two, &two) != 0) fail("sched_setaffinity");
 }
 
-// Two processes that compute without end. At first they are stopped, and they end with this process.
+// Two processes that compute without end. The two processes are stopped at first, and end with this process.
 class BusyProcesses {
  public:
   BusyProcesses() {

@@ -23,8 +23,8 @@
 namespace bench {
 namespace {
 
-// The earlier version of riis_adjacency_create_from_cells, which did not yet count into 32-bit entries. The benchmark compares it
-// with the present version.
+// The earlier version of riis_adjacency_create_from_cells, which did not yet count into 32-bit entries. The benchmark compares
+// the earlier version with the present version.
 struct PlainRows {
   std::vector<std::int64_t> offsets;
   std::vector<std::int32_t> columns;

@@ -76,7 +76,7 @@ class Table {
   std::vector<Row> rows_;
 };
 
-// Makes the object as often as the timing needs. Then makes the object once more to count the bytes from malloc.
+// Makes the object as often as the timing needs. To count the bytes from malloc, makes the object once more.
 template <class Handle>
 void add_making(Table &table, const std::string &name, const std::function<riis_status(Handle **)> &make,
                 void (*destroy)(Handle **), Handle **made) {
@@ -322,8 +322,8 @@ void get_coaptation(const riis_surface *surface) {
   check(riis_surface_get_coaptation(surface, RIIS_AUTO, RIIS_ALL_LEAFLETS, &coaptation, sizeof coaptation));
 }
 
-// Returns the processor time in seconds of the shortest of five calls, summed over all threads. Other programs hardly change this
-// time.
+// Returns the processor time in seconds of the shortest of five calls, summed over all threads. Other programs hardly change the
+// processor time.
 double processor_seconds(const std::function<void()> &call, const std::function<void()> &before) {
   double least = HUGE_VAL;
   for (int n = 0; n < 5; ++n) {

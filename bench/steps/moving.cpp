@@ -228,9 +228,9 @@ class FineSteps {
 };
 
 // Times a step of an annulus that moves by landmarks: new targets, a warped valve, and a moving update. The first contender has
-// the patches of the warped valve, which were read out before. The warped valve and the first contender are asymmetric. Arcs
-// cannot be given as patches, so a mitral valve lacks the first contender. The second contender is the symmetric valve without a
-// warp, which opens.
+// the patches of the warped valve, which were read out before. The warped valve is asymmetric, and so is the first contender.
+// Arcs cannot be given as patches, so a mitral valve lacks the first contender. The second contender is the symmetric valve
+// without a warp, which opens.
 class WarpedSteps {
  public:
   WarpedSteps(const char *kind, int n_landmarks)

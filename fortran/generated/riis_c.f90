@@ -254,12 +254,12 @@ module riis_c
     real(c_double) :: lower(3), upper(3)     !< bounds of the triangles, mesh units
     real(c_double) :: seconds_triangles      !< wall time of the last call that made or updated the surface: for checks
                                              !! and triangles
-    real(c_double) :: seconds_scene          !< wall time of the same call: for groups of triangles, sampling,
+    real(c_double) :: seconds_scene          !< wall time of the same call for groups of triangles, sampling and
                                              !! minimisation. Embree's tree is not included, because the first query
                                              !! that needs the tree builds it
-    real(c_double) :: error_bound            !< the largest possible difference between a point's distances to the
-                                             !! triangles and to the smooth valve; at most tolerance * half_thickness. 0
-                                             !! for a surface from arrays
+    real(c_double) :: error_bound            !< the largest possible error of a distance: the difference between the
+                                             !! distances to the triangles and to the smooth valve. At most tolerance *
+                                             !! half_thickness. 0 for a surface from arrays
     integer(c_int64_t) :: largest_leaflet_id !< of the triangles
     real(c_double) :: offset                 !< of the band, in half thicknesses
     real(c_double) :: contact_depth          !< leaflets whose triangles cross deeper than this do more than touch
@@ -300,8 +300,7 @@ module riis_c
     integer(c_int32_t) :: real_bits !< storage_size(xyz)
   end type riis_keyframe_arrays
 
-  !> The closest point of the surface to one point. The comment of RIIS_MEASURE_* describes the closest points of
-  !! sampling and minimisation.
+  !> The closest point of the surface to one point. For closest points by sampling or minimisation, see RIIS_MEASURE_*.
   type, bind(c) :: riis_closest
     real(c_double) :: distance        !< >= 0, mesh units
     real(c_double) :: point(3)        !< on the triangle, mesh units
@@ -309,10 +308,10 @@ module riis_c
     real(c_double) :: normal(3)       !< unit normal of the triangle, by the right-hand rule
     integer(c_int64_t) :: triangle_id !< the lowest id of the closest triangles
     integer(c_int32_t) :: leaflet_id  !< of the triangle
-    integer(c_int32_t) :: side        !< +1 on the side to which normals point (downstream), -1 on the other side, 0 on
-                                      !! the surface and in its continuation beyond the rim. At a shared edge or vertex
-                                      !! (equal placed coordinates), the angle-weighted mean of the normals decides
-                                      !! (Baerentzen, Aanaes 2005)
+    integer(c_int32_t) :: side        !< +1 on the side to which normals point (downstream), -1 on the other side. 0 on
+                                      !! the surface and where the surface would continue beyond its rim. At a shared
+                                      !! edge or vertex (equal placed coordinates), the angle-weighted mean of the
+                                      !! normals decides (Baerentzen, Aanaes 2005)
   end type riis_closest
 
   type, bind(c) :: riis_closest_options
@@ -478,8 +477,8 @@ module riis_c
     integer(c_int64_t) :: n_queries      !< number of closest-point queries, of nodes and of parts of the mesh
     real(c_double) :: seconds            !< wall time of riis_mark_nodes
     integer(c_int32_t) :: search         !< the search that ran, never RIIS_SEARCH_AUTO
-    integer(c_int32_t) :: n_threads      !< the largest number of threads in any part of the marking. A caller's TBB
-                                         !! limit affects the walks of the neighbour search, not loops
+    integer(c_int32_t) :: n_threads      !< the largest number of threads that any part of the marking used. A caller's
+                                         !! TBB limit affects the walks of the neighbour search, not loops
     integer(c_int32_t) :: complete       !< 1: all nodes within the limit were found, for the coordinates that the mesh
                                          !! was last given; 0: this is not certain
     integer(c_int32_t) :: instructions   !< the instructions that were used, never RIIS_INSTRUCTIONS_AUTO
@@ -563,16 +562,15 @@ module riis_c
     real(c_double) :: seconds
   end type riis_leak_list
 
-  !> The widest passage from one set of nodes to another: the path whose nearest node is as far from the surface as
-  !! possible.
+  !> The widest passage from one set of nodes to another: the path along mesh edges that stays as far from the surface
+  !! as possible.
   type, bind(c) :: riis_passage
-    integer(c_int64_t) :: node_id  !< the path's node that is nearest to the surface; -1 without a path. If nodes have
-                                   !! equal distances, the higher id counts as nearest
-    real(c_double) :: distance     !< the distance of node_id. A half thickness of at least this distance closes the
-                                   !! passage between these triangles. A smaller half thickness leaves the passage open.
-                                   !! 0 without a path. With an offset o, `distance` is the least half thickness that
-                                   !! marks the node, and nodes are ordered by it: s / (1 + o) for a signed distance s
-                                   !! >= 0, and -s / (1 - o) for s < 0
+    integer(c_int64_t) :: node_id  !< the node of the path that is nearest to the surface; -1 without a path. If nodes
+                                   !! have equal distances, the higher id counts as nearest
+    real(c_double) :: distance     !< the distance of node_id. If the half thickness is at least this distance, the
+                                   !! passage is closed, otherwise it is open. 0 without a path. With an offset o,
+                                   !! `distance` is the least half thickness that marks the node, and nodes are ordered
+                                   !! by it: s / (1 + o) for a signed distance s >= 0, and -s / (1 - o) for s < 0
     real(c_double) :: point(3)     !< the coordinates of node_id; 0 without a path
     real(c_double) :: seconds      !< wall time of riis_find_passage
     integer(c_int32_t) :: state    !< RIIS_PASSAGE_*
@@ -591,19 +589,19 @@ module riis_c
   type, bind(c) :: riis_leaflet
     integer(c_int64_t) :: n_triangles !< the number of its triangles with an area above 0
     real(c_double) :: area            !< the area of its triangles
-    real(c_double) :: free_edge       !< the length of its free edge: the sides v = 1 that belong to only one patch of
-                                      !! the leaflet. A surface from arrays has no patches: its free edge is all open
-                                      !! edges except the longest closed line of open edges. An open edge belongs to
-                                      !! only one triangle. 0 for a skirt
+    real(c_double) :: free_edge       !< the length of its free edge, which consists of the sides v = 1 that belong to
+                                      !! only one patch of the leaflet. In a surface from arrays, the free edge consists
+                                      !! of all open edges except the longest closed line of open edges. An open edge
+                                      !! belongs to only one triangle. 0 for a skirt
     integer(c_int32_t) :: leaflet_id  !< as in riis_triangles
     integer(c_int32_t) :: reserved    !< 0
   end type riis_leaflet
 
   !> The orifice of a surface: the part of an outline that the triangles do not cover, seen along an axis. The axis is
-  !! the direction of the vector area of the outline's edges in space. The axis points to the side of a valve's z axis,
-  !! or to the side of the normals of arrays and keyframes. The axis of a bileaflet valve is its z axis. A skirt does
-  !! not count. If leaflets of arrays do not touch at the commissures, straight lines join their ends. Lengths are in
-  !! mesh units (docs/theory/measures.md, "Outline").
+  !! the direction of the vector area of the outline's edges in space. The axis of a valve points towards +z of the
+  !! valve. The axis of arrays and keyframes points to the side of their normals. The axis of a bileaflet valve is its z
+  !! axis. A skirt does not count. If leaflets of arrays do not touch at the commissures, straight lines join their
+  !! ends. Lengths are in mesh units (docs/theory/measures.md, "Outline").
   type, bind(c) :: riis_orifice
     real(c_double) :: area           !< the area of the orifice. Without an outline, all fields but axis and rim_reach
                                      !! are 0
@@ -611,15 +609,15 @@ module riis_c
     real(c_double) :: perimeter      !< the length of the orifice's edge along the triangles. The edge is first moved
                                      !! inwards by a tenth of the half thickness, so that narrow slits do not count.
                                      !! Parts of the edge on the outline are walls and do not count
-    real(c_double) :: effective_area !< the area that the band around the valve leaves to the flow. The edge along the
-                                     !! triangles is moved inwards by rim_reach * half_thickness. To first order the
-                                     !! effective area is area - rim_reach * half_thickness * perimeter, but never below
-                                     !! 0
-    real(c_double) :: rim_reach      !< the factor c: 0.84 for a round rim, 0.70 for a cut rim. Flows through open
-                                     !! valves gave 0.70 to 0.98 (round) and 0.46 to 0.95 (cut); see docs/validation.md.
-                                     !! With an offset o, c has another factor: max(0, 1 - o / 1.05) for a round rim,
-                                     !! max(0, 1 - o / 0.85) for a cut rim, max(0, 1 - o / 0.8) for a cut rim of a
-                                     !! mitral valve, and 1 for a bileaflet valve
+    real(c_double) :: effective_area !< the area through which the flow can pass beside the band around the valve. The
+                                     !! edge along the triangles is moved inwards by rim_reach * half_thickness. To
+                                     !! first order the effective area is area - rim_reach * half_thickness * perimeter,
+                                     !! but never below 0
+    real(c_double) :: rim_reach      !< the factor c: 0.84 for a round rim, 0.70 for a cut rim. Computed flows through
+                                     !! open valves gave 0.70 to 0.98 for a round rim, and 0.46 to 0.95 for a cut rim
+                                     !! (docs/validation.md). With an offset o, c has another factor: max(0, 1 - o /
+                                     !! 1.05) for a round rim, max(0, 1 - o / 0.85) for a cut rim, max(0, 1 - o / 0.8)
+                                     !! for a cut rim of a mitral valve, and 1 for a bileaflet valve
     real(c_double) :: half_thickness !< eps of the resistance
     real(c_double) :: radius         !< the radius of the disc; 0 for other outlines
     real(c_double) :: axis(3)        !< unit vector; 0 for arrays and keyframes without an outline
@@ -642,17 +640,17 @@ module riis_c
     real(c_double) :: from, to          !< the values that were searched
     real(c_double) :: least, most       !< the least and the largest area
     real(c_double) :: least_at, most_at !< a value with that area
-    real(c_double) :: turns(4)          !< the first values at which the area stops growing or falling; NaN stands for
-                                        !! no further value. A change by less than 1e-4 of the largest area does not
-                                        !! count
+    real(c_double) :: turns(4)          !< the first values at which a growing area begins to fall, or a falling area
+                                        !! begins to grow. NaN fills the unused entries. A change by less than 1e-4 of
+                                        !! the largest area does not count
     real(c_double) :: seconds           !< wall time of riis_find_by_area
     integer(c_int64_t) :: n_turns       !< the number of turns. Without a turn, the area only grows or only falls
     integer(c_int64_t) :: n_surfaces    !< the number of surfaces that were made, which is the cost of the search
-    integer(c_int64_t) :: n_refused     !< the number of sampled values that are left out, because they make no valve or
-                                        !! no orifice
+    integer(c_int64_t) :: n_refused     !< the number of sampled values that make no valve or no orifice, and are left
+                                        !! out
   end type riis_area_range
 
-  !> The coaptation of a surface's leaflets: their parts that touch another leaflet. Lengths are in mesh units.
+  !> The coaptation: the parts of the leaflets that touch another leaflet. Lengths are in mesh units.
   type, bind(c) :: riis_coaptation
     real(c_double) :: area  !< the area of the leaflet's triangles within reach of another leaflet
     real(c_double) :: edge  !< the length of the part of its free edge (riis_leaflet) within reach of another leaflet
@@ -666,10 +664,10 @@ module riis_c
     real(c_double) :: tolerance
   end type riis_first_passage_options
 
-  !> The opening at which a valve first lets the mesh pass.
+  !> The first opening at which the marked mesh has a passage.
   type, bind(c) :: riis_first_passage
     real(c_double) :: opening        !< the first opening with a passage; 0 for ALWAYS, 1 for NEVER, 0 for NONE
-    real(c_double) :: closed_opening !< FOUND: the largest opening below `opening` at which no passage was found. Else:
+    real(c_double) :: closed_opening !< the largest opening below `opening` that was found closed, with FOUND; else
                                      !! `opening`
     integer(c_int64_t) :: node_id    !< the passage at `opening`, as in riis_passage
     real(c_double) :: distance       !< as in riis_passage
@@ -684,8 +682,8 @@ module riis_c
     real(c_double) :: least, mean, most       !< 2 * half_thickness over the longest, the mean and the shortest length
     real(c_double) :: shortest_edge, mean_edge, longest_edge !< the lengths of the mesh edges with a marked node
     real(c_double) :: half_thickness          !< the half thickness of the marking
-    integer(c_int64_t) :: n_edges             !< the number of edges with at least one marked node. If n_edges is 0,
-                                              !! only half_thickness differs from 0
+    integer(c_int64_t) :: n_edges             !< the number of edges with at least one marked node. If n_edges is 0, all
+                                              !! fields except half_thickness are 0
   end type riis_cells_across
 
   type, bind(c) :: riis_landmarks
@@ -703,7 +701,7 @@ module riis_c
     integer(c_int32_t) :: reserved
   end type riis_landmarks
 
-  !> The placement that riis_place finds, for the fields of riis_surface_options with the same names.
+  !> The placement that riis_place finds. riis_surface_options has fields with the same names.
   type, bind(c) :: riis_placement
     real(c_double) :: scale                 !< the scale of the landmarks, which also gives the default half thickness
                                             !! of 0.1 cm
@@ -718,9 +716,9 @@ module riis_c
     real(c_double) :: position_error        !< standard error of the position of the valve's origin, mesh units
     integer(c_int64_t) :: worst_landmark_id !< the landmark with the largest residual
     integer(c_int32_t) :: n_undetermined    !< the number of parameters with RIIS_SIZE_UNDETERMINED
-    integer(c_int32_t) :: n_as_annulus      !< the number of given trigones that lie behind the anterior horn. The model
-                                            !! has no trigones there, so these landmarks count as points of the annulus,
-                                            !! and do not say how long IT_distance is
+    integer(c_int32_t) :: n_as_annulus      !< the number of trigones among the landmarks that lie behind the anterior
+                                            !! horn. The model has no trigones there, so these landmarks count as points
+                                            !! of the annulus, and do not determine IT_distance
   end type riis_placement
 
   !> c_null_ptr for arrays that are not wanted
@@ -741,14 +739,15 @@ module riis_c
   !> A warp's quality, in the units of its landmarks.
   type, bind(c) :: riis_warp_info
     integer(c_int64_t) :: n_landmarks         !< the number of landmarks
-    real(c_double) :: rms_residual            !< root mean square of the distances between mapped sources and targets. A
-                                              !! target's distance from a warped valve is that of riis_closest_point
+    real(c_double) :: rms_residual            !< the root mean square of the distances between mapped sources and
+                                              !! targets. To get a target's distance from a warped valve, call
+                                              !! riis_closest_point
     real(c_double) :: largest_residual        !< the largest distance between a mapped source and its target
     integer(c_int64_t) :: largest_landmark_id !< its landmark
     real(c_double) :: smoothing               !< lambda of the smoothing, 0 without noise; infinite if the map is affine
-    real(c_double) :: least_determinant       !< the least determinant of the map's derivative, over all points half way
-                                              !! from a landmark to its nearest landmark
-    real(c_double) :: least_point(3)          !< the point between the sources where the determinant is least
+    real(c_double) :: least_determinant       !< the least determinant of the map's derivative at the points half way
+                                              !! between a landmark and its nearest landmark
+    real(c_double) :: least_point(3)          !< the point with the least determinant
     integer(c_int32_t) :: is_planar           !< 1 if the landmarks lie nearly in a plane, else 0
     integer(c_int32_t) :: reserved            !< 0
   end type riis_warp_info
@@ -756,11 +755,11 @@ module riis_c
   !> The gap between the attachment of a valve and a wall. Lengths are in mesh units.
   type, bind(c) :: riis_gap
     real(c_double) :: least, mean, most  !< the gap at the ends of the edges; the mean is weighted by the edges'
-                                         !! lengths. 0 without a wall at any end
+                                         !! lengths. 0 if no end has a wall
     real(c_double) :: widest_point(3)    !< the end of an edge with the widest gap
-    integer(c_int64_t) :: n_ends         !< number of ends of edges: 2 * riis_attachment.n_edges
-    integer(c_int64_t) :: n_without_wall !< the number of ends whose line misses the wall. These ends count in no other
-                                         !! field
+    integer(c_int64_t) :: n_ends         !< the number of ends of edges, 2 * riis_attachment.n_edges
+    integer(c_int64_t) :: n_without_wall !< the number of ends without a wall in the skirt's direction. These ends count
+                                         !! in no other field
   end type riis_gap
 
   type, bind(c) :: riis_direction

@@ -925,9 +925,9 @@ subroutine riisf_mesh_set_adjacency(mesh, n_rows, offsets, columns, index_base, 
   integer(int32), intent(in) :: offsets(*)                !< (n_rows + 1), ascending from the base; a row may be empty.
   integer(int32), intent(in) :: columns(*)                !< (offsets(n_rows + 1) - index_base), from index_base.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
-  integer(int32), intent(in) :: n_all                     !< Columns are below this number, which is at least n_rows. Columns
-                                                          !! from n_rows on are ghosts, which belong to other ranks, and are
-                                                          !! ignored. 0 stands for n_rows.
+  integer(int32), intent(in) :: n_all                     !< Every column is below this number, which is at least n_rows.
+                                                          !! Columns from n_rows on are ghosts of other ranks, and are ignored.
+                                                          !! 0 stands for n_rows.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_csr) :: csr
   status = riis_csr_init(csr, c_sizeof(csr))
@@ -954,9 +954,9 @@ subroutine riisf_mesh_set_adjacency_64(mesh, n_rows, offsets, columns, index_bas
   integer(int64), intent(in) :: offsets(*)                !< (n_rows + 1), ascending from the base; a row may be empty.
   integer(int64), intent(in) :: columns(*)                !< (offsets(n_rows + 1) - index_base), from index_base.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
-  integer(int64), intent(in) :: n_all                     !< Columns are below this number, which is at least n_rows. Columns
-                                                          !! from n_rows on are ghosts, which belong to other ranks, and are
-                                                          !! ignored. 0 stands for n_rows.
+  integer(int64), intent(in) :: n_all                     !< Every column is below this number, which is at least n_rows.
+                                                          !! Columns from n_rows on are ghosts of other ranks, and are ignored.
+                                                          !! 0 stands for n_rows.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_csr) :: csr
   status = riis_csr_init(csr, c_sizeof(csr))
@@ -1076,8 +1076,8 @@ subroutine riisf_adjacency_from_mixed(n_nodes, n_cells, node_ids, offsets, index
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   integer(int32), intent(in) :: n_cells                   !< >= 0.
   integer(int32), intent(in) :: node_ids(*)               !< (nodes_per_cell, n_cells): the nodes of cell after cell.
-  integer(int32), intent(in) :: offsets(*)                !< (n_cells + 1), ascending from 0 or from index_base: the beginning
-                                                          !! of each cell in node_ids, and the end of the last cell.
+  integer(int32), intent(in) :: offsets(*)                !< (n_cells + 1), ascending from 0 or from index_base: where each
+                                                          !! cell begins in node_ids, and where the last cell ends.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int64), intent(inout) :: adjacency              !< Written on success.
@@ -1109,8 +1109,8 @@ subroutine riisf_adjacency_from_mixed_64(n_nodes, n_cells, node_ids, offsets, in
   integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   integer(int64), intent(in) :: n_cells                   !< >= 0.
   integer(int64), intent(in) :: node_ids(*)               !< (nodes_per_cell, n_cells): the nodes of cell after cell.
-  integer(int64), intent(in) :: offsets(*)                !< (n_cells + 1), ascending from 0 or from index_base: the beginning
-                                                          !! of each cell in node_ids, and the end of the last cell.
+  integer(int64), intent(in) :: offsets(*)                !< (n_cells + 1), ascending from 0 or from index_base: where each
+                                                          !! cell begins in node_ids, and where the last cell ends.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int64), intent(inout) :: adjacency              !< Written on success.
@@ -1375,9 +1375,9 @@ subroutine riisf_surface_with_skirt(n_vertices, x, y, z, stride, corners_per_fac
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(int8), intent(in) :: attached(*)                !< INTEGER*1, (n_vertices): 1 for the vertices of the attachment, 0
                                                           !! for others. attached(1) = -1: the attachment is chosen.
-  real(c_double), intent(in) :: skirt_length              !< The length of a skirt before placement. A skirt is a strip from
-                                                          !! the attachment outwards. The length is 1e-4 to 10 times the mean
-                                                          !! distance of the attachment from its axis. 0: no skirt.
+  real(c_double), intent(in) :: skirt_length              !< The length of a skirt before placement. A skirt is a strip that
+                                                          !! leads outwards from the attachment. The length is 1e-4 to 10 times
+                                                          !! the mean distance of the attachment from its axis. 0: no skirt.
   real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
   real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most
                                                           !! tolerance * half_thickness.
@@ -1439,9 +1439,9 @@ subroutine riisf_surface_with_skirt_64(n_vertices, x, y, z, stride, corners_per_
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(int8), intent(in) :: attached(*)                !< INTEGER*1, (n_vertices): 1 for the vertices of the attachment, 0
                                                           !! for others. attached(1) = -1: the attachment is chosen.
-  real(c_double), intent(in) :: skirt_length              !< The length of a skirt before placement. A skirt is a strip from
-                                                          !! the attachment outwards. The length is 1e-4 to 10 times the mean
-                                                          !! distance of the attachment from its axis. 0: no skirt.
+  real(c_double), intent(in) :: skirt_length              !< The length of a skirt before placement. A skirt is a strip that
+                                                          !! leads outwards from the attachment. The length is 1e-4 to 10 times
+                                                          !! the mean distance of the attachment from its axis. 0: no skirt.
   real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
   real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most
                                                           !! tolerance * half_thickness.
@@ -4947,8 +4947,8 @@ subroutine riisf_find_crossings(surface, depth, n_threads, crossings, n_pairs, l
   integer(int64), intent(inout) :: crossings              !< 0, which creates them, or from an earlier call.
   integer(int64), intent(inout) :: n_pairs                !< The number of pairs that cross, INTEGER*8.
   real(c_double), intent(inout) :: length                 !< The total length of their intersections.
-  real(c_double), intent(inout) :: deepest                !< The depth of the deepest pair. Of several equally deep pairs, the
-                                                          !! first one counts.
+  real(c_double), intent(inout) :: deepest                !< The depth of the deepest pair. If several pairs are equally deep,
+                                                          !! the first pair counts.
   real(c_double), intent(inout) :: point(3)               !< The middle of the deepest pair's intersection.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_crossing_options) :: options
@@ -5097,11 +5097,11 @@ subroutine riisf_surface_leaflet(surface, leaflet_num, leaflet_id, area, free_ed
   integer(int32), intent(in) :: leaflet_num               !< 1 to n_leaflets, ascending by leaflet_id.
   integer(int32), intent(inout) :: leaflet_id             !< From 0.
   real(c_double), intent(inout) :: area                   !< The area of its triangles.
-  real(c_double), intent(inout) :: free_edge              !< The length of its free edge: the sides v = 1 that belong to only
-                                                          !! one patch of the leaflet. A surface from arrays has no patches:
-                                                          !! its free edge is all open edges except the longest closed line of
-                                                          !! open edges. An open edge belongs to only one triangle. 0 for a
-                                                          !! skirt.
+  real(c_double), intent(inout) :: free_edge              !< The length of its free edge, which consists of the sides v = 1
+                                                          !! that belong to only one patch of the leaflet. In a surface from
+                                                          !! arrays, the free edge consists of all open edges except the
+                                                          !! longest closed line of open edges. An open edge belongs to only
+                                                          !! one triangle. 0 for a skirt.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_leaflet) :: sizes
   status = riis_surface_get_leaflet(c_handle_of(surface), int(leaflet_num, int64) - 1, sizes, c_sizeof(sizes))
@@ -5129,10 +5129,10 @@ subroutine riisf_surface_orifice(surface, half_thickness, rim, area, outline_are
                                                           !! first moved inwards by a tenth of the half thickness, so that
                                                           !! narrow slits do not count. Parts of the edge on the outline are
                                                           !! walls and do not count.
-  real(c_double), intent(inout) :: effective_area         !< The area that the band around the valve leaves to the flow. The
-                                                          !! edge along the triangles is moved inwards by rim_reach *
-                                                          !! half_thickness. To first order the effective area is area -
-                                                          !! rim_reach * half_thickness * perimeter, but never below 0.
+  real(c_double), intent(inout) :: effective_area         !< The area through which the flow can pass beside the band around
+                                                          !! the valve. The edge along the triangles is moved inwards by
+                                                          !! rim_reach * half_thickness. To first order the effective area is
+                                                          !! area - rim_reach * half_thickness * perimeter, but never below 0.
   integer(int32), intent(inout) :: outline                !< RIIS_OUTLINE_*.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
@@ -5171,10 +5171,10 @@ subroutine riisf_surface_orifice_in_wall(surface, wall, half_thickness, rim, are
                                                           !! first moved inwards by a tenth of the half thickness, so that
                                                           !! narrow slits do not count. Parts of the edge on the outline are
                                                           !! walls and do not count.
-  real(c_double), intent(inout) :: effective_area         !< The area that the band around the valve leaves to the flow. The
-                                                          !! edge along the triangles is moved inwards by rim_reach *
-                                                          !! half_thickness. To first order the effective area is area -
-                                                          !! rim_reach * half_thickness * perimeter, but never below 0.
+  real(c_double), intent(inout) :: effective_area         !< The area through which the flow can pass beside the band around
+                                                          !! the valve. The edge along the triangles is moved inwards by
+                                                          !! rim_reach * half_thickness. To first order the effective area is
+                                                          !! area - rim_reach * half_thickness * perimeter, but never below 0.
   integer(int32), intent(inout) :: outline                !< RIIS_OUTLINE_*.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
@@ -5480,8 +5480,8 @@ subroutine riisf_find_first_passage(valve, mesh, n_from, from_num, n_to, to_num,
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int32), intent(inout) :: state                  !< RIIS_FIRST_PASSAGE_*.
   real(c_double), intent(inout) :: opening                !< The opening that was tried and has a passage.
-  real(c_double), intent(inout) :: closed_opening         !< FOUND: the largest opening below `opening` at which no passage was
-                                                          !! found. Else: `opening`.
+  real(c_double), intent(inout) :: closed_opening         !< The largest opening below `opening` that was found closed, with
+                                                          !! FOUND; else `opening`.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   integer(int64), allocatable, target :: c_from_num(:)
   integer(int64), allocatable, target :: c_to_num(:)
@@ -5550,8 +5550,8 @@ subroutine riisf_find_first_passage_64(valve, mesh, n_from, from_num, n_to, to_n
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int32), intent(inout) :: state                  !< RIIS_FIRST_PASSAGE_*.
   real(c_double), intent(inout) :: opening                !< The opening that was tried and has a passage.
-  real(c_double), intent(inout) :: closed_opening         !< FOUND: the largest opening below `opening` at which no passage was
-                                                          !! found. Else: `opening`.
+  real(c_double), intent(inout) :: closed_opening         !< The largest opening below `opening` that was found closed, with
+                                                          !! FOUND; else `opening`.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   integer(int64), allocatable, target :: c_from_num(:)
   integer(int64), allocatable, target :: c_to_num(:)
@@ -5611,10 +5611,10 @@ subroutine riisf_opening_from_table(n_keys, key_time, key_opening, period, inter
   integer(int32), intent(in) :: n_keys                    !< 1 to 1,000,000.
   real(c_double), intent(in) :: key_time(*)               !< (n_keys), strictly ascending, magnitude at most 1e30.
   real(c_double), intent(in) :: key_opening(*)            !< (n_keys), 0 to 1.
-  real(c_double), intent(in) :: period                    !< > 0: the table repeats. All keys lie within one period of the
-                                                          !! first key. If the last key is one period after the first, it must
-                                                          !! have the same opening. 0: the opening is constant before the first
-                                                          !! key and after the last.
+  real(c_double), intent(in) :: period                    !< Above 0, the table repeats with this period. All keys lie within
+                                                          !! one period of the first key. If the last key is one period after
+                                                          !! the first, it must have the same opening. 0: the opening is
+                                                          !! constant before the first key and after the last.
   integer(int32), intent(in) :: interpolation             !< RIIS_INTERPOLATION_*, usually RIIS_INTERPOLATION_LINEAR.
   real(c_double), intent(in) :: time                      !< Magnitude at most 1e30.
   real(c_double), intent(inout) :: opening                !< Written on success.
@@ -5638,14 +5638,15 @@ subroutine riisf_opening_from_times(opening_start, opening_duration, closing_sta
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use riis_c, only: RIIS_OK, riis_opening_from_times, riis_opening_times, riis_opening_times_init, riis_status
   implicit none
-  real(c_double), intent(in) :: opening_start             !< When the valve begins to open.
+  real(c_double), intent(in) :: opening_start             !< The time at which the valve begins to open.
   real(c_double), intent(in) :: opening_duration          !< How long opening takes, > 0.
-  real(c_double), intent(in) :: closing_start             !< When the valve begins to close, at least opening_start +
-                                                          !! opening_duration.
+  real(c_double), intent(in) :: closing_start             !< The time at which the valve begins to close, at least
+                                                          !! opening_start + opening_duration.
   real(c_double), intent(in) :: closing_duration          !< How long closing takes, > 0.
   real(c_double), intent(in) :: closed                    !< The opening when closed, 0 to 1; usually 0.
   real(c_double), intent(in) :: open                      !< The opening when open, 0 to 1; usually 1.
-  real(c_double), intent(in) :: period                    !< > 0: the valve opens and closes once in each period. 0: only once.
+  real(c_double), intent(in) :: period                    !< Above 0, the valve opens and closes once in each period. 0: only
+                                                          !! once.
   real(c_double), intent(in) :: time                      !< Magnitude at most 1e30.
   real(c_double), intent(inout) :: opening                !< Written on success.
   real(c_double), intent(inout) :: rate                   !< Written on success.
@@ -5690,14 +5691,13 @@ subroutine riisf_opening_switch_advance(opening_duration, closing_duration, open
   use riis_c, only: RIIS_OK, riis_opening_switch, riis_opening_switch_advance, riis_opening_switch_init, &
       riis_opening_switch_state, riis_opening_switch_state_init, riis_status
   implicit none
-  real(c_double), intent(in) :: opening_duration          !< Time from closed to open, > 0.
-  real(c_double), intent(in) :: closing_duration          !< Time from open to closed, > 0.
+  real(c_double), intent(in) :: opening_duration          !< The time that the valve takes to open, > 0.
+  real(c_double), intent(in) :: closing_duration          !< The time that the valve takes to close, > 0.
   real(c_double), intent(in) :: open_above                !< Pressure difference. Usually 0.
   real(c_double), intent(in) :: close_below               !< Flow. Usually 0.
-  real(c_double), intent(in) :: filter_time               !< Time constant of a filter of pressure difference and flow, >= 0.
-                                                          !! 0: no filter.
-  real(c_double), intent(in) :: dwell_time                !< The least time from one change of phase to the next, >= 0. Usually
-                                                          !! 0.
+  real(c_double), intent(in) :: filter_time               !< The time constant of the filter of pressure difference and flow,
+                                                          !! >= 0. 0: no filter.
+  real(c_double), intent(in) :: dwell_time                !< The shortest time between two changes of phase, >= 0. Usually 0.
   real(c_double), intent(in) :: time                      !< At least state(1).
   real(c_double), intent(in) :: pressure_difference       !< Upstream minus downstream, at the given time.
   real(c_double), intent(in) :: flow                      !< Positive downstream, at the given time.
@@ -5816,11 +5816,12 @@ subroutine riisf_place(valve, n_landmarks, xyz, role, leaflet_id, scale, noise, 
   integer(int32), intent(in) :: n_landmarks               !< 1 to 10,000.
   real(c_double), intent(in) :: xyz(3, *)                 !< (3, n_landmarks), in mesh units.
   integer(int32), intent(in) :: role(*)                   !< (n_landmarks): RIIS_LANDMARK_*.
-  integer(int32), intent(in) :: leaflet_id(2, *)          !< (2, n_landmarks): the cusp of a nadir or attachment point, then
-                                                          !! -1; the two leaflets of a commissure, in any order. -1 and -1: not
-                                                          !! known. For an aortic or tricuspid valve, the known leaflets must
-                                                          !! determine the names of all leaflets. For other kinds without
-                                                          !! names, the first nadir lies on cusp 0.
+  integer(int32), intent(in) :: leaflet_id(2, *)          !< (2, n_landmarks): the leaflets of each landmark. A nadir or
+                                                          !! attachment point has its cusp and -1, and a commissure has its two
+                                                          !! leaflets in any order. -1 and -1 stand for unknown leaflets. For
+                                                          !! an aortic or tricuspid valve, the known leaflets must determine
+                                                          !! the names of all leaflets. For other kinds without names, the
+                                                          !! first nadir lies on cusp 0.
   real(c_double), intent(in) :: scale                     !< Mesh units in a centimetre: 10 for millimetres, 1 for centimetres,
                                                           !! or 0.01 for metres. Must be set.
   real(c_double), intent(in) :: noise                     !< The scatter of the landmarks: the standard deviation of each
@@ -5874,15 +5875,15 @@ subroutine riisf_warp_create(n_landmarks, xyz, noise, scale, rotation_axis, rota
   implicit none
   integer(int32), intent(in) :: n_landmarks               !< 3 to 1000.
   real(c_double), intent(in) :: xyz(3, *)                 !< (3, n_landmarks).
-  real(c_double), intent(in) :: noise                     !< Standard deviation of each coordinate of the targets, 0 to 1e50.
-                                                          !! The map is smoothed until it misses the targets by about this
-                                                          !! noise. 0: the map meets the targets exactly.
+  real(c_double), intent(in) :: noise                     !< The standard deviation of each coordinate of the targets, 0 to
+                                                          !! 1e50. The map is smoothed until its distances from the targets are
+                                                          !! about this noise. 0: the map meets the targets exactly.
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
   real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< Mesh units; -1e50 to 1e50, usually 0. Refused for a valve if
-                                                          !! coordinates would be rounded by more than a thousandth of
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Refused for a
+                                                          !! valve if coordinates would be rounded by more than a thousandth of
                                                           !! tolerance * half_thickness.
   integer(int64), intent(inout) :: warp                   !< Written on success. Free it with riisf_warp_destroy.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.

@@ -20,7 +20,7 @@ extern "C" {
 
 /* ---- Status, errors, log, version ---------------------------------------------------------------------- */
 
-/* The result of a call. Its values never change. A release may add new values at either end of the list. */
+/* The result of a call. Its values never change. A release may add new values at either end of this enum. */
 typedef int32_t riis_status;
 /* Values of riis_status. */
 enum {
@@ -60,18 +60,18 @@ enum {
 };
 /* Sets the log function of the process. Any thread may call riis_set_log.
  *   `function`: receives the messages; NULL, the default, means no log.
- *   `user_data`: passed to the function; it must stay valid as long as the function is set.
- * If another thread is just sending a message, the previous function may still receive the message. With a log function, the
- * library also searches surfaces for crossings (riis_find_crossings). The library searches a shape only if the caller has chosen
- * its parameters, patches or open state. The search takes longer than an update. Openings have five ranges: 0, up to 0.05, up to
- * 1/3, up to 2/3, and up to 1. A shape is searched once in each range, at its first opening in that range. A shape is not
- * searched again after its first warning. */
+ *   `user_data`: a pointer that the library passes to the function. The pointer must stay valid as long as the function is set.
+ * If another thread is just sending a message, the previous log function may still receive it. With a log function, the library
+ * also searches surfaces for crossings (riis_find_crossings). The library searches a shape only if the caller has chosen its
+ * parameters, patches or open state. A search for crossings takes longer than an update. The openings from 0 to 1 are divided
+ * into five ranges, which end at 0, 0.05, 1/3, 2/3 and 1. A shape is searched once in each range, at its first opening there. A
+ * shape is not searched again after its first warning. */
 RIIS_API void riis_set_log(riis_log_function function, void *user_data);
 
-/* RIIS_AUTO in a field stands for the value of another quantity. The comment of the field names that quantity. */
+/* RIIS_AUTO in a field stands for the value of another quantity, which the comment of the field names. */
 #define RIIS_AUTO (-1.0)
 
-/* Points in the caller's arrays, for the calls that copy them or read them once. */
+/* Points in the caller's arrays. A call copies these points, or reads them once. */
 typedef struct riis_points {
   int64_t struct_size;     /* set by the init function */
   int64_t n_points;        /* 0 to 2^40 */

@@ -15,24 +15,25 @@ extern "C" {
 /* ---- Laws of opening: a valve's opening from the time, the pressure difference and the flow ------------ */
 
 /* These rules hold for all laws:
- * - The functions are pure: the same arguments give the same bits, and the library keeps nothing.
+ * - The functions are pure: the same arguments give the same bits, and the library stores no state.
  * - Times, pressures and flows have the solver's units.
  * - The pressure difference is the upstream pressure minus the downstream pressure. Flow is positive downstream. Positive
  *   pressure differences thus open a valve.
  * - `rate` is the time derivative of the opening.
- * - A state has no pointers. A solver that restores a state from a restart file continues with the same bits.
- * - `now` may be the struct `before` itself. `now` gets the struct_size of `before`. To repeat a step, start from `before`
+ * - A state has no pointers. A solver can therefore write a state to a restart file, read it again, and continue with the same
+ *   bits.
+ * - `now` may point to the same struct as `before`, and gets the struct_size of `before`. To repeat a step, start from `before`
  *   again. */
 
-/* An opening that is given by its values at keys in time. */
+/* A law that interpolates the opening between given times, which are called keys. */
 typedef struct riis_opening_table {
   int64_t struct_size;   /* set by the init function */
   int64_t n_keys;        /* 1 to 1,000,000 */
   const double *time;    /* (n_keys), strictly ascending, magnitude at most 1e30 */
   const double *opening; /* (n_keys), 0 to 1 */
-  double period;         /* > 0: the table repeats. All keys lie within one period of the first key. If the last
-                            key is one period after the first, it must have the same opening. 0, the default: the
-                            opening is constant before the first key and after the last */
+  double period;         /* above 0, the table repeats with this period. All keys lie within one period of the first key. If the
+                            last key is one period after the first, it must have the same opening. 0, the default: the opening is
+                            constant before the first key and after the last */
   int32_t interpolation; /* RIIS_INTERPOLATION_*, default RIIS_INTERPOLATION_LINEAR */
   int32_t reserved;      /* 0 */
 } riis_opening_table;
@@ -43,18 +44,18 @@ RIIS_API riis_status riis_opening_table_init(riis_opening_table *table, int64_t 
 RIIS_API riis_status riis_opening_from_table(const riis_opening_table *table, double time, double *opening,
                                              double *rate);
 
-/* An opening that is given by the times of two ramps. The ramps are of fifth degree, so the rate and its derivative are
- * continuous. For example, a mitral valve opens from 0.45 s and closes from 0.95 s in each second, and each motion takes 0.05
- * s. */
+/* A law that opens and closes the valve by two ramps at given times. The ramps are polynomials of degree five, so the rate and
+ * its derivative are continuous. For example, a mitral valve opens from 0.45 s and closes from 0.95 s in each second, and each
+ * motion takes 0.05 s. */
 typedef struct riis_opening_times {
   int64_t struct_size;    /* set by the init function */
-  double opening_start;   /* when the valve begins to open. Default NaN here and in the next three fields; NaN is
+  double opening_start;   /* the time at which the valve begins to open. Default NaN here and in the next three fields; NaN is
                              refused */
   double opening_duration; /* how long opening takes, > 0 */
-  double closing_start;   /* when the valve begins to close, at least opening_start + opening_duration */
+  double closing_start;   /* the time at which the valve begins to close, at least opening_start + opening_duration */
   double closing_duration; /* how long closing takes, > 0 */
-  double closed, open;    /* the opening when closed and when open, 0 to 1. Default 0 and 1 */
-  double period;          /* > 0: the valve opens and closes once in each period. Default 0: only once */
+  double closed, open;    /* the openings of the closed and of the open valve, 0 to 1. Default 0 and 1 */
+  double period;          /* above 0, the valve opens and closes once in each period. Default 0: only once */
 } riis_opening_times;
 RIIS_API riis_status riis_opening_times_init(riis_opening_times *times, int64_t struct_size); /* the defaults */
 /* Gives the opening at a time by the times of the ramps. Both `opening` and `rate` may be NULL.
@@ -69,17 +70,17 @@ enum {
   RIIS_PHASE_OPENING = 1  /* opening or open */
 };
 
-/* A valve opens when the pressure difference exceeds a value, and closes when the flow falls below another value. For an
- * aortic valve in SI units: opening_duration 0.04, closing_duration 0.04, open_above 0, close_below 0 (the flow reverses),
+/* A law that opens the valve when the pressure difference exceeds a limit, and closes it when the flow falls below a limit. For
+ * an aortic valve in SI units: opening_duration 0.04, closing_duration 0.04, open_above 0, close_below 0 (the flow reverses),
  * filter_time 0.002, dwell_time 0.04 (a motion ends before the next begins). */
 typedef struct riis_opening_switch {
   int64_t struct_size;    /* set by the init function */
-  double opening_duration; /* time from closed to open, > 0. Default NaN, which is refused */
-  double closing_duration; /* time from open to closed, > 0. Default NaN, which is refused */
+  double opening_duration; /* the time that the valve takes to open, > 0. Default NaN, which is refused */
+  double closing_duration; /* the time that the valve takes to close, > 0. Default NaN, which is refused */
   double open_above;      /* pressure difference. Default 0 */
   double close_below;     /* flow. Default 0 */
-  double filter_time;  /* time constant of a filter of pressure difference and flow, >= 0. Default 0: no filter */
-  double dwell_time;   /* the least time from one change of phase to the next, >= 0. Default 0 */
+  double filter_time;  /* the time constant of the filter of pressure difference and flow, >= 0. Default 0: no filter */
+  double dwell_time;   /* the shortest time between two changes of phase, >= 0. Default 0 */
 } riis_opening_switch;
 RIIS_API riis_status riis_opening_switch_init(riis_opening_switch *law, int64_t struct_size); /* the defaults */
 /* The state of a switch. */
@@ -96,8 +97,8 @@ typedef struct riis_opening_switch_state {
 } riis_opening_switch_state;
 /* Fills *state with a closed valve at time 0. */
 RIIS_API riis_status riis_opening_switch_state_init(riis_opening_switch_state *state, int64_t struct_size);
-/* Advances a switch to a time. The switch's phase changes at the end of the step in which the condition is met. The opening is
- * therefore accurate to first order in the length of steps.
+/* Advances a switch to a time. The phase changes only at the end of a step, so the opening is accurate to first order in the step
+ * length.
  *   `time`: at least before->time, magnitude at most 1e30.
  *   `pressure_difference`, `flow`: at that time, magnitude at most 1e30.
  * Errors: RIIS_INVALID_ARGUMENT naming the field or argument and its value; *now stays unchanged. */
@@ -109,10 +110,10 @@ RIIS_API riis_status riis_opening_switch_advance(const riis_opening_switch *law,
 /* The angle law of T. Korakianitis and Y. Shi, "A concentrated parameter model for the human cardiovascular
  * system including heart valve dynamics and atrioventricular interaction", Med. Eng. Phys. 28 (2006):
  *   angle'' = -friction angle' + (pressure_gain dp + flow_gain Q) cos(angle)
- *             - vortex_gain max(Q, 0) sin(2 angle)
- * Angles are in radians here. At the stops angle_min and angle_max the speed becomes 0. The opening is the angle's share of its
- * range. The paper's values, for mmHg, ml and s: pressure_gain 5500, flow_gain 2, friction 50, vortex_gain 7 for the aortic and
- * 3.5 for the mitral valve. */
+ *             - vortex_gain max(Q, 0) sin(2 angle).
+ * Angles are in radians in this equation. The motion stops at angle_min and angle_max. The opening grows linearly with the angle
+ * from 0 at angle_min to 1 at angle_max. The paper's values, for mmHg, ml and s: pressure_gain 5500, flow_gain 2, friction 50,
+ * vortex_gain 7 for the aortic and 3.5 for the mitral valve. */
 typedef struct riis_opening_angle {
   int64_t struct_size;  /* set by the init function */
   double pressure_gain; /* K_p, >= 0. Default NaN here and in the next three fields; NaN is refused */
@@ -134,9 +135,8 @@ typedef struct riis_opening_angle_state {
 } riis_opening_angle_state;
 /* Fills *state with a closed valve at rest, at time 0. Until the first step, the angle 0 of this state stands for angle_min. */
 RIIS_API riis_status riis_opening_angle_state_init(riis_opening_angle_state *state, int64_t struct_size);
-/* Advances the angle law to a time. The law takes pressure difference and flow as linear over the step, so the angle is accurate
- * to second order in the length of steps. The first step has no earlier pressure difference and flow, so the present values hold
- * for the whole step.
+/* Advances the angle law to a time. During a step, the pressure difference and the flow are linear in time, so the angle is
+ * accurate to second order in the step length. During the first step they are constant, because no earlier values are known.
  *   `time`: at least before->time, magnitude at most 1e30.
  *   `pressure_difference`, `flow`: at that time, magnitude at most 1e30.
  * Errors: RIIS_INVALID_ARGUMENT naming the field or argument and its value. RIIS_LIMIT_EXCEEDED for a step

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * loads.h - loads: the forces of the leaflets at the nodes of the tissue that holds them.
+ * loads.h - loads: the forces with which the leaflets pull at the nodes of the tissue around them.
  * The header riis.h includes this file, and has the rules that hold for every call.
  */
 /* clang-format off: argument lists in comments are laid out by hand */
@@ -14,17 +14,17 @@ extern "C" {
 
 /* ---- Loads: the forces of the leaflets at nodes of tissue (docs/theory/loads.md) ----------------------- */
 
-/* The forces of the leaflets, and the edges at which tissue holds them. With MPI all ranks pass the same numbers. */
+/* The forces of the leaflets, and the edges at which tissue holds the leaflets. With MPI all ranks pass the same numbers. */
 typedef struct riis_loads {
   int64_t struct_size;            /* set by the init function */
   double radius;                  /* mesh units, 1e-50 to 1e50. A leaflet's force acts at the nodes that are nearer to the
                                      leaflet's edges than the radius. Default NaN, which is refused */
   double about[3];                /* the reference point of leaflet_moment; magnitude at most 1e60. Default 0 */
   int64_t n_leaflets;             /* the number of columns of sums, leaflet_force and leaflet_moment; 1 to 2^31. Default 0 */
-  const double *leaflet_force;    /* (3, n_leaflets): as riis_reaction.leaflet_force, added up over all ranks. The sums do not
-                                     need it */
-  const double *leaflet_moment;   /* (3, n_leaflets): as riis_reaction.leaflet_moment, added up over all ranks. The sums do not
-                                     need it */
+  const double *leaflet_force;    /* (3, n_leaflets): riis_reaction.leaflet_force, added up over all ranks. The sums do not need
+                                     it */
+  const double *leaflet_moment;   /* (3, n_leaflets): riis_reaction.leaflet_moment, added up over all ranks. The sums do not need
+                                     it */
   int64_t n_edges;                /* 1 to 2^40. Default 0 */
   const double *edges;            /* (3, 2, n_edges): both ends of each edge, for example riis_attachment.edges; magnitude at
                                      most 1e60. An edge may have length 0 */
@@ -36,31 +36,31 @@ typedef struct riis_loads {
 } riis_loads;
 RIIS_API riis_status riis_loads_init(riis_loads *loads, int64_t struct_size); /* the defaults */
 /* Adds the sums over nodes of tissue that riis_loads_add_forces needs.
- *   `loads`: radius, edges and n_leaflets; the forces are not read.
- *   `nodes`: the nodes of a surface or a volume of tissue, in the frame of the edges. Nodes beyond the radius count in no sum,
- *     and get no force.
+ *   `loads`: the call reads radius, edges and n_leaflets, but no forces.
+ *   `nodes`: the nodes of a surface or a volume of tissue, in the frame of the edges. Nodes farther from the edges than the
+ *     radius do not count, and get no force.
  *   `weight` (n_points), 0 to 1e60: the area or volume around a node, 0 for nodes of other ranks. NULL: 1 for each node.
  *   `sums` (11, n_leaflets): the array to which the sums are added.
- * A bileaflet valve has no attachment. A surface from arrays has an attachment only with `attached` or a skirt. Without an
- * attachment the caller gives edges: the pivots, or the edges at which the leaflets are sewn. With MPI each rank passes its own
- * nodes, and all ranks then add up their sums.
+ * A bileaflet valve has no attachment. A surface from arrays has an attachment only with `attached` or a skirt. For a surface
+ * without an attachment, give the edges at which the leaflets are sewn, or the pivots. With MPI each rank passes its own nodes,
+ * and all ranks then add up their sums.
  * Errors: RIIS_INVALID_ARGUMENT naming the field, or the edge, node or weight and its value. */
 RIIS_API riis_status riis_loads_add_sums(const riis_loads *loads, const riis_points *nodes, const double *weight, double *sums);
 /* Adds the forces of the leaflets at nodes of tissue. The forces of a leaflet have the sum leaflet_force and the moment
  * leaflet_moment, up to rounding.
  *   `loads`, `nodes`, `weight`: as in riis_loads_add_sums.
- *   `sums` (11, n_leaflets): of riis_loads_add_sums, added up over all ranks.
+ *   `sums` (11, n_leaflets): the sums of riis_loads_add_sums, added up over all ranks.
  *   `node_force` (3, n_points): the array to which the forces are added.
- * The force of a leaflet at a node is m w(d) (a + b x s). Here m is the weight of the node, and d is its distance from the
- * leaflet's edges. Up to the radius, w(d) is (1 + cos(pi d / radius)) / 2. The vector s leads from the middle of the leaflet's
- * nodes to the node. The vectors a and b belong to the leaflet. Among all forces with the same sum and moment, the forces of a
- * leaflet have the least sum of |force|^2 / (m w). In a rigid motion the power of the forces is force times velocity plus moment
- * times angular velocity. The forces are linear in leaflet_force and leaflet_moment: pass zeros for the other leaflets to get the
- * forces of one leaflet. The forces do not model the mechanics of a membrane.
- * Errors: as riis_loads_add_sums. RIIS_INVALID_ARGUMENT also for a leaflet with a force or a moment, if fewer than three nodes
- * lie within the radius, or if these nodes lie nearly on a line. Nodes lie nearly on a line if their root-mean-square distance
- * from the line is less than a hundredth of their root-mean-square distance from their middle. Nodes also lie nearly on a line if
- * their root-mean-square distance from the line is less than a thousandth of the size of the edges (docs/theory/loads.md). */
+ * The force of a leaflet at a node is m w(d) (a + b x s), with two vectors a and b for each leaflet. Here m is the weight of the
+ * node, and d is its distance from the leaflet's edges. Up to the radius, w(d) is (1 + cos(pi d / radius)) / 2. The vector s
+ * leads from the middle of the leaflet's nodes to the node. Among all forces with the given sum and moment, these forces minimise
+ * the sum of |force|^2 / (m w) over the nodes. If the tissue moves rigidly, the power of the forces is force times velocity plus
+ * moment times angular velocity. The forces are linear in leaflet_force and leaflet_moment: pass zeros for the other leaflets to
+ * get the forces of one leaflet. The forces do not model the mechanics of a membrane.
+ * Errors: as riis_loads_add_sums. RIIS_INVALID_ARGUMENT also if a loaded leaflet has fewer than three nodes within the radius, or
+ * only nodes that lie nearly on a line. Nodes lie nearly on a line if their root-mean-square distance from the line is less than
+ * a hundredth of their root-mean-square distance from their middle, or less than a thousandth of the size of the edges
+ * (docs/theory/loads.md). */
 RIIS_API riis_status riis_loads_add_forces(const riis_loads *loads, const riis_points *nodes, const double *weight,
                                            const double *sums, double *node_force);
 

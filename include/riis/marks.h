@@ -15,7 +15,7 @@ extern "C" {
 
 /* ---- Marking (paper, 4.2) ------------------------------------------------------------------------------ */
 
-/* The nodes that a marking found. Make one object and reuse it every step, because it keeps its memory. */
+/* The nodes that a marking found. Make one object and reuse it in every time step, because it keeps its memory. */
 typedef struct riis_marks riis_marks;
 /* Makes empty marks, which belong to no mesh and no surface. */
 RIIS_API riis_status riis_marks_create(riis_marks **marks);
@@ -23,19 +23,19 @@ RIIS_API void riis_marks_destroy(riis_marks **marks); /* destroys the marks and 
 
 /* How nodes are searched. All searches except RIIS_SEARCH_PAPER find the same nodes (docs/theory/search.md). */
 enum {
-  RIIS_SEARCH_AUTO = 0,       /* clusters. Sampling and minimisation take the exhaustive search. The first marking of a mesh
-                                 without riis_mesh_prepare also takes the exhaustive search if the distance limit is at most a
-                                 fifth of the surface's extent. With few nodes, a marking with a larger limit also takes the
-                                 exhaustive search. A grid (riis_mesh_create_grid) has clusters from its first marking on */
+  RIIS_SEARCH_AUTO = 0,       /* clusters. The exhaustive search runs instead with sampling or minimisation, and in the first
+                                 marking of a mesh without riis_mesh_prepare if the distance limit is at most a fifth of the
+                                 surface's extent. For few nodes, the exhaustive search also runs with a larger limit. A grid
+                                 (riis_mesh_create_grid) has clusters from its first marking on */
   RIIS_SEARCH_EXHAUSTIVE = 1, /* queries every node (paper, algorithm "Exhaustive node iteration") */
   RIIS_SEARCH_NEIGHBOR = 2,   /* walks from marked nodes to their neighbours (paper, algorithm "Recursive
-                                 neighbor search") and queries every other node that it cannot prove to be far. The
-                                 mesh must have an adjacency, which need not be connected */
-  RIIS_SEARCH_PAPER = 3,      /* the paper's algorithm to the letter, for comparison: it misses nodes that no path joins to its
-                                 only starting node. The mesh must have an adjacency */
-  RIIS_SEARCH_CLUSTERS = 4    /* filters clusters of nodes in single precision, and decides in double precision. The exhaustive
-                                 search runs instead (stats.search) for 2^32 points and more, and for a mesh that is a million
-                                 times as large as the surface or as far away */
+                                 neighbor search") and also queries every other node that may be near. The mesh must have an
+                                 adjacency, which need not be connected */
+  RIIS_SEARCH_PAPER = 3,      /* the paper's algorithm without any change, for comparison. This search misses nodes that are not
+                                 connected to its only starting node. The mesh must have an adjacency */
+  RIIS_SEARCH_CLUSTERS = 4    /* discards distant clusters of nodes in single precision, and decides about the other nodes in
+                                 double precision. The exhaustive search runs instead (stats.search) for 2^32 points and more, and
+                                 for a mesh that is a million times as large as the surface or as far away */
 };
 
 /* The processor's instructions that a marking uses. All instruction sets give the same bits. */
@@ -47,8 +47,8 @@ enum {
   RIIS_INSTRUCTIONS_AVX512 = 3    /* AVX-512 F, DQ, BW and VL */
 };
 
-/* Fields of the closest point that a marking keeps on request. Add the values to request several fields. Distances by sampling or
- * minimisation have RIIS_FIELD_POINT, RIIS_FIELD_NORMAL and RIIS_FIELD_PATCH only. */
+/* Fields of the closest points that a marking stores on request. Add the values to request several fields. With distances by
+ * sampling or minimisation, only RIIS_FIELD_POINT, RIIS_FIELD_NORMAL and RIIS_FIELD_PATCH are available. */
 enum {
   RIIS_FIELD_POINT = 1,      /* riis_mark_list.point */
   RIIS_FIELD_NORMAL = 2,     /* riis_mark_list.normal */
@@ -70,14 +70,14 @@ enum {
 
 /* The term K (u - u_surface) of the momentum equation, with the fluid velocity u and the surface velocity u_surface
  * (paper, 2.1; docs/theory/marks.md, "Resistance"). At a distance d < eps, K = (R / eps) delta(d) with
- * delta(d) = (1 + cos(pi d / eps)) / (2 eps). At larger distances K is 0. With the offset o of the surface, d is the distance
- * from the middle of the band, |s - o eps|. Here eps is the half thickness of this resistance (riis_surface_create). */
+ * delta(d) = (1 + cos(pi d / eps)) / (2 eps). At larger distances K is 0. If the surface has an offset o, d is |s - o eps|, the
+ * distance from the middle of the band. Here eps is the half thickness of this resistance (riis_surface_create). */
 typedef struct riis_resistance {
   int64_t struct_size;   /* set by the init function */
-  double R;              /* 0 to 1e60, in mass / (length time), such as kg/(m s). A flat closed valve in a flow of velocity u has
-                            a pressure drop of (R / eps) u. Default NaN, which is refused */
-  double half_thickness; /* eps, at least 1e-50. With the offset o, (1 + |o|) eps is at most the distance limit. Default
-                            RIIS_AUTO: the marking's half thickness */
+  double R;              /* the resistance, 0 to 1e60, in mass / (length time), such as kg/(m s). A flat closed valve in a flow of
+                            velocity u has a pressure drop of (R / eps) u. Default NaN, which is refused */
+  double half_thickness; /* eps, at least 1e-50. If the surface has an offset o, (1 + |o|) eps must be at most the distance limit.
+                            Default RIIS_AUTO: the marking's half thickness */
   int32_t rim;           /* RIIS_RIM_*, default RIIS_RIM_ROUND */
   int32_t reserved;      /* 0 */
 } riis_resistance;
@@ -86,12 +86,13 @@ RIIS_API riis_status riis_resistance_init(riis_resistance *resistance, int64_t s
 /* Options of a marking. */
 typedef struct riis_mark_options {
   int64_t struct_size;       /* set by the init function */
-  double distance_limit;     /* the search finds the nodes whose distance is at most this limit. With the offset o, the limit is
-                                at least (1 + |o|) half thicknesses and at most 1e60. Default RIIS_AUTO: the list within the limit
-                                has the marked nodes only. The limit does not change the marked nodes */
-  const uint8_t *node_mask;  /* (n_nodes): nodes with 0 are left out, but must be finite. NULL: all nodes */
-  const riis_resistance *resistance; /* requests riis_mark_list.K and, if the last update of the surface gave
-                                        velocities, riis_mark_list.K_u_surface. Default NULL: neither */
+  double distance_limit;     /* the search finds the nodes whose distance is at most this limit. The limit must be at least (1 +
+                                |o|) half thicknesses, with the offset o of the surface, and at most 1e60. Default RIIS_AUTO: the
+                                search finds the marked nodes only. The limit does not change the marked nodes */
+  const uint8_t *node_mask;  /* (n_nodes): 0 leaves a node out of the search. The coordinates of the node must still be finite.
+                                NULL: all nodes */
+  const riis_resistance *resistance; /* requests riis_mark_list.K, and also riis_mark_list.K_u_surface if the surface has
+                                        velocities. Default NULL: neither */
   int32_t fields;            /* a sum of RIIS_FIELD_*, for the nodes of riis_mark_list. Default 0 */
   int32_t search;            /* RIIS_SEARCH_*, default RIIS_SEARCH_AUTO */
   int32_t n_threads;         /* default 0 */
@@ -102,12 +103,12 @@ typedef struct riis_mark_options {
 RIIS_API riis_status riis_mark_options_init(riis_mark_options *options, int64_t struct_size); /* the defaults */
 
 /* Finds every node near the surface: the marked nodes, which lie within the half thickness, and the nodes within the distance
- * limit. The reported distance, in double precision, decides which nodes are near. With an offset, the marked nodes are the nodes
- * in the band (riis_surface_create).
+ * limit. The distance in double precision decides whether a node is near. If the surface has an offset, the marked nodes are the
+ * nodes in the band (riis_surface_create).
  *   `marks`: its content is replaced.
- * The log warns if the units of mesh and surface seem to differ. Units seem to differ if the largest sides of the two bounding
- * boxes differ by more than a factor of 50, or if one of these sides is below the half thickness. The log warns once per surface
- * and mesh, at most eight times per mesh, and never for fewer than 1000 nodes.
+ * The log warns if the mesh and the surface seem to have different units: the largest sides of their bounding boxes differ by
+ * more than a factor of 50, or one of these sides is below the half thickness. The warning of different units comes once for each
+ * surface and mesh, at most eight times for each mesh, and never for fewer than 1000 nodes.
  * Errors: RIIS_INVALID_MESH for a coordinate that became non-finite after it was given. */
 RIIS_API riis_status riis_mark_nodes(const riis_surface *surface, const riis_mesh *mesh,
                                      const riis_mark_options *options, riis_marks *marks);
@@ -117,8 +118,8 @@ enum {
   RIIS_LIST_MARKED = 0,      /* the nodes within the half thickness, or with an offset the nodes in the band */
   RIIS_LIST_WITHIN_LIMIT = 1 /* the nodes within the distance limit, marked or not. Without a limit: the marked nodes */
 };
-/* A list of nodes, ascending by node_id. Lengths are in mesh units. The arrays from `point` on are NULL if options.fields did not
- * request them. The call riis_closest_point gives the same values, to the last bit. */
+/* A list of nodes, ascending by node_id. Lengths are in mesh units. The array `point` and the arrays below it are NULL if
+ * options.fields did not request them. The call riis_closest_point gives the same values, to the last bit. */
 typedef struct riis_mark_list {
   int64_t n_nodes;            /* in the list */
   const int64_t *node_id;     /* (n_nodes) */
@@ -133,40 +134,39 @@ typedef struct riis_mark_list {
   const double *uv;           /* (2, n_nodes): u and v of the point on its patch, in [0,1]. S_u x S_v points along the normal, and
                                  on mirrored patches against the normal (cusps: patch_id % 4 >= 2; mitral: 3, 4, 5, 8, 9).
                                  flip_normals reverses both cases */
-  const double *velocity;     /* (3, n_nodes): the velocity of the surface at the point, from its last update.
-                                 Several leaflets may be equally near (within 1e-6 half thicknesses), or several patches
-                                 of one leaflet (within 1e-9). The velocity is then the mean of the velocities at their
-                                 closest points (docs/theory/marks.md). Other fields come from the closest triangle */
+  const double *velocity;     /* (3, n_nodes): the velocity of the surface at the closest point, from the surface's last update.
+                                 Several leaflets may be equally near (within 1e-6 half thicknesses), or several patches of one
+                                 leaflet (within 1e-9). The velocity is then the mean of the velocities at their closest points
+                                 (docs/theory/marks.md). Other fields come from the closest triangle */
   const int32_t *side;        /* (n_nodes): as riis_closest.side */
-  const int32_t *rim;         /* (n_nodes): 1 if the point lies on the rim of the surface, else 0. The rim of a valve
-                                 consists of sides of only one patch, such as free edges and the annulus. Free edges
-                                 that coincide in a closed valve are not rim. The rim of a surface from arrays consists of edges
-                                 of only one triangle; vertices with equal coordinates count as one */
+  const int32_t *rim;         /* (n_nodes): 1 if the closest point lies on the rim of the surface, else 0. The rim of a valve
+                                 consists of the sides that belong to only one patch, such as free edges and the annulus. Where
+                                 the free edges of a closed valve coincide, there is no rim. The rim of a surface from arrays
+                                 consists of edges of only one triangle; vertices with equal coordinates count as one */
   const int32_t *patch_id;    /* (n_nodes): as in riis_triangles */
   int64_t n_directions;       /* the surface's directions during the marking; 0 without RIIS_FIELD_GRADIENT */
   const double *distance_gradient; /* (n_directions, n_nodes): the derivative of the distance in each direction, -n.V. The unit
-                                      vector n points from the closest point to the node, on both sides. V is the rate of the
-                                      closest point, as a point of the triangle triangle_id. On the surface the derivative is 0,
-                                      because the distance has a kink there. The distance also has a kink at nodes with several
-                                      nearest places */
-  const double *K_gradient;   /* (n_directions, n_nodes): the derivative of K for constant R and half thickness. The derivative of
-                                 K is 0 beyond the half thickness and beyond a cut rim; NULL without a resistance. With an offset,
-                                 on the surface n is the surface's normal, and at a rim the normal turns too */
-  const double *height;       /* (n_nodes): with an offset, the signed distance s of riis_surface_create; at a rim n.(x - p).
-                                 NULL without an offset */
+                                      vector n points from the closest point to the node. V is the rate of the closest point in
+                                      the triangle triangle_id. On the surface the derivative is 0, because the distance has a
+                                      kink there. The distance also has a kink at nodes with several nearest places */
+  const double *K_gradient;   /* (n_directions, n_nodes): the derivative of K for constant R and half thickness. The derivative is
+                                 0 where K is 0. NULL without a resistance. With an offset, on the surface n is the surface's
+                                 normal, and at a rim the normal turns too */
+  const double *height;       /* (n_nodes): the signed distance s of riis_surface_create for a surface with an offset. At a rim
+                                 the signed distance is n.(x - p). NULL without an offset */
 } riis_mark_list;
-/* Gives one of the two lists of the last marking. The list is valid until the marks are destroyed, or used in another
- * riis_mark_nodes.
+/* Gives one of the two lists of the last marking. The list is valid until the marks are destroyed or passed to riis_mark_nodes
+ * again.
  *   `which`: RIIS_LIST_*. */
 RIIS_API riis_status riis_marks_get_list(const riis_marks *marks, int32_t which, riis_mark_list *list,
                                          int64_t struct_size);
 
-/* The caller's arrays (n_nodes) with an entry for each node of the mesh; NULL for arrays that are not wanted. */
+/* The caller's arrays with an entry for each node of the mesh. NULL stands for an array that is not wanted. */
 typedef struct riis_dense_arrays {
   int64_t struct_size;  /* set by the init function */
   int64_t n_nodes;      /* the number of nodes of the marking, 0 for empty marks */
-  double far_distance;  /* the distance of nodes beyond the limit or masked out: NaN, or any value outside
-                           [0, distance limit]. Default RIIS_FAR_DISTANCE */
+  double far_distance;  /* the number that the array `distance` gets for nodes that are masked out or beyond the limit: NaN, or
+                           any value outside [0, distance limit]. Default RIIS_FAR_DISTANCE */
   uint8_t *mark;        /* 1 for marked nodes, 0 for others */
   double *distance;     /* the distance of nodes within the distance limit, far_distance for others */
   int64_t *triangle_id; /* the closest triangle of nodes within the distance limit, -1 for others */
@@ -185,8 +185,8 @@ typedef struct riis_mark_stats {
   int64_t n_queries;    /* number of closest-point queries, of nodes and of parts of the mesh */
   double seconds;       /* wall time of riis_mark_nodes */
   int32_t search;       /* the search that ran, never RIIS_SEARCH_AUTO */
-  int32_t n_threads;    /* the largest number of threads in any part of the marking. A caller's TBB limit affects the walks of the
-                           neighbour search, not loops */
+  int32_t n_threads;    /* the largest number of threads that any part of the marking used. A caller's TBB limit affects the walks
+                           of the neighbour search, not loops */
   int32_t complete;     /* 1: all nodes within the limit were found, for the coordinates that the mesh was last given; 0: this
                            is not certain */
   int32_t instructions; /* the instructions that were used, never RIIS_INSTRUCTIONS_AUTO */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * measures.h - measures of a valve for a flow: leaflets, orifice and its inverse, coaptation, leak, first passage, cells across,
- * swept volume.
+ * measures.h - measures of a valve for a flow: leaflets, orifice, opening from an area, coaptation, leak, first passage, cells
+ * across the band, swept volume.
  * The header riis.h includes this file, and has the rules that hold for every call.
  */
 /* clang-format off: argument lists in comments are laid out by hand */
@@ -19,9 +19,9 @@ extern "C" {
 typedef struct riis_leaflet {
   int64_t n_triangles; /* the number of its triangles with an area above 0 */
   double area;         /* the area of its triangles */
-  double free_edge;    /* the length of its free edge: the sides v = 1 that belong to only one patch of the leaflet. A surface
-                          from arrays has no patches: its free edge is all open edges except the longest closed line of open
-                          edges. An open edge belongs to only one triangle. 0 for a skirt */
+  double free_edge;    /* the length of its free edge, which consists of the sides v = 1 that belong to only one patch of the
+                          leaflet. In a surface from arrays, the free edge consists of all open edges except the longest closed
+                          line of open edges. An open edge belongs to only one triangle. 0 for a skirt */
   int32_t leaflet_id;  /* as in riis_triangles */
   int32_t reserved;    /* 0 */
 } riis_leaflet;
@@ -32,19 +32,20 @@ RIIS_API riis_status riis_surface_get_n_leaflets(const riis_surface *surface, in
 RIIS_API riis_status riis_surface_get_leaflet(const riis_surface *surface, int64_t leaflet, riis_leaflet *sizes,
                                               int64_t struct_size);
 
-/* The outline of an orifice. A surface from arrays or keyframes with a valve's triangles has the same outline as the valve. */
+/* The outline of an orifice. If arrays or keyframes have the triangles of a valve, their outline is that of the valve. */
 enum {
   RIIS_OUTLINE_NONE = 0,      /* the boundary of the leaflets does not surround a centre, or encloses no area */
   RIIS_OUTLINE_DISC = 1,      /* bileaflet: the disc of radius about the z axis */
-  RIIS_OUTLINE_ATTACHMENT = 2, /* other valves: the farthest edges of the leaflets in all directions from the centre. The farthest
-                                  edge is the attachment, except where a free edge reaches farther */
-  RIIS_OUTLINE_BOUNDARY = 3,  /* a surface from arrays or keyframes: the farthest edges that only one triangle has */
+  RIIS_OUTLINE_ATTACHMENT = 2, /* for other valves the farthest edge of the leaflets in each direction from the centre. This edge
+                                  is the attachment, except where a free edge reaches farther */
+  RIIS_OUTLINE_BOUNDARY = 3,  /* a surface from arrays or keyframes: in each direction, the farthest edge that only one triangle
+                                 has */
   RIIS_OUTLINE_WALL = 4       /* riis_surface_get_orifice_in_wall: the longest line of open edges of the wall */
 };
 /* The orifice of a surface: the part of an outline that the triangles do not cover, seen along an axis. The axis is the direction
- * of the vector area of the outline's edges in space. The axis points to the side of a valve's z axis, or to the side of the
- * normals of arrays and keyframes. The axis of a bileaflet valve is its z axis. A skirt does not count. If leaflets of arrays do
- * not touch at the commissures, straight lines join their ends. Lengths are in mesh units (docs/theory/measures.md,
+ * of the vector area of the outline's edges in space. The axis of a valve points towards +z of the valve. The axis of arrays and
+ * keyframes points to the side of their normals. The axis of a bileaflet valve is its z axis. A skirt does not count. If leaflets
+ * of arrays do not touch at the commissures, straight lines join their ends. Lengths are in mesh units (docs/theory/measures.md,
  * "Outline"). */
 typedef struct riis_orifice {
   double area;           /* the area of the orifice. Without an outline, all fields but axis and rim_reach are 0 */
@@ -52,13 +53,13 @@ typedef struct riis_orifice {
   double perimeter;      /* the length of the orifice's edge along the triangles. The edge is first moved inwards by a tenth of
                             the half thickness, so that narrow slits do not count. Parts of the edge on the outline are walls and
                             do not count */
-  double effective_area; /* the area that the band around the valve leaves to the flow. The edge along the triangles is moved
-                            inwards by rim_reach * half_thickness. To first order the effective area is area - rim_reach *
-                            half_thickness * perimeter, but never below 0 */
-  double rim_reach;      /* the factor c: 0.84 for a round rim, 0.70 for a cut rim. Flows through open valves gave 0.70
-                            to 0.98 (round) and 0.46 to 0.95 (cut); see docs/validation.md. With an offset o, c has
-                            another factor: max(0, 1 - o / 1.05) for a round rim, max(0, 1 - o / 0.85) for a cut rim,
-                            max(0, 1 - o / 0.8) for a cut rim of a mitral valve, and 1 for a bileaflet valve */
+  double effective_area; /* the area through which the flow can pass beside the band around the valve. The edge along the
+                            triangles is moved inwards by rim_reach * half_thickness. To first order the effective area is area -
+                            rim_reach * half_thickness * perimeter, but never below 0 */
+  double rim_reach;      /* the factor c: 0.84 for a round rim, 0.70 for a cut rim. Computed flows through open valves gave 0.70
+                            to 0.98 for a round rim, and 0.46 to 0.95 for a cut rim (docs/validation.md). With an offset o, c has
+                            another factor: max(0, 1 - o / 1.05) for a round rim, max(0, 1 - o / 0.85) for a cut rim, max(0, 1 - o
+                            / 0.8) for a cut rim of a mitral valve, and 1 for a bileaflet valve */
   double half_thickness; /* eps of the resistance */
   double radius;         /* the radius of the disc; 0 for other outlines */
   double axis[3];        /* unit vector; 0 for arrays and keyframes without an outline */
@@ -70,10 +71,10 @@ typedef struct riis_orifice {
  *     thickness. NULL stands for the defaults. */
 RIIS_API riis_status riis_surface_get_orifice(const riis_surface *surface, const riis_resistance *resistance,
                                               riis_orifice *orifice, int64_t struct_size);
-/* Measures the orifice inside a wall, for leaflets that do not reach it, such as the leaflets of a mechanical valve from arrays.
- * The wall is a ring or a tube around the leaflets. The longest connected line of open edges of the wall gives the outline and
- * the axis (docs/theory/measures.md, "Outline"). The other arguments are as in riis_surface_get_orifice.
- *   `wall`: in the frame of the surface. RIIS_INVALID_ARGUMENT if the wall's line does not surround a centre. */
+/* Measures the orifice inside a wall, such as a ring or a tube around the leaflets. The call serves leaflets that do not reach
+ * the wall, such as the leaflets of a mechanical valve from arrays. The longest connected line of open edges of the wall gives
+ * the outline and the axis (docs/theory/measures.md, "Outline"). The other arguments are as in riis_surface_get_orifice.
+ *   `wall`: in the frame of the surface. RIIS_INVALID_ARGUMENT if this line of the wall does not surround a centre. */
 RIIS_API riis_status riis_surface_get_orifice_in_wall(const riis_surface *surface, const riis_surface *wall,
                                                       const riis_resistance *resistance, riis_orifice *orifice,
                                                       int64_t struct_size);
@@ -88,9 +89,9 @@ typedef struct riis_area_search {
   int64_t struct_size;                 /* set by the init function */
   const riis_surface_options *surface; /* options of the valve's surface. NULL, the default, stands for defaults */
   const riis_resistance *resistance;   /* as in riis_surface_get_orifice. NULL, the default, stands for defaults */
-  double from, to;    /* the range to search, from < to. The default NaN stands for 0 to 1 for the opening, a tenth to ten times
-                         the scale, and half to twice a parameter. For a share that is 0, NaN stands for all shares. Any other
-                         parameter that is 0 needs both numbers */
+  double from, to;    /* the range to search, with `from` below `to`. The default NaN stands for 0 to 1 for the opening, for a
+                         tenth to ten times the scale, and for half to twice a parameter. If the parameter is 0, both numbers must
+                         be set, except for a share, which is searched over all shares */
   double tolerance;   /* the tolerance of an area, as a share of the area, 1e-12 to 1e-2. Default 1e-8 */
   int32_t n_samples;  /* the number of values that are tried first, 2 to 100,001. Default 33 */
   int32_t area;       /* RIIS_AREA_*, default RIIS_AREA_GEOMETRIC */
@@ -102,12 +103,12 @@ typedef struct riis_area_range {
   double from, to;          /* the values that were searched */
   double least, most;       /* the least and the largest area */
   double least_at, most_at; /* a value with that area */
-  double turns[4];          /* the first values at which the area stops growing or falling; NaN stands for no further value. A
-                               change by less than 1e-4 of the largest area does not count */
+  double turns[4];          /* the first values at which a growing area begins to fall, or a falling area begins to grow. NaN
+                               fills the unused entries. A change by less than 1e-4 of the largest area does not count */
   double seconds;           /* wall time of riis_find_by_area */
   int64_t n_turns;          /* the number of turns. Without a turn, the area only grows or only falls */
   int64_t n_surfaces;       /* the number of surfaces that were made, which is the cost of the search */
-  int64_t n_refused;        /* the number of sampled values that are left out, because they make no valve or no orifice */
+  int64_t n_refused;        /* the number of sampled values that make no valve or no orifice, and are left out */
 } riis_area_range;
 /* Finds the openings, or the sizes, at which the orifice of a valve has given areas (docs/theory/measures.md, "From an area to
  * a valve").
@@ -119,42 +120,41 @@ typedef struct riis_area_range {
  *   `values` (n_areas): the openings or sizes. NULL: not wanted.
  *   `reached` (n_areas): the areas at these values. NULL: not wanted.
  *   `range`: the areas that can be reached. NULL: not wanted.
- * The area 0 stands for the closed valve: it gives the opening with the least area, even if slits remain between the leaflets. If
- * several openings have the wanted area, the call gives the least of them. If several sizes have the wanted area, the call gives
- * the size nearest to the present size. With RIIS_TRIANGULATION_ADAPTED the area jumps by up to 1e-4 of the largest area where
- * the triangles change. An area inside a jump gives the nearer end of the jump. The search may miss areas that occur only between
- * two neighbouring samples.
+ * The area 0 stands for the closed valve: it gives the opening with the least area, even if that area is not 0. If several
+ * openings have the wanted area, the call gives the least of them. If several sizes have the wanted area, the call gives the size
+ * nearest to the present size. With RIIS_TRIANGULATION_ADAPTED the area jumps by up to 1e-4 of the largest area where the
+ * triangles change. If a wanted area lies inside a jump, the call gives the value at the nearer end of the jump. The search may
+ * miss areas that occur only between two neighbouring samples.
  * Errors: RIIS_INVALID_ARGUMENT naming the area. If the area is out of reach, the message names the range. RIIS_INVALID_PARAMETER
  * for an unknown name, for a parameter with three values, for a valve with one state or no orifice, and if the name does not
- * change the area. If riis_surface_create fails inside the call, the message also names the opening or size. On an error nothing
- * is written. */
+ * change the area. If a surface cannot be made, the message also names the opening or size. On an error nothing is written. */
 RIIS_API riis_status riis_find_by_area(const riis_valve *valve, const char *name, int64_t n_areas,
                                        const double *areas, const riis_area_search *search, double *values,
                                        double *reached, riis_area_range *range, int64_t struct_size);
 
-/* A value for an argument leaflet_id. */
+/* The value of an argument leaflet_id that stands for all leaflets. */
 enum {
   RIIS_ALL_LEAFLETS = -1 /* the sum over all leaflets, without a skirt */
 };
-/* The coaptation of a surface's leaflets: their parts that touch another leaflet. Lengths are in mesh units. */
+/* The coaptation: the parts of the leaflets that touch another leaflet. Lengths are in mesh units. */
 typedef struct riis_coaptation {
   double area;  /* the area of the leaflet's triangles within reach of another leaflet */
   double edge;  /* the length of the part of its free edge (riis_leaflet) within reach of another leaflet */
   double reach; /* the distance within which leaflets touch */
 } riis_coaptation;
-/* Measures the coaptation. The bileaflet housing and a skirt are no leaflets, and touch nothing.
+/* Measures the coaptation. Contact with a skirt or with the bileaflet housing does not count.
  *   `reach`: 1e-50 to 1e50. RIIS_AUTO stands for the surface's half thickness.
  *   `leaflet_id`: as in riis_triangles, or RIIS_ALL_LEAFLETS for the sum over all leaflets, which counts a contact from both
  *     sides.
- * The error of an area is at most 1e-3 reach times the length of the contact's outline (docs/theory/measures.md). The extent of a
- * surface is the diagonal of its box. A reach below 1/250 of the extent loses details below 1/2000 of the extent.
+ * The error of an area is at most 1e-3 reach times the length of the contact's outline (docs/theory/measures.md). If the reach is
+ * below 1/250 of the diagonal of the surface's box, details below 1/2000 of this diagonal are lost.
  * Errors: RIIS_INVALID_ARGUMENT for a leaflet that the surface lacks, and for a reach out of range. */
 RIIS_API riis_status riis_surface_get_coaptation(const riis_surface *surface, double reach, int32_t leaflet_id,
                                                  riis_coaptation *coaptation, int64_t struct_size);
 
-/* Gives the ideal leak of a closed surface: the volume flow drop * (eps / R) * area that a pressure drop causes. The
- * bileaflet housing does not count in the area. With an offset o, the surface is first moved by o eps along its normals, and the
- * area of the moved surface counts. The leak in a solver differs from the ideal (docs/solvers.md).
+/* Gives the ideal leak of a closed surface: the volume flow drop * (eps / R) * area that a pressure drop causes. The area does
+ * not include the bileaflet housing. If the surface has an offset o, the area is that of the surface moved by o eps along its
+ * normals. The leak in a solver differs from the ideal (docs/solvers.md).
  *   `resistance`: only R, 1e-60 to 1e60, and half_thickness are used. RIIS_AUTO stands for the surface's half thickness.
  *   `drop`: upstream pressure minus downstream pressure, magnitude at most 1e30.
  *   `flow`: in the unit of drop * area * eps / R, which is m^3/s in SI units.
@@ -178,10 +178,10 @@ enum {
   RIIS_FIRST_PASSAGE_NEVER = 2,  /* no opening that was tried has a passage */
   RIIS_FIRST_PASSAGE_NONE = 3    /* the mesh itself has no path */
 };
-/* The opening at which a valve first lets the mesh pass. */
+/* The first opening at which the marked mesh has a passage. */
 typedef struct riis_first_passage {
   double opening;        /* the first opening with a passage; 0 for ALWAYS, 1 for NEVER, 0 for NONE */
-  double closed_opening; /* FOUND: the largest opening below `opening` at which no passage was found. Else: `opening` */
+  double closed_opening; /* the largest opening below `opening` that was found closed, with FOUND; else `opening` */
   int64_t node_id;       /* the passage at `opening`, as in riis_passage */
   double distance;       /* as in riis_passage */
   double point[3];       /* as in riis_passage */
@@ -192,7 +192,7 @@ typedef struct riis_first_passage {
 /* Finds the opening at which riis_find_passage first finds a passage.
  *   `valve`: its own opening is ignored.
  *   `mesh`: must have an adjacency, and need not have been marked.
- *   `ends`: as for riis_find_passage; each end must be outside the band at each tried opening.
+ *   `ends`: as for riis_find_passage. At each opening that is tried, all ends must be outside the band.
  * The call tries the openings 0, 1/8, 2/8, ... until a passage is open. After that, the call halves the last step until opening
  * and closed_opening differ by at most the tolerance. A valve that opens further may close a passage again, so the call may miss
  * a passage that ends before the next multiple of 1/8.
@@ -208,11 +208,11 @@ typedef struct riis_cells_across {
   double least, mean, most; /* 2 * half_thickness over the longest, the mean and the shortest length */
   double shortest_edge, mean_edge, longest_edge; /* the lengths of the mesh edges with a marked node */
   double half_thickness; /* the half thickness of the marking */
-  int64_t n_edges;       /* the number of edges with at least one marked node. If n_edges is 0, only half_thickness differs from
-                            0 */
+  int64_t n_edges;       /* the number of edges with at least one marked node. If n_edges is 0, all fields except half_thickness
+                            are 0 */
 } riis_cells_across;
-/* Computes the number of mesh edges across the band. An edge counts once, whether one or both of its nodes list it. Edges to
- * ghosts and edges of length 0 do not count.
+/* Computes the number of mesh edges across the band. An edge counts once, even if both of its nodes have it in the adjacency.
+ * Edges to ghosts and edges of length 0 do not count.
  *   `marks`: marks from riis_mark_nodes.
  *   `mesh`: the mesh of the marking, with an adjacency.
  * Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, for empty marks, and for marks with another number of
@@ -221,12 +221,12 @@ RIIS_API riis_status riis_marks_get_cells_across(const riis_marks *marks, const 
                                                  riis_cells_across *cells, int64_t struct_size);
 
 /* Gives the volume that the valve sweeps between two openings, in mesh units cubed. The volume is the integral of u_surface . n
- * over surface and time, positive along the normals. In a flow the valve displaces less blood, because blood slips past the
- * leaflets.
+ * over surface and time, positive along the normals. A valve in a flow displaces less blood than this volume, because blood slips
+ * past the leaflets.
  *   `opening_from`, `opening_to`: 0 to 1. The valve's own opening is ignored.
  *   `options`: only scale, flip_normals and n_threads are used. NULL stands for the defaults.
  *   `leaflet_id`: RIIS_LEAFLET_*, or the id of a patch's leaflet, or RIIS_ALL_LEAFLETS.
- * The result is within 1e-3 of the largest volume that a leaflet sweeps from 0 to 1 (docs/theory/measures.md).
+ * The error is at most 1e-3 of the largest volume that a leaflet sweeps from opening 0 to 1 (docs/theory/measures.md).
  * Errors: RIIS_INVALID_ARGUMENT for an opening out of range and for a leaflet that the valve lacks.
  * RIIS_INVALID_PARAMETER for inconsistent parameters, and for a valve with one state if an opening is above 0. */
 RIIS_API riis_status riis_valve_get_swept_volume(const riis_valve *valve, double opening_from, double opening_to,

@@ -14,36 +14,37 @@ extern "C" {
 
 /* ---- Mesh: the nodes that are marked ------------------------------------------------------------------- */
 
-/* The caller's nodes. The coordinates are borrowed or copied, depending on the last call that gave them. */
+/* The caller's nodes. The mesh borrows or copies the coordinates, depending on the last call that gave them. */
 typedef struct riis_mesh riis_mesh;
 
-/* Borrows node coordinates and checks them once. The coordinates must stay in place until the mesh is updated or destroyed. A
- * process without nodes makes the same calls as the other processes.
+/* Borrows node coordinates and checks them once. The coordinates must stay in place until the mesh is updated or destroyed. With
+ * MPI, a process without nodes also makes a mesh.
  *   `n_nodes`: 0 to 2^40; with 0 the pointers may be NULL.
  * Errors: RIIS_INVALID_MESH naming the node and the value. RIIS_LIMIT_EXCEEDED for too many nodes. */
 RIIS_API riis_status riis_mesh_create(int64_t n_nodes, const double *x, const double *y, const double *z,
                                       int64_t stride, riis_mesh **mesh);
-/* Tells the mesh that its coordinates have changed, in the old arrays or in other arrays, and checks them again. Call this
- * function after every change of coordinates. The adjacency stays if n_nodes is the same. A mesh with other nodes needs a new
- * handle. Arguments and errors are as in riis_mesh_create. */
+/* Tells the mesh that its coordinates have changed or are now in other arrays, and checks them again. Call this function after
+ * every change of coordinates. The adjacency stays if n_nodes is the same. A mesh with other nodes needs a new handle. Arguments
+ * and errors are as in riis_mesh_create. */
 RIIS_API riis_status riis_mesh_update(riis_mesh *mesh, int64_t n_nodes, const double *x, const double *y,
                                       const double *z, int64_t stride);
 /* Copies node coordinates and checks them. Use this call for a temporary array of Fortran, or for single precision, which is
- * converted to double exactly. The handle keeps 24 bytes per node.
+ * converted to double exactly. The copies take 24 bytes per node.
  * Errors: as riis_mesh_create. */
 RIIS_API riis_status riis_mesh_create_copy(const riis_points *nodes, riis_mesh **mesh);
 /* Does the same as riis_mesh_update, but copies the coordinates. A mesh may change between borrowed and copied coordinates. */
 RIIS_API riis_status riis_mesh_update_copy(riis_mesh *mesh, const riis_points *nodes);
 /* Destroys the handle. The caller's coordinates and all marks stay. */
 RIIS_API void riis_mesh_destroy(riis_mesh **mesh);
-/* Makes the clusters of RIIS_SEARCH_CLUSTERS in advance, so that no marking has to make them. Clusters copy the coordinates: they
- * take 41 bytes per node while the handle lives, and 32 more while they are made. A grid needs no such copy.
- * Errors: RIIS_LIMIT_EXCEEDED for 2^32 nodes and more. RIIS_INVALID_MESH as riis_mark_nodes. */
+/* Makes the clusters of RIIS_SEARCH_CLUSTERS in advance, so that no marking has to make them. Clusters take 41 bytes per node
+ * while the handle lives, and 32 more while they are made, because they copy the coordinates. A grid needs no copy of
+ * coordinates.
+ * Errors: RIIS_LIMIT_EXCEEDED for 2^32 nodes or more. RIIS_INVALID_MESH as riis_mark_nodes. */
 RIIS_API riis_status riis_mesh_prepare(riis_mesh *mesh, int32_t n_threads);
 
 /* A rectilinear grid: three axes, and the place of each node in the caller's arrays. Node (i, j, k) is at (x[i], y[j], z[k])
- * and has the number first + i stride[0] + j stride[1] + k stride[2], all from 0. Any other number below n_nodes, such as the
- * number of a halo's entry, has no node. */
+ * and has the number first + i stride[0] + j stride[1] + k stride[2], all from 0. A number below n_nodes may have no node, such
+ * as the number of an entry in a halo. */
 typedef struct riis_grid {
   int64_t struct_size;   /* set by the init function */
   int64_t ni, nj, nk;    /* nodes along each axis, each >= 1 */
@@ -51,26 +52,26 @@ typedef struct riis_grid {
                             origin[0] + i spacing[0] */
   const void *y;         /* (nj), likewise */
   const void *z;         /* (nk), likewise */
-  double origin[3];      /* the first coordinate of axes that are NULL. Default 0 */
-  double spacing[3];     /* the spacing of axes that are NULL, above 0. Default 1 */
+  double origin[3];      /* the first coordinate along each axis that is NULL. Default 0 */
+  double spacing[3];     /* the spacing along each axis that is NULL, above 0. Default 1 */
   int64_t first;         /* the number of node (0, 0, 0), >= 0. Default 0 */
-  int64_t stride[3];     /* the difference of numbers from a node to the next along each axis, >= 1. Two nodes must not have the
-                            same number. Default 0, for all three axes, stands for 1, ni and ni nj */
-  int64_t n_nodes;       /* the length of the caller's arrays, above the last node's number and at most 2^40. Default 0
-                            stands for the least length */
+  int64_t stride[3];     /* by how much the number grows from a node to the next one along each axis, >= 1. Two nodes must not
+                            have the same number. Default 0, for all three axes, stands for 1, ni and ni nj */
+  int64_t n_nodes;       /* the length of the caller's arrays, above the last node's number and at most 2^40. Default 0 stands for
+                            the shortest possible length */
   int32_t real_bits;     /* of x, y and z: 64, the default, or 32 */
   int32_t reserved;      /* 0 */
 } riis_grid;
 RIIS_API riis_status riis_grid_init(riis_grid *grid, int64_t struct_size); /* the defaults */
 /* Makes a mesh from the axes of a grid, and stores nothing for each node. A marking gives the same bits as on a mesh that
- * riis_mesh_create makes from the same nodes. The edges are those of riis_adjacency_create_from_grid, or the edges that
- * riis_mesh_set_adjacency gives the mesh. Axes are not periodic. Markings refuse RIIS_SEARCH_NEIGHBOR and RIIS_SEARCH_PAPER, and
- * sampling and minimisation for more than 10^8 nodes.
- *   `grid`: the axes, which are copied. The grid's n_nodes is the n_nodes of the mesh in every other call.
+ * riis_mesh_create makes from the same nodes. The edges of the mesh come from riis_mesh_set_adjacency, otherwise from
+ * riis_adjacency_create_from_grid. Axes are not periodic. Markings refuse RIIS_SEARCH_NEIGHBOR and RIIS_SEARCH_PAPER. Sampling
+ * and minimisation are refused for more than 10^8 nodes.
+ *   `grid`: the axes, which are copied. In all other calls, the mesh has the grid's n_nodes.
  * Errors: RIIS_INVALID_MESH naming the axis, the index and the value. RIIS_LIMIT_EXCEEDED for numbers from 2^40 on. */
 RIIS_API riis_status riis_mesh_create_grid(const riis_grid *grid, riis_mesh **mesh);
 /* Gives a mesh other axes, or turns a mesh of points into a grid. The call riis_mesh_update turns a grid into points.
- * Errors: as riis_mesh_create_grid; the mesh then keeps its nodes. */
+ * Errors: those of riis_mesh_create_grid; the mesh then keeps its nodes. */
 RIIS_API riis_status riis_mesh_update_grid(riis_mesh *mesh, const riis_grid *grid);
 
 /* Neighbours of nodes, as compressed sparse rows. Let base be index_base. Node i, from 0 to n_rows - 1, has the neighbours
@@ -78,8 +79,8 @@ RIIS_API riis_status riis_mesh_update_grid(riis_mesh *mesh, const riis_grid *gri
 typedef struct riis_csr {
   int64_t struct_size;   /* set by the init function */
   int64_t n_rows;        /* the mesh's n_nodes */
-  int64_t n_all;         /* columns are below this number, which is at least n_rows. Columns from n_rows on are ghosts, which
-                            belong to other ranks, and are ignored. Default 0 stands for n_rows */
+  int64_t n_all;         /* every column is below this number, which is at least n_rows. Columns from n_rows on are ghosts of
+                            other ranks, and are ignored. Default 0 stands for n_rows */
   const void *offsets;   /* (n_rows + 1), ascending from the base; a row may be empty. NULL only for 0 rows */
   const void *columns;   /* (offsets[n_rows] - base), in any order; repetitions and the node itself are ignored */
   int32_t offset_bits;   /* of offsets */
@@ -90,8 +91,8 @@ typedef struct riis_csr {
 RIIS_API riis_status riis_csr_init(riis_csr *csr, int64_t struct_size); /* the defaults */
 
 /* Gives the mesh the adjacency that the neighbour search walks along, and checks it once.
- *   `csr`: the struct's arrays are borrowed: they must stay in place, unchanged, until the handle is destroyed or gets another
- *     adjacency. NULL removes the adjacency, as riis_mesh_update with another n_nodes does.
+ *   `csr`: the mesh borrows the arrays of the struct. These arrays must stay in place, unchanged, until the handle is destroyed
+ *     or gets another adjacency. NULL removes the adjacency, as riis_mesh_update with another n_nodes does.
  * Errors: RIIS_INVALID_MESH naming the row and its value. */
 RIIS_API riis_status riis_mesh_set_adjacency(riis_mesh *mesh, const riis_csr *csr);
 
@@ -101,17 +102,17 @@ RIIS_API riis_status riis_mesh_set_adjacency(riis_mesh *mesh, const riis_csr *cs
  * is 0. */
 typedef struct riis_adjacency riis_adjacency;
 
-/* Cells that are given by their nodes. The order of the nodes is that of VTK, Abaqus, CGNS and Gmsh: first the base, then the
- * apex or the nodes above the base. The number of nodes tells the shape: 4 for a tetrahedron, 5 for a pyramid, 6 for a prism, 8
- * for a hexahedron. */
+/* Cells of a mesh, with the ids of their nodes. The nodes of a cell have the order of VTK, Abaqus, CGNS and Gmsh: first the base,
+ * then the apex or the nodes above the base. The number of nodes tells the shape: 4 for a tetrahedron, 5 for a pyramid, 6 for a
+ * prism, 8 for a hexahedron. */
 typedef struct riis_mesh_cells {
   int64_t struct_size;     /* set by the init function */
   int64_t n_nodes;         /* of the mesh, >= 0 */
   int64_t n_cells;         /* >= 0 */
   const void *node_ids;    /* the nodes of cell after cell; NULL only without cells */
-  const void *offsets;     /* (n_cells + 1), ascending from 0 or from index_base: the beginning of each cell in node_ids, and
-                              the end of the last cell. NULL: nodes_per_cell for all cells */
-  int32_t nodes_per_cell;  /* 4, 5, 6 or 8; not used with offsets. Default 4 */
+  const void *offsets;     /* (n_cells + 1), ascending from 0 or from index_base: where each cell begins in node_ids, and where
+                              the last cell ends. NULL: nodes_per_cell for all cells */
+  int32_t nodes_per_cell;  /* 4, 5, 6 or 8, the same for all cells; not used with offsets. Default 4 */
   int32_t id_bits;         /* of node_ids and offsets */
   int32_t index_base;      /* of node_ids */
   int32_t n_threads;       /* default 0 */
@@ -128,7 +129,8 @@ typedef struct riis_mesh_faces {
   int64_t n_faces;         /* >= 0 */
   const void *owner;       /* face i joins the cells owner[i * stride] and neighbor[i * stride] */
   const void *neighbor;    /* the second cell; index_base - 1 (-1 or 0) for a face at the boundary, which joins nothing */
-  int64_t stride;          /* entries from one face to the next, 1 to 1024. Default 1; face_cells(2, n_faces) has 2 */
+  int64_t stride;          /* the distance from one face's entry to the next face's, 1 to 1024. Default 1; face_cells(2, n_faces)
+                              has 2 */
   int32_t id_bits;         /* of owner and neighbor */
   int32_t index_base;      /* of owner and neighbor */
   int32_t n_threads;       /* default 0 */
@@ -139,16 +141,16 @@ RIIS_API riis_status riis_mesh_faces_init(riis_mesh_faces *faces, int64_t struct
  * Errors: RIIS_INVALID_MESH naming the face and the owner or neighbor that is no cell. */
 RIIS_API riis_status riis_adjacency_create_from_faces(const riis_mesh_faces *faces, riis_adjacency **adjacency);
 
-/* Makes the adjacency of a structured grid. Neighbours differ by 1 in one of i, j, k.
+/* Makes the adjacency of a structured grid. Two nodes are neighbours if they differ by 1 in exactly one of i, j, k.
  *   `ni`, `nj`, `nk`: each >= 1; node (i, j, k) has the number i + ni (j + nj k), all from 0.
  * Errors: RIIS_LIMIT_EXCEEDED for more nodes than memory can hold. */
 RIIS_API riis_status riis_adjacency_create_from_grid(int64_t ni, int64_t nj, int64_t nk, int32_t n_threads,
                                                      riis_adjacency **adjacency);
-/* Gives the rows as riis_mesh_set_adjacency takes them. The arrays belong to the adjacency: int64_t offsets, and
- * columns of 32 bits for fewer than 2^31 nodes, otherwise of 64 bits. */
+/* Gives the rows as riis_mesh_set_adjacency takes them. The arrays belong to the adjacency. Offsets have 64 bits. Columns have 32
+ * bits for fewer than 2^31 nodes, otherwise 64 bits. */
 RIIS_API riis_status riis_adjacency_get_csr(const riis_adjacency *adjacency, riis_csr *csr,
                                             int64_t struct_size);
-/* Destroys the adjacency and its arrays. First destroy the mesh that borrows them. */
+/* Destroys the adjacency and its arrays. If a mesh borrows these arrays, destroy the mesh first. */
 RIIS_API void riis_adjacency_destroy(riis_adjacency **adjacency);
 
 #ifdef __cplusplus

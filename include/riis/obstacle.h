@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * obstacle.h - the obstacle in the caller's arrays: K and K u_surface, the forces of the flow on the surface, and sums beside it.
- * The header riis.h includes this file, and has the rules that hold for every call.
+ * obstacle.h - the obstacle in the caller's arrays: K and K u_surface, the forces of the flow on the surface, and sums on both
+ * sides. The header riis.h includes this file, and has the rules that hold for every call.
  */
 /* clang-format off: argument lists in comments are laid out by hand */
 #ifndef RIIS_OBSTACLE_H
@@ -26,8 +26,8 @@ typedef struct riis_resistance_arrays {
 /* Fills *arrays with the defaults. */
 RIIS_API riis_status riis_resistance_arrays_init(riis_resistance_arrays *arrays, int64_t struct_size);
 /* Adds K and K u_surface to the caller's arrays, which then hold sums over several valves. The solver's term is
- * (sum of K) u - (sum of K u_surface). Nodes may be cell centres or quadrature points. The struct riis_mark_list also has K and K
- * u_surface.
+ * (sum of K) u - (sum of K u_surface). Nodes may be cell centres or quadrature points. The struct riis_mark_list also gives K and
+ * K u_surface.
  *   `resistance`: RIIS_RIM_CUT needs RIIS_FIELD_RIM, and K_u_surface needs RIIS_FIELD_VELOCITY.
  * Errors: RIIS_INVALID_ARGUMENT also for marks that no marking has filled, and for a field that the marks lack. */
 RIIS_API riis_status riis_marks_add_resistance(const riis_marks *marks, const riis_resistance *resistance,
@@ -44,7 +44,7 @@ typedef struct riis_flow_arrays {
 RIIS_API riis_status riis_flow_arrays_init(riis_flow_arrays *flow, int64_t struct_size); /* the defaults */
 /* The caller's arrays, to which the forces and moments of the flow are added. NULL leaves a sum out. The arrays must not overlap.
  * A node's force is weight K (velocity - u_surface), and acts at the node's closest point. The power of a rigid surface is
- * therefore force times velocity plus moment times angular velocity, also with an offset. */
+ * therefore force times velocity plus moment times angular velocity, even with an offset. */
 typedef struct riis_reaction {
   int64_t struct_size;      /* set by the init function */
   double about[3];          /* the reference point of moment and leaflet_moment; magnitude at most 1e60.
@@ -56,51 +56,52 @@ typedef struct riis_reaction {
   double *leaflet_force;    /* (3, n_leaflets): force on each leaflet. A node belongs to the leaflet in
                                riis_mark_list.leaflet_id, also if two leaflets are equally near */
   double *leaflet_moment;   /* (3, n_leaflets): moment on each leaflet */
-  int64_t n_edges;          /* number of edges, at least 1 if edge_force or edge_moment is given; else unused. Default 0 */
+  int64_t n_edges;          /* the number of edges, at least 1. Not used without edge_force and edge_moment. Default 0 */
   const double *edges;      /* (3, 2, n_edges): both ends of each edge, for example riis_attachment.edges;
                                magnitude at most 1e60. An edge may have length 0 */
-  const int32_t *edge_leaflet_id; /* (n_edges), >= 0: a node counts for the nearest edge of its leaflet, and each leaflet needs an
-                                     edge. NULL, the default: a node counts for the nearest of all edges */
-  double *edge_force;       /* (3, n_edges): force of the nodes that count for the edge. The distance of an edge is measured from
-                               the node's closest point. If edges are equally near, the first one counts */
-  double *edge_moment;      /* (3, n_edges): moment of the same nodes about the middle of the edge */
+  const int32_t *edge_leaflet_id; /* (n_edges), >= 0: the leaflet of each edge. A node counts for the nearest edge of its leaflet,
+                                     and each leaflet needs an edge. NULL, the default: a node counts for the nearest of all
+                                     edges */
+  double *edge_force;       /* (3, n_edges): the sum of the forces of all nodes that count for the edge. Distances to edges are
+                               measured from the node's closest point. If edges are equally near, the first one counts */
+  double *edge_moment;      /* (3, n_edges): the moment of these forces about the middle of the edge */
 } riis_reaction;
 /* Fills *reaction with the defaults. */
 RIIS_API riis_status riis_reaction_init(riis_reaction *reaction, int64_t struct_size);
 /* Adds the force of the flow on the surface, and its moment, for the whole surface, each leaflet and each edge.
  *   `flow`: u and the volumes; u_surface counts as 0 if the marking lacks RIIS_FIELD_VELOCITY.
  *   `reaction`: moments and sums of edges need RIIS_FIELD_POINT.
- * Each result is a plain sum over nodes. With MPI all ranks pass the same reference point and edges, and add up their sums. The
- * sums of leaflets add up to the sum of the whole surface, up to rounding. The sums of edges are loads for tissue codes. The sums
- * of edges do not model how a membrane carries loads to its edges. The time for a node grows as log n_edges, or as n_edges if all
+ * Each result is a sum over nodes. With MPI all ranks pass the same reference point and edges, and add up their results. The sums
+ * of leaflets add up to the sum of the whole surface, up to rounding. The forces on edges serve as loads for a code of tissue,
+ * but do not model how a membrane carries loads to its edges. The time for a node grows as log n_edges, or as n_edges if all
  * edges are equally near. The force on a valve at rest is correct. The force on a moving valve includes the inertia of the blood
  * in the band. If a scheme has K at its faces, the pressure equation of a moving valve needs a source. Without the source the
- * force is wrong by newtons (docs/solvers.md, "The source in the band"). The source acts in cells whose faces are walls or have K
- * dt > rho: the faces with K dt > rho get the outflow of u_surface. Finite elements have the same fault for K dt > rho, and no
- * source is known for them.
- * Errors: as riis_marks_add_resistance. RIIS_INVALID_ARGUMENT also for an n_leaflets that is too small (the message names the
- * leaflet id), a leaflet without an edge, a bad edge, and a reaction without any sum. */
+ * force is wrong by newtons (docs/solvers.md, "The source in the band"). The source acts in each set of cells that walls and
+ * faces with K dt > rho enclose, and equals the outflow of u_surface through these faces. Finite elements have the same error for
+ * K dt > rho, and no source is known for them.
+ * Errors: as riis_marks_add_resistance. RIIS_INVALID_ARGUMENT also if n_leaflets is too small (the message names the leaflet id),
+ * if a leaflet lacks an edge, if an edge is bad, and if the reaction has no array. */
 RIIS_API riis_status riis_marks_add_reaction(const riis_marks *marks, const riis_resistance *resistance,
                                              const riis_flow_arrays *flow, const riis_reaction *reaction);
 
 /* Adds the force of the flow on each vertex of the surface, so that a code for shells can move the leaflets.
- *   `surface`: the surface of the marking, without an update since then.
+ *   `surface`: the surface of the marking. The surface must not have been updated since the marking.
  *   `flow`: as in riis_marks_add_reaction.
  *   `n_vertices`: riis_triangles.n_vertices.
- *   `vertex_force` (3, n_vertices): the array to which the forces are added. A node's force goes to the three vertices of its
- *     closest triangle, in the shares of the closest point's barycentric coordinates.
+ *   `vertex_force` (3, n_vertices): the array to which the forces are added. The three vertices of a node's closest triangle
+ *     share the node's force. The barycentric coordinates of the closest point are the shares.
  * The forces on the vertices of a leaflet add up to leaflet_force of riis_marks_add_reaction, and their moment is
- * leaflet_moment, up to rounding. In every motion of the vertices, the forces on the vertices have the same power as the forces
+ * leaflet_moment, up to rounding. For every motion of the vertices, the forces on the vertices have the same power as the forces
  * of the nodes. Vertices with equal coordinates are not joined: a valve repeats its vertices along sides of patches, and arrays
- * may share a vertex between leaflets. With MPI add up the forces of all ranks.
- * Errors: as riis_marks_add_reaction. RIIS_INVALID_ARGUMENT also for marks without RIIS_FIELD_BARYCENTRIC, another number of
- * vertices, or a closest triangle that the surface lacks. */
+ * may share a vertex between leaflets. With MPI, add up the forces of all ranks.
+ * Errors: as riis_marks_add_reaction. RIIS_INVALID_ARGUMENT also for marks without RIIS_FIELD_BARYCENTRIC, for another number of
+ * vertices, and if the surface lacks a closest triangle. */
 RIIS_API riis_status riis_marks_add_vertex_reaction(const riis_marks *marks, const riis_surface *surface,
                                                     const riis_resistance *resistance, const riis_flow_arrays *flow,
                                                     int64_t n_vertices, double *vertex_force);
 
-/* Sums over the nodes on either side of the surface: entry 0 is upstream (side -1), entry 1 is downstream. The
- * mean is sum / weight; with MPI, add up the sums and weights of all ranks first. */
+/* Sums over the nodes on both sides of the surface: entry 0 is upstream (side -1), entry 1 is downstream. The mean value of a
+ * side is sum / weight. With MPI, first add up the sums and weights of all ranks. */
 typedef struct riis_band_sums {
   double sum[2];      /* the sum of weight * value */
   double weight[2];   /* the sum of weight */
@@ -109,15 +110,15 @@ typedef struct riis_band_sums {
 /* A band around the surface, and a value at the nodes. */
 typedef struct riis_band {
   int64_t struct_size;  /* set by the init function */
-  double inner, outer;  /* distances d with 0 <= inner <= d <= outer. outer + |o| eps is at most the marking's distance
-                           limit, with the offset o. Default 0 */
+  double inner, outer;  /* the band holds the distances d with 0 <= inner <= d <= outer. With the offset o, outer + |o| eps must
+                           be at most the marking's distance limit. Default 0 */
   int64_t n_nodes;      /* the number of nodes of the marking, which must have RIIS_FIELD_SIDE and RIIS_FIELD_RIM */
   const double *value;  /* (n_nodes), such as the pressure; NULL only for 0 nodes */
   const double *weight; /* (n_nodes), volume around a node, 0 for nodes of other ranks; NULL only for 0 nodes */
 } riis_band;
 RIIS_API riis_status riis_band_init(riis_band *band, int64_t struct_size); /* the defaults */
-/* Gives the sums of the value over the nodes in the band, by side. Nodes whose closest point is on the rim, and nodes with side
- * 0, are left out. With an open valve the two sides have no meaning. With the offset o of the surface, the distance is |s - o
+/* Gives the sums of the value over the nodes in the band, for each side. Nodes whose closest point is on the rim, and nodes with
+ * side 0, are left out. With an open valve the two sides have no meaning. If the surface has an offset o, the distance is |s - o
  * eps|, and the sign of s - o eps is the side. Here s is the signed distance, and eps is the half thickness of the marking.
  * Errors: RIIS_INVALID_ARGUMENT also for a field that the marks lack. */
 RIIS_API riis_status riis_marks_get_band_sums(const riis_marks *marks, const riis_band *band,

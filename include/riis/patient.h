@@ -29,8 +29,8 @@ enum {
                                        mitral_coapting: the same, and also the next horn and the commissures; without
                                        this horn, both commissures and the flow are needed */
   RIIS_LANDMARK_POSTERIOR_HORN = 5, /* mitral: the annulus at the middle of the posterior leaflet; at most 1 */
-  RIIS_LANDMARK_TRIGONE = 6,        /* mitral: the annulus at an end of IT_distance; at most 2. Trigones behind the
-                                       anterior horn count as points of the annulus (riis_placement.n_as_annulus) */
+  RIIS_LANDMARK_TRIGONE = 6,        /* mitral: a point of the annulus at an end of the length IT_distance; at most 2. Trigones
+                                       behind the anterior horn count as points of the annulus (riis_placement.n_as_annulus) */
   RIIS_LANDMARK_POSTEROMEDIAL = 7,  /* mitral: the annulus at the posteromedial commissure; at most 1 */
   RIIS_LANDMARK_ANTEROLATERAL = 8,  /* mitral: the annulus at the anterolateral commissure; at most 1 */
   RIIS_LANDMARK_HINGE = 9,          /* bileaflet: an end of a leaflet's hinge line; 2 of one leaflet, or 4 */
@@ -44,10 +44,10 @@ typedef struct riis_landmarks {
   const void *x, *y, *z;     /* (n_landmarks) by stride, in mesh units */
   int64_t stride;            /* of x, y and z. Default 1 */
   const int32_t *role;       /* (n_landmarks): RIIS_LANDMARK_* */
-  const int32_t *leaflet_id; /* (2, n_landmarks): the cusp of a nadir or attachment point, then -1; the two leaflets of a
-                                commissure, in any order. -1 and -1: not known. NULL: all -1. For an aortic or tricuspid
-                                valve, the known leaflets must determine the names of all leaflets. For other kinds without names,
-                                the first nadir lies on cusp 0 */
+  const int32_t *leaflet_id; /* (2, n_landmarks): the leaflets of each landmark. A nadir or attachment point has its cusp and -1,
+                                and a commissure has its two leaflets in any order. -1 and -1 stand for unknown leaflets. NULL:
+                                all -1. For an aortic or tricuspid valve, the known leaflets must determine the names of all
+                                leaflets. For other kinds without names, the first nadir lies on cusp 0 */
   double scale;              /* mesh units in a centimetre: 10 for millimetres, 1 for centimetres, or 0.01 for metres. Must be
                                 set */
   double noise;              /* the scatter of the landmarks: the standard deviation of each coordinate, mesh units, >= 0.
@@ -70,7 +70,7 @@ enum {
   RIIS_SIZE_UNDETERMINED = 3 /* landmarks bear on the parameter but do not determine it, so it stays near the valve's
                                 proportions */
 };
-/* The placement that riis_place finds, for the fields of riis_surface_options with the same names. */
+/* The placement that riis_place finds. riis_surface_options has fields with the same names. */
 typedef struct riis_placement {
   double scale;              /* the scale of the landmarks, which also gives the default half thickness of 0.1 cm */
   double rotation_axis[3];   /* unit vector */
@@ -84,8 +84,9 @@ typedef struct riis_placement {
   double position_error;     /* standard error of the position of the valve's origin, mesh units */
   int64_t worst_landmark_id; /* the landmark with the largest residual */
   int32_t n_undetermined;    /* the number of parameters with RIIS_SIZE_UNDETERMINED */
-  int32_t n_as_annulus;      /* the number of given trigones that lie behind the anterior horn. The model has no trigones there,
-                                so these landmarks count as points of the annulus, and do not say how long IT_distance is */
+  int32_t n_as_annulus;      /* the number of trigones among the landmarks that lie behind the anterior horn. The model has no
+                                trigones there, so these landmarks count as points of the annulus, and do not determine
+                                IT_distance */
 } riis_placement;
 /* The caller's arrays for the results of riis_place. NULL arrays, the default, are not written. */
 typedef struct riis_placement_arrays {
@@ -94,31 +95,30 @@ typedef struct riis_placement_arrays {
   double *standard_error;    /* (number of parameters, in the order of riis_valve_get_parameter), in the parameter's
                                 unit; infinite for RIIS_SIZE_TIED, 0 for RIIS_SIZE_KEPT */
   int32_t *size_state;       /* (number of parameters): RIIS_SIZE_* */
-  double *place;             /* (3, n_landmarks): the landmarks' places on the closed valve, in mesh units. The places are the
-                                sources of a warp to the landmarks. A commissure's place is the mean of its cusps' ends. Points of
-                                the attachment have the places with which this warp bends least. Equal points of one line have one
+  double *place;             /* (3, n_landmarks): the landmarks' places on the closed valve, in mesh units. A warp takes these
+                                places to the landmarks. A commissure's place is the mean of its cusps' ends. The places of
+                                attachment points are chosen so that this warp bends least. Equal points of one line have one
                                 place */
 } riis_placement_arrays;
 RIIS_API riis_status riis_placement_arrays_init(riis_placement_arrays *arrays, int64_t struct_size); /* NULL arrays */
 /* Sets a valve's sizes, in centimetres, to a patient's sizes, and finds its placement.
- *   `valve`: the template, a kind with any parameters: lengths without a landmark keep their proportions. Translation, opening
- *     and the open state of riis_valve_set_open_state stay.
- *   `held`: names of parameters that keep the valve's values, separated by blanks or commas. "" stands for no name.
+ *   `valve`: a valve of any kind with any parameters. Lengths without a landmark keep their proportions. Translation, opening and
+ *     the open state of riis_valve_set_open_state stay.
+ *   `held`: the names of the parameters whose values do not change, separated by blanks or commas. "" stands for no name.
  *   `arrays`: the arrays that the call writes; NULL: not wanted.
  * The result minimises the sum of squared distances between the landmarks and their places on the closed valve
- * (docs/theory/landmarks.md). Cusps of a bicuspid, coapting or quadricuspid valve get different sectors, with a sum of 360
- * degrees, if the landmarks show differences above the noise. The commissures get different heights in the same way, and
- * commissure_height is then the mean height. If the landmarks show no such differences, sectors and proportions of heights stay.
- * Rotations and leaflet angles of an aortic valve follow from the landmarks. A leaflet_power at which cusps would overlap is
- * lowered.
+ * (docs/theory/landmarks.md). If the landmarks show differences above the noise, the cusps of a bicuspid, coapting or
+ * quadricuspid valve get different sectors, with a sum of 360 degrees. The commissures likewise get different heights, and
+ * commissure_height is then the mean height. Without such differences, the sectors and the proportions of the heights stay.
+ * Rotations and leaflet angles of an aortic valve follow from the landmarks. If cusps would overlap, leaflet_power is lowered.
  * Errors: RIIS_INVALID_ARGUMENT for landmarks that are missing, too many, in one place, collinear or mirrored, or that are too
- * large or too small for a heart valve at this scale. Landmarks that do not show the flow are also refused. The message names the
- * landmarks. The axis of a tricuspid or mitral_coapting valve must be at most 20 degrees from the annulus' normal. A mitral valve
- * must satisfy three conditions:
- * - The posterior horn and the trigones are on their own sides of the annulus.
+ * large or too small for a heart valve at this scale. Landmarks that do not show the direction of flow are also refused. The
+ * message names the landmarks. The axis of a tricuspid or mitral_coapting valve must be at most 20 degrees from the annulus'
+ * normal. A mitral valve must satisfy three conditions:
+ * - The posterior horn is on the posterior side of the annulus, and the trigones are on the anterior side.
  * - The axis of the fitted valve is at most 20 degrees from the annulus' normal.
- * - The fitted AP_diameter agrees with the depth that the horns or the annulus show. The difference is at most a twelfth of this
- *   depth, or five times the noise.
+ * - The fitted AP_diameter differs from the depth that the horns or the annulus show by at most a twelfth of this depth, or by
+ *   five times the noise.
  * RIIS_INVALID_PARAMETER for a valve from patches, an unknown name in held, and sizes that do not fit together. */
 RIIS_API riis_status riis_place(riis_valve *valve, const riis_landmarks *landmarks, const char *held,
                                 const riis_placement_arrays *arrays, riis_placement *placement,
@@ -126,38 +126,38 @@ RIIS_API riis_status riis_place(riis_valve *valve, const riis_landmarks *landmar
 
 /* ---- Warp: a valve that meets a patient's landmarks, and moves with them ------------------------------- */
 
-/* A smooth map of space that takes landmarks on a valve to landmarks in a patient. The map is the sum of an affine map and a
- * term |r|^3 for each landmark (docs/theory/warp.md). The warp's matrix is factored once, so new targets in each time step cost
- * little. */
+/* A smooth map of space that takes landmarks on a valve to landmarks in a patient. The map is the sum of an affine map and a term
+ * |r|^3 for each landmark (docs/theory/warp.md). New targets in each time step cost little, because the warp's matrix is factored
+ * only once. */
 typedef struct riis_warp riis_warp;
 
 /* Options of riis_warp_create. */
 typedef struct riis_warp_options {
   int64_t struct_size; /* set by the init function */
-  double noise;        /* standard deviation of each coordinate of the targets, 0 to 1e50. The map is smoothed until it misses the
-                          targets by about this noise. Default 0: the map meets the targets exactly */
-  const riis_surface_options *placement; /* NULL, the default: landmarks and noise are in the valve's own coordinates. With these
-                                            options, landmarks and noise are in the mesh's frame, where the options' scale,
-                                            rotation and translation place the valve. Use the same options for the surface */
+  double noise;        /* the standard deviation of each coordinate of the targets, 0 to 1e50. The map is smoothed until its
+                          distances from the targets are about this noise. Default 0: the map meets the targets exactly */
+  const riis_surface_options *placement; /* the scale, rotation and translation that place the valve in the mesh. Landmarks and
+                                            noise are then in the mesh's coordinates. Use the same options for the surface. NULL,
+                                            the default: landmarks and noise are in the valve's coordinates */
 } riis_warp_options;
 /* Fills *options with the defaults. */
 RIIS_API riis_status riis_warp_options_init(riis_warp_options *options, int64_t struct_size);
 
-/* Makes a warp from landmarks on the valve at rest. Until riis_warp_set_targets, the warp is the identity.
- *   `sources`: 3 to 1000 landmarks. Landmarks nearly in a plane do not determine the map across that plane. The map then
- *     stretches the direction across the plane as much as the plane, and keeps it at right angles to the plane
- *     (riis_warp_info.is_planar).
+/* Makes a warp from landmarks on the valve at rest. The warp is the identity until riis_warp_set_targets gives it targets.
+ *   `sources`: 3 to 1000 landmarks. If the landmarks lie nearly in a plane (riis_warp_info.is_planar), the map stretches lengths
+ *     across the plane as much as lengths in the plane, and keeps right angles to the plane.
  * Errors: RIIS_INVALID_ARGUMENT naming the landmark or field and its value, also for two landmarks in one place, and for
  * landmarks on a line. */
 RIIS_API riis_status riis_warp_create(const riis_points *sources, const riis_warp_options *options, riis_warp **warp);
 /* Destroys the warp. Valves with this warp keep their copies. */
 RIIS_API void riis_warp_destroy(riis_warp **warp);
-/* Makes the warp take the landmarks to the targets. The same targets give the same bits, whatever the earlier targets were.
- *   `targets`: as many points as the sources, in their order.
- * Errors: RIIS_INVALID_ARGUMENT naming the point. RIIS_INVALID_PARAMETER for a warp that folds: half way from some landmark to
- * the nearest other landmark, the determinant of the map's derivative is not above 0. A warp with more noise folds less. */
+/* Makes the warp take the landmarks to the targets. The same targets give the same bits after any earlier targets.
+ *   `targets`: one point for each source, in the order of the sources.
+ * Errors: RIIS_INVALID_ARGUMENT naming the point. RIIS_INVALID_PARAMETER for a warp that folds. A warp folds if the determinant
+ * of the map's derivative is not above 0 half way between some landmark and its nearest landmark. With more noise, a warp folds
+ * less. */
 RIIS_API riis_status riis_warp_set_targets(riis_warp *warp, const riis_points *targets);
-/* Makes the warp take the landmarks to their places at a time, from a table of keys in time.
+/* Makes the warp take the landmarks to their places at a given time, which are interpolated between frames.
  *   `frames`: n_vertices is the number of landmarks. The keys are read during the call only.
  *   `time`: magnitude at most 1e30.
  * Errors: as riis_warp_set_targets. RIIS_INVALID_ARGUMENT naming the field, key or landmark and its value. */
@@ -166,36 +166,35 @@ RIIS_API riis_status riis_warp_set_targets_at(riis_warp *warp, const riis_keyfra
 /* A warp's quality, in the units of its landmarks. */
 typedef struct riis_warp_info {
   int64_t n_landmarks;         /* the number of landmarks */
-  double rms_residual;         /* root mean square of the distances between mapped sources and targets. A target's
-                                  distance from a warped valve is that of riis_closest_point */
+  double rms_residual;         /* the root mean square of the distances between mapped sources and targets. To get a target's
+                                  distance from a warped valve, call riis_closest_point */
   double largest_residual;     /* the largest distance between a mapped source and its target */
   int64_t largest_landmark_id; /* its landmark */
   double smoothing;            /* lambda of the smoothing, 0 without noise; infinite if the map is affine */
-  double least_determinant;    /* the least determinant of the map's derivative, over all points half way from a
-                                  landmark to its nearest landmark */
-  double least_point[3];       /* the point between the sources where the determinant is least */
+  double least_determinant;    /* the least determinant of the map's derivative at the points half way between a landmark and its
+                                  nearest landmark */
+  double least_point[3];       /* the point with the least determinant */
   int32_t is_planar;           /* 1 if the landmarks lie nearly in a plane, else 0 */
   int32_t reserved;            /* 0 */
 } riis_warp_info;
 /* Gives the quality of a warp. */
 RIIS_API riis_status riis_warp_get_info(const riis_warp *warp, riis_warp_info *info, int64_t struct_size);
 /* Maps points, such as points of the chords of a mitral valve.
- *   `points`: in the coordinates of the landmarks.
+ *   `points`: the points, in the coordinates of the landmarks.
  *   `mapped` (3, n_points); may be the array of the points.
  * Errors: RIIS_INVALID_ARGUMENT naming the point. */
 RIIS_API riis_status riis_warp_map(const riis_warp *warp, const riis_points *points, double *mapped);
 
-/* Warps a valve: its curves are mapped at every opening, before the placement. The valve copies both maps.
+/* Warps a valve: the map moves the valve's curves at every opening, before the placement. The valve copies both maps.
  *   `closed`: the map at opening 0. If both maps are NULL, the valve loses its warp.
  *   `open`: the map at opening 1. If this map is NULL, `closed` serves for all openings.
- * Between the openings the map is (1 - opening) times `closed` plus opening times `open`. The valve's patches then lie between
- * the mapped curves. Error bounds, fixed triangulations and velocities therefore hold as for any valve. With
- * RIIS_TRIANGULATION_FIXED the warp may move. Landmarks of `closed` cut the curves of the closed valve, and landmarks of `open`
- * cut the curves of the open valve. The warped valve thus passes through the mapped landmarks on its curves. A moving annulus
- * needs two valves, which take turns. In each step call riis_warp_set_targets and this function for one of the two valves, and
- * pass both valves to riis_surface_update_moving. Either both valves have a warp, or neither has one. A call that makes or
- * updates a surface refuses a warp that folds at the valve or turns a part of the valve over: RIIS_INVALID_PARAMETER names the
- * place and the value.
+ * Between openings 0 and 1 the map is (1 - opening) times `closed` plus opening times `open`. The valve's patches then lie
+ * between the mapped curves. Error bounds, fixed triangulations and velocities are therefore as for any valve. The warp may move
+ * even with RIIS_TRIANGULATION_FIXED. Landmarks of `closed` cut the curves of the closed valve, and landmarks of `open` cut the
+ * curves of the open valve. The warped valve thus passes through the mapped landmarks on its curves. For a moving annulus, use
+ * two valves in turn. In each step, call riis_warp_set_targets and this function for one of the two valves, and pass both valves
+ * to riis_surface_update_moving. Either both valves have a warp, or neither has one. A call that makes or updates a surface
+ * refuses a warp that folds at the valve or turns a part of the valve over: RIIS_INVALID_PARAMETER names the place and the value.
  * Errors: RIIS_INVALID_ARGUMENT for `open` without `closed`. RIIS_INVALID_PARAMETER for a bileaflet valve, which is rigid. */
 RIIS_API riis_status riis_valve_set_warp(riis_valve *valve, const riis_warp *closed, const riis_warp *open);
 
@@ -203,30 +202,30 @@ RIIS_API riis_status riis_valve_set_warp(riis_valve *valve, const riis_warp *clo
 
 /* The gap between the attachment of a valve and a wall. Lengths are in mesh units. */
 typedef struct riis_gap {
-  double least, mean, most; /* the gap at the ends of the edges; the mean is weighted by the edges' lengths. 0 without a
-                               wall at any end */
+  double least, mean, most; /* the gap at the ends of the edges; the mean is weighted by the edges' lengths. 0 if no end has a
+                               wall */
   double widest_point[3];   /* the end of an edge with the widest gap */
-  int64_t n_ends;           /* number of ends of edges: 2 * riis_attachment.n_edges */
-  int64_t n_without_wall;   /* the number of ends whose line misses the wall. These ends count in no other field */
+  int64_t n_ends;           /* the number of ends of edges, 2 * riis_attachment.n_edges */
+  int64_t n_without_wall;   /* the number of ends without a wall in the skirt's direction. These ends count in no other field */
 } riis_gap;
 /* Measures the gap between a valve's attachment and a wall, such as a patient's vessel.
- *   `wall`: a surface in the same frame, usually by riis_surface_create_from_arrays.
- *   `distance` (2, n_edges): the gap at both ends of each edge of riis_attachment. RIIS_FAR_DISTANCE if the line misses the wall.
- *     NULL if it is not wanted.
- * The gap is the distance along the skirt's direction, which is outwards from the valve's axis and perpendicular to it
- * (docs/theory/skirt.md). If the line meets the wall several times, the nearest place counts. The gap is negative if the wall
- * lies inside the attachment.
+ *   `wall`: a surface in the valve's frame, usually by riis_surface_create_from_arrays.
+ *   `distance` (2, n_edges): receives the gap at both ends of each edge of riis_attachment. RIIS_FAR_DISTANCE stands for an end
+ *     without a wall. NULL: not wanted.
+ * The gap is the distance to the wall in the skirt's direction, which is outwards from the valve's axis and perpendicular to it
+ * (docs/theory/skirt.md). If the wall lies there several times, the nearest place counts. The gap is negative if the wall lies
+ * inside the attachment.
  * Errors: RIIS_INVALID_ARGUMENT for a surface without an attachment, and for an attachment that encloses no area. */
 RIIS_API riis_status riis_surface_get_gap(const riis_surface *surface, const riis_surface *wall, double *distance,
                                           riis_gap *gap, int64_t struct_size);
 /* Gives a valve a skirt that just reaches a wall, and replaces the valve's skirt.
  *   `wall`: as in riis_surface_get_gap.
- *   `longest`: the longest length to accept, mesh units, 1e-50 to 1e50.
+ *   `longest`: the longest acceptable length, mesh units, 1e-50 to 1e50.
  *   `options`: scale, rotation and translation place the valve, and n_threads is used. NULL stands for the defaults.
- * The length at each point of the closed valve's attachment is the gap there. The length is at least 0.01 of the attachment's
- * mean distance from the axis. The lengths of the skirt stay while the valve opens. The parameter "skirt_length" becomes the
- * largest length, before placement. If the caller sets "skirt_length", the lengths at the points are lost.
- * Errors: RIIS_INVALID_ARGUMENT if the wall is missed or farther than longest, naming the first such point.
+ * At each point of the closed valve's attachment, the skirt is as long as the gap, but at least 0.01 of the attachment's mean
+ * distance from the axis. The lengths of the skirt stay while the valve opens. The parameter "skirt_length" becomes the largest
+ * length, before placement. A later "skirt_length" of the caller replaces the lengths at the points.
+ * Errors: RIIS_INVALID_ARGUMENT naming the first point from which the wall is missed or farther than longest.
  * RIIS_INVALID_PARAMETER for a bileaflet valve, and for an attachment that encloses no area. */
 RIIS_API riis_status riis_valve_set_skirt_to_wall(riis_valve *valve, const riis_surface *wall, double longest,
                                                   const riis_surface_options *options);

@@ -14,8 +14,7 @@ extern "C" {
 
 /* ---- Closest points (paper, 4.1) ----------------------------------------------------------------------- */
 
-/* The closest point of the surface to one point. The comment of RIIS_MEASURE_* describes the closest points of sampling and
- * minimisation. */
+/* The closest point of the surface to one point. For closest points by sampling or minimisation, see RIIS_MEASURE_*. */
 typedef struct riis_closest {
   double distance;        /* >= 0, mesh units */
   double point[3];        /* on the triangle, mesh units */
@@ -23,36 +22,38 @@ typedef struct riis_closest {
   double normal[3];       /* unit normal of the triangle, by the right-hand rule */
   int64_t triangle_id;    /* the lowest id of the closest triangles */
   int32_t leaflet_id;     /* of the triangle */
-  int32_t side;           /* +1 on the side to which normals point (downstream), -1 on the other side, 0 on the surface and in its
-                             continuation beyond the rim. At a shared edge or vertex (equal placed coordinates), the
+  int32_t side;           /* +1 on the side to which normals point (downstream), -1 on the other side. 0 on the surface and where
+                             the surface would continue beyond its rim. At a shared edge or vertex (equal placed coordinates), the
                              angle-weighted mean of the normals decides (Baerentzen, Aanaes 2005) */
 } riis_closest;
-/* Finds the closest point of the surface at any distance, in double precision, as a loop over all triangles
- * would. Distances below 1e-154 underflow to 0.
+/* Finds the closest point of the surface at any distance, in double precision. A loop over all triangles would find the same
+ * point. Distances below 1e-154 underflow to 0.
  *   `point`: 3 finite coordinates, magnitude at most 1e60.
  * Errors: RIIS_INVALID_ARGUMENT naming the coordinate. */
 RIIS_API riis_status riis_closest_point(const riis_surface *surface, const double *point, riis_closest *closest,
                                         int64_t struct_size);
 
-/* The default distance of far points. The value is finite, so that arithmetic raises no floating-point exceptions. */
+/* The default distance of points beyond a limit. The value is finite, so that arithmetic raises no floating-point exceptions. */
 #define RIIS_FAR_DISTANCE 1.0e30
 
 /* Options of queries for many points. */
 typedef struct riis_closest_options {
   int64_t struct_size;       /* set by the init function */
   double distance_limit;     /* >= 0, default infinity. Farther points get far_distance, ids of -1, and zeros elsewhere */
-  double far_distance;       /* the distance of farther points, outside [0, distance_limit]. Default RIIS_FAR_DISTANCE */
-  const uint8_t *point_mask; /* (n_points): points with 0 must be finite, but get no result. NULL: no mask */
+  double far_distance;       /* the number that stands for the distance of points beyond the limit, outside [0, distance_limit].
+                                Default RIIS_FAR_DISTANCE */
+  const uint8_t *point_mask; /* (n_points): 0 stands for a point without a result, whose coordinates must still be finite. NULL:
+                                no mask */
   int64_t n_point_ids;       /* length of point_ids; 0 without it */
-  const int64_t *point_ids;  /* strictly ascending, 0 to n_points - 1: only these points are read, and only their
-                                entries are written. NULL: all points. Not together with point_mask */
+  const int64_t *point_ids;  /* the ids of the points that the call reads, strictly ascending, 0 to n_points - 1; the call writes
+                                only their entries. NULL: all points. Not together with point_mask */
   int32_t n_threads;         /* default 0 */
   int32_t reserved;          /* 0 */
 } riis_closest_options;
 /* Fills *options with the defaults. */
 RIIS_API riis_status riis_closest_options_init(riis_closest_options *options, int64_t struct_size);
 
-/* The caller's arrays for the fields of riis_closest; NULL for fields that are not wanted. */
+/* The caller's arrays for the fields of riis_closest. NULL stands for a field that is not wanted. */
 typedef struct riis_closest_arrays {
   int64_t struct_size;    /* set by the init function */
   double *distance;       /* (n_points) */
@@ -67,7 +68,7 @@ typedef struct riis_closest_arrays {
 RIIS_API riis_status riis_closest_arrays_init(riis_closest_arrays *arrays, int64_t struct_size);
 
 /* Finds the closest points of many points, in parallel.
- *   `arrays`: the arrays to write; none may overlap another or the coordinates.
+ *   `arrays`: the arrays to write. These arrays must not overlap each other or the coordinates.
  * Errors: RIIS_INVALID_ARGUMENT naming the first bad point; nothing is then written. */
 RIIS_API riis_status riis_closest_points(const riis_surface *surface, const riis_points *points,
                                          const riis_closest_options *options,
@@ -85,7 +86,7 @@ typedef struct riis_crossing_options {
 /* Fills *options with the defaults. */
 RIIS_API riis_status riis_crossing_options_init(riis_crossing_options *options, int64_t struct_size);
 
-/* The pairs of triangles that riis_find_crossings found. Make one object and reuse it. */
+/* The pairs of triangles that riis_find_crossings found. Make one object and reuse it in all calls. */
 typedef struct riis_crossings riis_crossings;
 RIIS_API riis_status riis_crossings_create(riis_crossings **crossings); /* makes crossings without a pair */
 RIIS_API void riis_crossings_destroy(riis_crossings **crossings); /* destroys the crossings and their list */
@@ -94,16 +95,17 @@ RIIS_API void riis_crossings_destroy(riis_crossings **crossings); /* destroys th
  *   `options`: a pair crosses if it is deeper than options->depth. A depth within the rounding error always counts as touching.
  *     The rounding error is 2^-24 of the pair's longest edge plus 2^-46 of the surface's largest coordinate.
  *   `crossings`: its content is replaced.
- * The depth of a pair is the length of the shortest translation of one triangle after which the triangles only touch
+ * The depth of a pair is the length of the shortest translation of one triangle after which the two triangles only touch
  * (docs/theory/crossings.md). Triangles that touch or lie in one plane have depth 0. Triangles of one leaflet that share a vertex
- * (equal placed coordinates) are neighbours, not a pair. The call uses the triangles, also if the surface's measure is not
- * RIIS_MEASURE_TRIANGLES. Where smooth leaflets touch, their triangles may cross by up to twice riis_surface_info.error_bound. A
- * log function (riis_set_log) gets warnings of deeper crossings even without this call.
+ * (equal placed coordinates) are neighbours, and do not count as a pair. The call tests the triangles for any measure of the
+ * surface. Where smooth leaflets touch, their triangles may cross by up to twice riis_surface_info.error_bound. A log function
+ * (riis_set_log) gets warnings of deeper crossings even without this call.
  * Errors: RIIS_INVALID_ARGUMENT naming the field. */
 RIIS_API riis_status riis_find_crossings(const riis_surface *surface, const riis_crossing_options *options,
                                          riis_crossings *crossings);
 
-/* Pairs of triangles that cross, ascending by first triangle, then by second. Lengths are in mesh units. */
+/* Pairs of triangles that cross, in the order of the first triangle's id, then of the second triangle's id. Lengths are in mesh
+ * units. */
 typedef struct riis_crossing_list {
   int64_t n_pairs;            /* the number of pairs that cross. If this number is 0, ids are -1, and all other fields except
                                  seconds are 0 */
@@ -112,7 +114,7 @@ typedef struct riis_crossing_list {
   const double *depth;        /* (n_pairs): the penetration depth */
   const double *length;       /* (n_pairs): the length of this segment */
   double total_length;        /* the sum of length */
-  double deepest_depth;       /* the depth of the deepest pair. Of several equally deep pairs, the first one counts */
+  double deepest_depth;       /* the depth of the deepest pair. If several pairs are equally deep, the first pair counts */
   double deepest_point[3];    /* the point of the deepest pair */
   int64_t deepest_triangle_id[2]; /* the triangles of the deepest pair */
   int32_t deepest_leaflet_id[2];  /* the leaflets of the deepest pair's triangles */

@@ -2,8 +2,8 @@
  *
  * riis.h - the whole public interface of riis: heart valves as resistive immersed implicit surfaces.
  *
- *   riis_valve  --riis_surface_create-->  riis_surface  --riis_mark_nodes-->  riis_marks
- *   (named parameters)                    (triangles, Embree scene)           (nodes in the band)
+ * From a riis_valve, which has named parameters, riis_surface_create makes a riis_surface of triangles. riis_mark_nodes then
+ * finds the nodes in the band around this surface, and puts them into riis_marks.
  *
  * A flow solver gives the nodes of its mesh, and gets the nodes near the valve's leaflets, with their distances. At these
  * nodes the momentum equation has the term K (u - u_surface), which holds the blood back. No mesh has to follow the
@@ -23,44 +23,44 @@
  * These rules hold for every function:
  *
  * - Units: lengths have one unit of the caller's choice, and angles are in degrees. The valves' default lengths are in
- *   centimetres. The scale of a placement turns centimetres into the mesh's unit (0.01 for metres).
- * - Ids: values called *_id count from 0, also in messages. If a struct has a field index_base, the ids in this struct count from
- *   that base, 0 (default) or 1. A field id_bits gives the ids' width: 32 (default) or 64.
+ *   centimetres. The scale of a placement converts centimetres to the mesh's unit (0.01 for metres).
+ * - Ids: numbers called *_id count from 0, and so do the ids in messages. If a struct has a field index_base, the ids in this
+ *   struct count from that base, 0 (default) or 1. A field id_bits gives the ids' width: 32 (default) or 64.
  * - Points: point i is x[i * stride], y[i * stride], z[i * stride]. Coordinates are finite, of magnitude at most 1e60. The stride
- *   counts numbers, not bytes, and is at least 1. Separate arrays have the stride 1; xyz(3,n) with y = x + 1 and z = x + 2 has
- *   the stride 3. A field real_bits gives the width of the numbers: 64 bits (default) or 32 bits. Without this field the numbers
- *   are doubles. These rules also hold for vectors.
- * - Order: the first argument is the object that the function is named after. Then come arguments that the call reads,
- *   then options, then arguments that it writes. Functions with `get` in their names return content.
+ *   counts numbers, not bytes, and is at least 1. Separate arrays have the stride 1. An array xyz(3,n) has the stride 3, with y =
+ *   x + 1 and z = x + 2. A field real_bits gives the width of the numbers: 64 bits (default) or 32 bits. Without this field the
+ *   numbers are doubles. These rules also hold for vectors.
+ * - Order: the first argument is the object after which the function is named. The other arguments follow in this order: what the
+ *   call reads, options, what the call writes. Functions with `get` in their names return the content of an object.
  * - Status: a function that can fail returns a riis_status; 0 is success, and riis_last_error() gives the message of a failure.
  *   If the status is positive, the call has changed nothing, and pointers from earlier calls stay valid. If the status is
  *   negative, an object that the call writes may be damaged: destroy this object. No function aborts, prints or throws.
  * - Any function may return RIIS_INVALID_ARGUMENT for a forbidden NULL and for an argument or field out of range,
  *   RIIS_INVALID_STRUCT_SIZE for a struct of a wrong size, and RIIS_OUT_OF_MEMORY.
  * - Handles: a new object is the last argument, and is written only on success. A destroy function takes a handle's
- *   address, accepts NULL, and sets the handle to NULL. A destroy function ignores handles of another kind; other calls refuse
- *   such handles.
+ *   address, accepts NULL, and sets the handle to NULL. A destroy function ignores a handle of another kind. All other calls
+ *   refuse such a handle.
  * - Memory: a call reads its arguments and their arrays only while it runs. A call that borrows arrays for longer says so in its
  *   comment. Arrays that a call returns belong to the handle, and are valid until the handle's next update or destruction. A
  *   returned array without entries is NULL. The caller may also pass NULL for an array without entries.
- * - A struct that a call fills in is followed by its size, as in (&list, sizeof list). The call writes at most this number of
- *   bytes.
+ * - If a call fills in a struct, the next argument is the struct's size, as in (&list, sizeof list). The call writes at most this
+ *   number of bytes.
  * - Structs that a call reads begin with struct_size. The init function of a struct sets struct_size and the defaults, and sets
- *   all other fields to 0 or NULL. A NULL options pointer means all defaults. New fields are appended, or replace `reserved`,
- *   which must be 0.
+ *   all other fields to 0 or NULL. A NULL options pointer means all defaults. New fields are appended to a struct, or replace its
+ *   field `reserved`, which must be 0.
  * - Threads: any number of threads may read a handle (const) at once. One thread may write a handle while no other thread reads
  *   it. Different handles never interfere. Results are bitwise the same for any number of threads.
- * - n_threads: 1 to 1024, or 0, the default. By default a call takes one thread, and one more for each 4096 triangles, 16,384
- *   nodes, cells or faces, or 2048 points. The triangles are those of a surface's last content. The default never exceeds the
- *   number of processors in the calling thread's affinity mask. Parts of a call with little work take one thread by default. With
- *   n_threads 1, no thread is started. OMP_NUM_THREADS and omp_set_num_threads have no effect. If the system refuses a thread or
- *   its memory, OpenMP and TBB end the process (docs/building.md). The library's own threads block all signals except the signals
- *   of errors, such as SIGSEGV.
- * - fork(): if the library has used several threads, a child process may use only one thread, which is then the default. A child
- *   that requests more gets RIIS_UNAVAILABLE. A child cannot make surfaces if another thread was inside the library during the
- *   fork.
- * - Environment: calls, and the log functions that they call, run with the default floating-point environment. Each call
- *   restores the caller's environment at its end. The caller's OpenMP and TBB settings are not changed.
+ * - n_threads: 1 to 1024, or 0, the default. By default a call takes one thread, and one more for each 4096 triangles of the
+ *   surface, 16,384 nodes, cells or faces, or 2048 points. For an update, the triangles before the update count. The default
+ *   never exceeds the number of processors in the calling thread's affinity mask. By default, parts of a call with little work
+ *   take one thread. With n_threads 1, the library starts no thread. OMP_NUM_THREADS and omp_set_num_threads have no effect. If
+ *   the system refuses a thread or its memory, OpenMP and TBB end the process (docs/building.md). The library's own threads block
+ *   all signals except the signals of errors, such as SIGSEGV.
+ * - fork(): if the library has used several threads, a child process may use only one thread, which is then the default. If a
+ *   child requests more threads, the call returns RIIS_UNAVAILABLE. A child cannot make surfaces if another thread was inside the
+ *   library during the fork.
+ * - Environment: calls and log functions run with the default floating-point environment. At its end, each call restores the
+ *   caller's floating-point environment. The caller's OpenMP and TBB settings are not changed.
  *
  * "Paper" is B. van der Vuurst, J. Kosinka, C. Bertoglio, "Fast generation of 3D flow obstacles from parametric surface
  * models: application to cardiac valves" (2025); docs/theory/departures.md lists every departure.

@@ -7,9 +7,9 @@
  *
  * - VTK keeps process-wide state: call these functions from one thread at a time.
  * - Messages that VTK would print are caught, and become the message of the error.
- * - A file is refused if it is of another kind, or if its end is missing. A file is also refused if it claims more points, cells,
- *   values or bytes than it holds. VTK's own readers can still crash on a .vtu file whose bytes were damaged. Read files that you
- *   do not trust in a separate process.
+ * - A file is refused if it has another format, or if its end is missing. A file is also refused if it declares more points,
+ *   cells, values or bytes than it holds. VTK's own readers can still crash on a .vtu file whose bytes were damaged. Read files
+ *   that you do not trust in a separate process.
  * - RIIS_OUT_OF_MEMORY names the file that was read or written.
  * - If a path cannot be read or written, the status is RIIS_FILE_ERROR, and the message names the file.
  * - A written file is complete or does not exist: it is written under a temporary name and then moved. The new file gets the
@@ -28,26 +28,26 @@ extern "C" {
 
 /* ---- Volume meshes ------------------------------------------------------------------------------------- */
 
-/* A mesh as read from the file: an unstructured grid with its points as doubles, or the axes of a rectilinear grid. */
+/* A mesh as it was read from a file: an unstructured grid with points in double precision, or the axes of a rectilinear grid. */
 typedef struct riis_vtk_mesh riis_vtk_mesh;
 
-/* Reads a mesh, which may have no cells. The mesh's nodes and cells keep the file's order, and cells of second order get VTK's
- * order of nodes. The limits of each format are in docs/formats.md.
- *   `path`: a file, whose ending tells its format, or a folder of OpenFOAM: .vtu (VTK XML), .vtk (legacy VTK), .vti, .vtr or .vts
- *     (structured grids of VTK), .vtm (blocks, whose shared nodes are joined), .msh (gmsh), .xdmf or .xmf, .e, .exo, .ex2 or
- *     .exii (Exodus), .foam, a case, its time folder, or a polyMesh.
+/* Reads a mesh, which may have no cells. Nodes and cells keep the order of the file. In each cell of second order, the nodes get
+ * the order of VTK. The limits of each format are in docs/formats.md.
+ *   `path`: a file with one of these endings: .vtu (VTK XML), .vtk (legacy VTK), .vti, .vtr or .vts (structured grids of VTK),
+ *     .vtm (blocks, whose shared nodes are joined), .msh (gmsh), .xdmf or .xmf, .e, .exo, .ex2 or .exii (Exodus), .foam. The path
+ *     may also be a folder of OpenFOAM: a case, its time folder, or a polyMesh.
  * HDF5 and VTK's reader of Exodus can crash on damaged files. If you do not trust an .xdmf or Exodus file, read it in a
  * separate process, as the program riis does.
- * Errors: RIIS_FILE_ERROR naming the file, if it is missing, unreadable, of another kind, truncated, or has
- * no points. */
+ * Errors: RIIS_FILE_ERROR naming the file, if it is missing, unreadable or truncated, has another format, or has no points. */
 RIIS_API riis_status riis_vtk_mesh_read(const char *path, riis_vtk_mesh **mesh);
-/* Gives notes on the file in one line, such as "its points have single precision", or gives "" without notes. The text is valid
- * until the mesh is destroyed. */
+/* Gives notes about the file in one line, such as "its points have single precision". The text is "" if there are no notes. The
+ * text is valid until the mesh is destroyed. */
 RIIS_API riis_status riis_vtk_mesh_get_notes(const riis_vtk_mesh *mesh, const char **notes);
 /* Replaces the nodes of the mesh by the centres of its cells, in the order of the cells. The call serves solvers with unknowns at
- * cell centres, and computes centres as OpenFOAM does. Two nodes are then neighbours if their cells share a face. Arrays that are
- * set later become arrays of cells. A mesh of centres has no parts (riis_vtk_mesh_extract).
- * Errors: RIIS_INVALID_ARGUMENT naming a cell that is no linear volume cell and no polyhedron. The mesh then keeps its nodes. */
+ * cell centres, and computes the centres as OpenFOAM does. Two nodes are then neighbours if their cells share a face. Point
+ * arrays that are set later become cell arrays. riis_vtk_mesh_extract then refuses the mesh.
+ * Errors: RIIS_INVALID_ARGUMENT naming a cell that is neither a linear volume cell nor a polyhedron. The mesh then keeps its
+ * nodes. */
 RIIS_API riis_status riis_vtk_mesh_use_centers(riis_vtk_mesh *mesh);
 /* Destroys the mesh. */
 RIIS_API void riis_vtk_mesh_destroy(riis_vtk_mesh **mesh);
@@ -61,46 +61,47 @@ RIIS_API riis_status riis_vtk_mesh_get_nodes(const riis_vtk_mesh *mesh, int64_t 
 /* Gives the axes of a mesh whose nodes are a rectilinear grid, for riis_mesh_create_grid. Such a mesh comes from a .vti or .vtr
  * file, or from a legacy file of these kinds. The mesh has two or more nodes along each axis, and coordinates that strictly
  * ascend. The cells are hexahedra. Coordinates and cells are stored only after a call that needs them, such as
- * riis_vtk_mesh_get_nodes. The calls for arrays, such as riis_vtk_mesh_set_marks, do not need them.
- *   `grid`: ni, nj and nk are 0 for any other mesh, and after riis_vtk_mesh_use_centers or riis_vtk_mesh_choose_cells. x, y and z
- *     are valid until the mesh is destroyed. */
+ * riis_vtk_mesh_get_nodes. Calls for arrays, such as riis_vtk_mesh_set_marks, do not need coordinates and cells.
+ *   `grid`: its arrays x, y and z are valid until the mesh is destroyed. For any other mesh, ni, nj and nk are 0, as after
+ *     riis_vtk_mesh_use_centers or riis_vtk_mesh_choose_cells. */
 RIIS_API riis_status riis_vtk_mesh_get_axes(const riis_vtk_mesh *mesh, riis_grid *grid, int64_t struct_size);
 
-/* Makes the adjacency of nodes that are joined by an edge of a volume cell, for riis_mesh_set_adjacency. The adjacency borrows
- * nothing from the mesh. Nodes without such an edge get empty rows: RIIS_SEARCH_NEIGHBOR still finds them, RIIS_SEARCH_PAPER does
- * not.
- * - A linear cell, a prism with more than three sides and a polyhedron have the edges of their faces.
+/* Makes the adjacency of the mesh for riis_mesh_set_adjacency. Two nodes are neighbours if an edge of a volume cell joins them.
+ * The adjacency borrows nothing from the mesh. Nodes without an edge get empty rows: RIIS_SEARCH_NEIGHBOR still finds them,
+ * RIIS_SEARCH_PAPER does not.
+ * - Linear cells, prisms with more than three sides and polyhedra have the edges of their faces.
  * - A quadratic cell has edges from each corner to the middles of its sides, and between the middles of
- *   neighbouring sides of a face. If a face has a node in its middle, edges join this node to all other nodes of the face
+ *   neighbouring sides of a face. In a face with a node in its middle, edges join this node to all other nodes of the face
  *   instead.
  * - A Lagrange or Bezier tetrahedron, wedge or hexahedron has edges along the lines of its lattice.
- * The edges of two kinds of volume cells are not known here: convex point sets, and Lagrange and
- * Bezier cells with nodes beyond their lattice. */
+ * The edges of two kinds of volume cells are not known: convex point sets, and Lagrange and Bezier cells with nodes beyond their
+ * lattice. */
 RIIS_API riis_status riis_vtk_mesh_create_adjacency(const riis_vtk_mesh *mesh, int32_t n_threads,
                                                     riis_adjacency **adjacency);
-/* Counts the volume cells. In a mesh without volume cells, such as a mesh of triangles, no edge can be found to leak, so leaks
- * are unknown.
+/* Counts the volume cells. If a mesh has no volume cells, as a mesh of triangles, nothing can be said about leaks.
  *   `n_volume_cells`: NULL if not wanted.
- *   `n_cells_left_out`: the number of volume cells whose edges are not known here; NULL if not wanted. */
+ *   `n_cells_left_out`: the number of volume cells whose edges are not known (riis_vtk_mesh_create_adjacency). NULL if not
+ *     wanted. */
 RIIS_API riis_status riis_vtk_mesh_get_volume_cells(const riis_vtk_mesh *mesh, int64_t *n_volume_cells,
                                                     int64_t *n_cells_left_out);
 
-/* Copies the cells in the file's order. Call this function twice: the first call gives the number of node ids as its last offset.
+/* Copies the cells in the order of the file. Call this function twice: in the first call, the last offset gives the number of
+ * node ids for the second call.
  *   `n_cells`: the number of cells, as riis_vtk_mesh_get_nodes gives it.
  *   `offsets` (n_cells + 1): cell i has the nodes node_ids[offsets[i]] to node_ids[offsets[i + 1] - 1]; NULL if not wanted.
- *   `types` (n_cells): VTK's numbers of the types, such as 10 for a tetrahedron; NULL if not wanted.
+ *   `types` (n_cells): the numbers that VTK has for types of cells, such as 10 for a tetrahedron; NULL if not wanted.
  *   `n_node_ids`: the last offset; 0 if node_ids is NULL.
  *   `node_ids` (n_node_ids), from 0, in VTK's order; NULL if not wanted. Each point of a polyhedron is listed once.
- * Errors: RIIS_INVALID_ARGUMENT for n_cells or n_node_ids of another mesh, and for a mesh of centres. */
+ * Errors: RIIS_INVALID_ARGUMENT for a wrong n_cells or n_node_ids, and for a mesh of centres. */
 RIIS_API riis_status riis_vtk_mesh_copy_cells(const riis_vtk_mesh *mesh, int64_t n_cells, int64_t *offsets,
                                               uint8_t *types, int64_t n_node_ids, int64_t *node_ids);
 
 /* Makes the part of the mesh's adjacency that riis_find_leaks needs, in one pass over the cells. The part consists of the edges
  * that are longer than a given length and whose bounding box meets the surface's bounding box. The adjacency borrows nothing from
- * the mesh. Use this part only for riis_find_leaks: a search cannot go far along so few edges.
- *   `longer_than`: 2 (1 - |o|) half thicknesses of the marking, with the offset o. 0 gives all edges near the surface. Use 0
- *     after a marking by RIIS_SEARCH_PAPER, or if distances were not measured to the triangles. Edges that are shorter by up to a
- *     billionth are also included.
+ * the mesh. Use this part only for riis_find_leaks, because it has too few edges for a search.
+ *   `longer_than`: a length of 2 (1 - |o|) half thicknesses of the marking, with the offset o. With the length 0, the part has
+ *     all edges near the surface. Use 0 after a marking by RIIS_SEARCH_PAPER, sampling or minimisation. The part also has edges
+ *     that are shorter than longer_than by up to a billionth.
  *   `n_cells_left_out`: as in riis_vtk_mesh_get_volume_cells.
  * Errors: RIIS_INVALID_ARGUMENT if longer_than is below 0 or not finite. */
 RIIS_API riis_status riis_vtk_mesh_create_long_edges(const riis_vtk_mesh *mesh, const riis_surface *surface,
@@ -108,7 +109,8 @@ RIIS_API riis_status riis_vtk_mesh_create_long_edges(const riis_vtk_mesh *mesh, 
                                                      int64_t *n_cells_left_out, riis_adjacency **adjacency);
 
 /* Sets the point arrays of a marking: PREFIX_marked (UInt8, 0 or 1), PREFIX_distance (Float64, far_distance
- * beyond the limit), PREFIX_leaflet (Int32, -1 beyond the limit). Arrays of these names are replaced.
+ * beyond the limit), PREFIX_leaflet (Int32, -1 beyond the limit). If the mesh already has arrays of these names, they are
+ * replaced.
  *   `far_distance`: as in riis_dense_arrays.
  *   `prefix`: 1 to 64 letters, digits, "_", "-" and ".". NULL stands for "riis", whose marks riis_vtk_draw shows.
  * Errors: RIIS_INVALID_ARGUMENT for marks of a mesh with another number of nodes. */
@@ -117,54 +119,57 @@ RIIS_API riis_status riis_vtk_mesh_set_marks(riis_vtk_mesh *mesh, const riis_mar
 /* Sets point arrays for the fields of a marking: PREFIX_point, PREFIX_normal, PREFIX_barycentric, PREFIX_uv,
  * PREFIX_velocity (Float64), PREFIX_side, PREFIX_rim, PREFIX_patch (Int32). Beyond the limit these arrays are 0, and PREFIX_patch
  * is -1.
- *   `fields`: a sum of RIIS_FIELD_* of the marking's fields.
+ *   `fields`: a sum of RIIS_FIELD_*. The marking must have these fields.
  *   `prefix`: as in riis_vtk_mesh_set_marks.
  * Errors: RIIS_INVALID_ARGUMENT for a field that the marks lack, and as in riis_vtk_mesh_set_marks. */
 RIIS_API riis_status riis_vtk_mesh_set_fields(riis_vtk_mesh *mesh, const riis_marks *marks,
                                               int32_t fields, const char *prefix);
-/* Sets a point array with the caller's numbers, such as a resistance. An array of that name is replaced.
- *   `name`: the same letters as the prefix of riis_vtk_mesh_set_marks.
+/* Sets a point array with the caller's numbers, such as a resistance. If the mesh already has an array of this name, it is
+ * replaced.
+ *   `name`: the name may have the same characters as the prefix of riis_vtk_mesh_set_marks.
  *   `n_nodes`: the mesh's number of nodes.
  *   `n_components`: 1 to 9 for each node.
  *   `values` (n_components, n_nodes). */
 RIIS_API riis_status riis_vtk_mesh_set_point_array(riis_vtk_mesh *mesh, const char *name, int64_t n_nodes,
                                                    int64_t n_components, const double *values);
-/* Names the unit of a point array, as VTK's key UNITS_LABEL in .vtu and .pvtu, and as the attribute Unit in XDMF.
+/* Sets the unit of a point array. Files .vtu and .pvtu store the unit as VTK's key UNITS_LABEL, and XDMF stores it as the
+ * attribute Unit.
  *   `name`: the name of an array.
- *   `unit`: 1 to 64 characters of ASCII that can be printed, such as "g/(cm3 s)".
- * Errors: RIIS_INVALID_ARGUMENT for a name that the mesh lacks, and for another unit. */
+ *   `unit`: 1 to 64 printable characters of ASCII, such as "g/(cm3 s)".
+ * Errors: RIIS_INVALID_ARGUMENT for a name that the mesh lacks, and for a unit with other characters. */
 RIIS_API riis_status riis_vtk_mesh_set_unit(riis_vtk_mesh *mesh, const char *name, const char *unit);
-/* Tells whether the mesh has a point array of that name: *has becomes 1 or 0. */
+/* Tells whether the mesh has a point array of a name: *has becomes 1 or 0. */
 RIIS_API riis_status riis_vtk_mesh_has_point_array(const riis_vtk_mesh *mesh, const char *name, int32_t *has);
-/* Gives the median length of edges. The edges of volume cells count, as in riis_vtk_mesh_create_adjacency, and the edges of all
- * faces except polygons. The length is 0 if the mesh has no such cells. An edge counts once for each of its cells. At most 20,000
- * cells, evenly spaced in the list, are measured. */
+/* Gives the median length of the mesh's edges. The call counts the edges of volume cells, as in riis_vtk_mesh_create_adjacency,
+ * and of faces except polygons, once for each cell. If a mesh has more than 20,000 cells, the call measures only 20,000 of them,
+ * evenly spaced in the list. The length is 0 if the mesh has no edges. */
 RIIS_API riis_status riis_vtk_mesh_get_median_edge(const riis_vtk_mesh *mesh, double *length);
 
-/* Keeps only the cells with certain values in a cell array, and their nodes. An example is the fluid of a mesh that also has the
- * wall. Nodes and cells keep their order and their data. As in riis_vtk_mesh_extract, the arrays riis_node_id and riis_cell_id
- * have the ids in the whole mesh. Parts that are later made of this mesh also have the ids in the whole mesh.
- *   `where`: NAME=VALUES, such as "region=1,2". NAME is a cell array of single numbers. For gmsh's physical groups NAME is
- *     gmsh:physical, and VALUES may be names of groups; all groups of a cell count.
- *   `n_chosen`: the number of cells with such a value; only volume cells count if the mesh has some. With NULL the call fails if
- *   there is no such cell.
- * Errors: RIIS_INVALID_ARGUMENT if there is no such array or name; the mesh is then unchanged. */
+/* Keeps only the cells with certain values in a cell array, and the nodes of these cells. The call can, for example, remove the
+ * wall and keep the fluid. Nodes and cells keep their order and their data. As in riis_vtk_mesh_extract, the arrays riis_node_id
+ * and riis_cell_id have the ids in the whole mesh. If riis_vtk_mesh_extract later makes a part of this mesh, the part also has
+ * the ids in the whole mesh.
+ *   `where`: NAME=VALUES, such as "region=1,2". NAME is a cell array of single numbers. For gmsh's physical groups, NAME is
+ *     gmsh:physical, and VALUES may be names of groups. A cell in several groups has the values of all of them.
+ *   `n_chosen`: the number of chosen cells, without surface cells if the mesh has volume cells. With NULL the call fails if no
+ *     cell is chosen.
+ * Errors: RIIS_INVALID_ARGUMENT if the mesh lacks the array or the named group. The mesh is then unchanged. */
 RIIS_API riis_status riis_vtk_mesh_choose_cells(riis_vtk_mesh *mesh, const char *where, int64_t *n_chosen);
-/* Gives a cell array that probably numbers domains. The volume cells have 2 to 16 different whole numbers in this array. At least
- * one pair of cells of the same type with a common node has different numbers. Arrays named for something else, such as "rank",
- * do not count.
- *   `array`: its name, until the next call or the mesh's destruction. "" if there is none.
- *   `n_values`: the number of its values; 0 if there is none.
- *   `values` (n_values), ascending. NULL if they are not wanted. */
+/* Gives a cell array that probably numbers the domains of the mesh. In such an array, the volume cells have 2 to 16 different
+ * whole numbers. Some pair of cells of the same type with a common node has different numbers. Names such as "rank", which mean
+ * something else, are excluded.
+ *   `array`: the name of the array, valid until the next call or the mesh's destruction. "" if no array was found.
+ *   `n_values`: the number of different values; 0 if no array was found.
+ *   `values` (n_values): the values, ascending. NULL: not wanted. */
 RIIS_API riis_status riis_vtk_mesh_find_regions(riis_vtk_mesh *mesh, const char **array, int64_t *n_values,
                                                 const double **values);
 
-/* Tells which points lie outside the mesh and farther than a distance from all of its volume cells. Cells of higher
- * order have straight edges here. A point is outside a mesh in pieces if it is outside each piece.
+/* Tells which points lie outside the mesh and farther than a distance from all volume cells. Cells of higher order count with
+ * straight edges. If a mesh has several pieces, call the function for each piece.
  *   `xyz` (3, n_points), finite.
  *   `distance`: >= 0, finite, in the unit of xyz. With the distance 0 the call finds the points that no cell contains.
- *   `is_outside` (n_points). Before the call, 0 stands for points that are not wanted. The call also writes 0 for points that are
- *     not outside.
+ *   `is_outside` (n_points): set 1 for each point that the call shall test, and 0 for the others. The call changes 1 to 0 for
+ *     each point that is not outside.
  * Errors: RIIS_INVALID_ARGUMENT naming the argument and its value; is_outside is then unchanged. */
 RIIS_API riis_status riis_vtk_mesh_find_outside(const riis_vtk_mesh *mesh, int64_t n_points, const double *xyz,
                                                 double distance, uint8_t *is_outside);
@@ -177,8 +182,7 @@ RIIS_API riis_status riis_vtk_mesh_find_outside(const riis_vtk_mesh *mesh, int64
  * Errors: RIIS_INVALID_ARGUMENT naming the id and its position in node_ids. */
 RIIS_API riis_status riis_vtk_mesh_extract(const riis_vtk_mesh *mesh, int64_t n_ids, const int64_t *node_ids,
                                            riis_vtk_mesh **part);
-/* Gives the size in bytes of the file of riis_vtk_mesh_write, without its few kilobytes of
- * text. */
+/* Gives the size in bytes of the file that riis_vtk_mesh_write would write, without its few kilobytes of text. */
 RIIS_API riis_status riis_vtk_mesh_get_file_size(const riis_vtk_mesh *mesh, int64_t *n_bytes);
 
 /* Writes the mesh with all its arrays to a file. The points are Float64.
@@ -192,34 +196,34 @@ RIIS_API riis_status riis_vtk_mesh_write(const riis_vtk_mesh *mesh, const char *
 
 /* ---- Meshes in pieces ---------------------------------------------------------------------------------- */
 
-/* A list of .vtu files, the pieces of one mesh, as in a .pvtu file. The pieces are read one by one, so a mesh may be
+/* A list of .vtu files that are pieces of one mesh, as a .pvtu file has it. The pieces are read one by one, so a mesh may be
  * larger than the memory. */
 typedef struct riis_vtk_pieces riis_vtk_pieces;
-/* Reads the list, but not the pieces.
+/* Reads a list from a file, but does not read the pieces.
  *   `path`: ends in .pvtu. Names of pieces are absolute, or relative to the folder of the .pvtu file.
- * Errors: RIIS_FILE_ERROR naming the file and the piece: if there is no piece, if a piece is missing, is listed twice
- * or is no .vtu file, and as in riis_vtk_mesh_read. */
+ * Errors: as riis_vtk_mesh_read. RIIS_FILE_ERROR naming the piece also if a piece is missing, is listed twice or is not a .vtu
+ * file, and if the list is empty. */
 RIIS_API riis_status riis_vtk_pieces_read(const char *path, riis_vtk_pieces **pieces);
 /* Makes a list of pieces that have the same arrays as a mesh, for riis_vtk_pieces_write. The list borrows nothing.
  *   `n_files`: 1 to 1,000,000.
- *   `files` (n_files), the paths of the pieces, which need not exist yet. */
+ *   `files` (n_files): the paths of the pieces. The files need not exist yet. */
 RIIS_API riis_status riis_vtk_pieces_create(const riis_vtk_mesh *mesh, int64_t n_files, const char *const *files,
                                             riis_vtk_pieces **pieces);
-/* Replaces the files of the list, and keeps its arrays.
+/* Replaces the paths in the list, and keeps the names of the arrays.
  *   `n_files`, `files`: as in riis_vtk_pieces_create. */
 RIIS_API riis_status riis_vtk_pieces_set_files(riis_vtk_pieces *pieces, int64_t n_files, const char *const *files);
 /* Destroys the list. */
 RIIS_API void riis_vtk_pieces_destroy(riis_vtk_pieces **pieces);
 /* Gives the files of the pieces.
- *   `paths` (n_files), valid until the list is destroyed. A relative name is preceded by the folder of the .pvtu. */
+ *   `paths` (n_files): the paths of the pieces, each with the folder of the .pvtu file, valid until the list is destroyed. */
 RIIS_API riis_status riis_vtk_pieces_get_files(const riis_vtk_pieces *pieces, int64_t *n_files,
                                                const char *const **paths);
 /* Reads a piece, which may have no points.
  *   `piece`: 0 to n_files - 1.
- * Errors: as in riis_vtk_mesh_read. RIIS_FILE_ERROR also for a piece with other point or cell arrays than the .pvtu
- * declares. The array vtkGhostType need not be declared. */
+ * Errors: as in riis_vtk_mesh_read. RIIS_FILE_ERROR also for a piece whose point or cell arrays are not those of the .pvtu file.
+ * Only vtkGhostType may be missing from the .pvtu file. */
 RIIS_API riis_status riis_vtk_pieces_read_mesh(const riis_vtk_pieces *pieces, int64_t piece, riis_vtk_mesh **mesh);
-/* Writes the list to a file. Names of pieces become relative to the file's folder, unless they are absolute.
+/* Writes the list to a file. Paths of pieces become relative to the file's folder. Absolute paths stay absolute.
  *   `path`: ends in .pvtu. */
 RIIS_API riis_status riis_vtk_pieces_write(const riis_vtk_pieces *pieces, const char *path);
 
@@ -230,7 +234,7 @@ enum {
   RIIS_VTK_NODE_GHOST = 2,  /* the node belongs only to ghost cells, which are copies of another piece's cells */
   RIIS_VTK_NODE_LOOSE = 3   /* the node belongs to no cell of the piece */
 };
-/* The cells of a piece that are not ghosts. Ghosts have bit 1 in the cell array vtkGhostType. */
+/* Numbers of cells in a piece, without ghosts. A cell is a ghost if it has bit 1 in the cell array vtkGhostType. */
 typedef struct riis_vtk_sharing {
   int64_t n_cells;          /* cells that are not ghosts */
   int64_t n_volume_cells;   /* the number of volume cells that are not ghosts */
@@ -238,45 +242,47 @@ typedef struct riis_vtk_sharing {
   int32_t has_global_ids;   /* 1 if the mesh has global ids */
   int32_t reserved;         /* 0 */
 } riis_vtk_sharing;
-/* Tells which nodes of a piece other pieces may share. Global ids are the point array with VTK's attribute GlobalIds,
- * else the array vtkGlobalIds, GlobalNodeId or GlobalPointIds.
+/* Tells which nodes of a piece may also be in other pieces. Global ids come from the point array with VTK's attribute GlobalIds,
+ * otherwise from the array vtkGlobalIds, GlobalNodeId or GlobalPointIds.
  *   `n_nodes`: the mesh's number of nodes.
  *   `role` (n_nodes), RIIS_VTK_NODE_*.
- *   `global_id` (n_nodes), set if the mesh has global ids; NULL if not wanted.
+ *   `global_id` (n_nodes): filled in if the mesh has global ids; NULL if not wanted.
  * Errors: RIIS_FILE_ERROR for global ids that are not whole numbers, and for a vtkGhostType that is not UInt8. */
 RIIS_API riis_status riis_vtk_mesh_get_sharing(const riis_vtk_mesh *mesh, int64_t n_nodes, uint8_t *role,
                                                int64_t *global_id, riis_vtk_sharing *sharing, int64_t struct_size);
 
 /* ---- Surfaces ------------------------------------------------------------------------------------------ */
 
-/* Triangles or quads read from a file. */
+/* A surface of triangles or quads that was read from a file. */
 typedef struct riis_vtk_surface riis_vtk_surface;
 
 /* Reads a surface. Polygons, strips and quadratic faces are cut into triangles. Quads stay quads if the file has only quads.
  *   `path`: ends in .vtp or .vtk (faces only), .vtu (faces, also quadratic; errors name other cells), .stl, .obj or .ply.
  *   `leaflets`: the name of the cell array of leaflet ids, one whole number >= 0 for each cell. The array must exist. NULL stands
  *     for riis_leaflet, which may be missing.
- * The point array riis_attached, if the file has it, becomes riis_surface_arrays.attached. The array riis_attached has one number
- * for each point. A quad is cut from its first corner to its third. If this cut runs outside a concave quad, the cut goes from
- * the second corner to the fourth, with the same winding.
- * Errors: RIIS_FILE_ERROR naming the file, and the cell with its value or the arrays that exist. */
+ * If the file has the point array riis_attached, with one number for each point, it becomes riis_surface_arrays.attached. A quad
+ * is cut from its first corner to its third. If this line runs outside a concave quad, the quad is cut from its second corner to
+ * its fourth.
+ * Errors: RIIS_FILE_ERROR naming the file, and the bad cell and its value. For a missing array, the message names the arrays that
+ * exist. */
 RIIS_API riis_status riis_vtk_surface_read(const char *path, const char *leaflets, riis_vtk_surface **surface);
-/* Makes a surface of the faces that only one volume cell of the mesh has. This surface is the wall around the blood, and its
- * faces point outwards. Faces of cells of higher order become straight. The surface borrows nothing, and riis_vtk_surface_destroy
- * destroys it.
+/* Makes a surface of the mesh's boundary, such as the wall around the blood. Its faces belong to only one volume cell each, and
+ * point outwards. Faces of cells of higher order become straight. The surface borrows nothing from the mesh, and
+ * riis_vtk_surface_destroy destroys it.
  * Errors: RIIS_INVALID_ARGUMENT for a mesh without volume cells. */
 RIIS_API riis_status riis_vtk_mesh_get_boundary(const riis_vtk_mesh *mesh, riis_vtk_surface **boundary);
-/* Makes every connected piece of the surface a leaflet, numbered from 0 in the order of the pieces' first
- * faces. Faces are connected if they share a vertex, or have vertices with exactly the same coordinates, as in
- * an .stl file. Arrays that the surface gave before become invalid. */
+/* Makes every connected piece of the surface a leaflet. The leaflets are numbered from 0 in the order of their first faces. Faces
+ * are connected if they share a vertex, or have vertices with exactly the same coordinates, as in an .stl file. Arrays from
+ * earlier calls become invalid. */
 RIIS_API riis_status riis_vtk_surface_number_pieces(riis_vtk_surface *surface);
-/* Adds the faces of another surface, for a valve with one file for each leaflet. The first surface becomes
- * leaflet 0, and each added surface the next leaflet. Other leaflet ids are lost. If only one of the two surfaces has quads,
- * these quads are cut. `other` stays. Arrays that the surface gave before become invalid. */
+/* Adds the faces of another surface, for a valve with one file for each leaflet. The first surface becomes leaflet 0, and each
+ * added surface becomes the next leaflet. Other leaflet ids are lost. If only one of the two surfaces has quads, its quads are
+ * cut into triangles. `other` stays. Arrays from earlier calls become invalid. */
 RIIS_API riis_status riis_vtk_surface_append(riis_vtk_surface *surface, const riis_vtk_surface *other);
 /* Destroys the surface. Its arrays become invalid. Surfaces made from it stay. */
 RIIS_API void riis_vtk_surface_destroy(riis_vtk_surface **surface);
-/* Gives the arrays of the surface, for riis_surface_create_from_arrays. The arrays are valid until the surface is destroyed. */
+/* Gives the vertices and faces of the surface in a struct for riis_surface_create_from_arrays. The arrays are valid until the
+ * surface is destroyed. */
 RIIS_API riis_status riis_vtk_surface_get_arrays(const riis_vtk_surface *surface, riis_surface_arrays *arrays,
                                                  int64_t struct_size);
 
@@ -288,26 +294,26 @@ RIIS_API riis_status riis_vtk_surface_write(const riis_surface *surface, const c
 
 /* ---- Motion -------------------------------------------------------------------------------------------- */
 
-/* The frames of a moving surface, such as a patient's valve, from files with the same faces at several times.
- * Keyframes are made from the frames, with a period and an interpolation that the caller sets:
- *   riis_vtk_motion_read_pvd("valve.pvd", NULL, &motion);
+/* The frames of a moving surface, such as a patient's valve. The frames come from files with the same faces at several times. The
+ *   caller makes keyframes from the frames, and may set a period and an interpolation: riis_vtk_motion_read_pvd("valve.pvd",
+ *   NULL, &motion);
  *   riis_vtk_motion_get_arrays(motion, &arrays, sizeof arrays);
  *   riis_vtk_motion_get_frames(motion, &frames, sizeof frames);
  *   frames.period = 0.8;
  *   riis_keyframes_create(&arrays, &frames, &keyframes); riis_vtk_motion_destroy(&motion);
  * All reading functions share these rules:
- * - Files are as for riis_vtk_surface_read, at most 1,000,000. All files have the same points and cells in the same order.
- *   Polygons and quads are cut as in the first file.
+ * - The formats are those of riis_vtk_surface_read. There are at most 1,000,000 files. All files have the same points and cells
+ *   in the same order. Polygons and quads are cut as in the first file.
  * - Leaflets and riis_attached come from the first file. `leaflets` names the files' cell array, as in riis_vtk_surface_read.
- * - An .stl file has triangles, in the same order in all files, and no vertices. Corners at exactly the same
- *   position in the first file become one vertex. In every other file such corners must also share one position. If leaflets
+ * - An .stl file has triangles and no vertices. The triangles must have the same order in all files. Corners at exactly the same
+ *   position in the first file become one vertex. In every other file these corners must also share one position. If leaflets
  *   touch at corners in the first file and separate later, use .vtp files, which number points.
  * - Times ascend strictly, and coordinates are finite, as in riis_keyframe_arrays.
  * Errors: RIIS_FILE_ERROR naming the file and the difference, with its value. */
 typedef struct riis_vtk_motion riis_vtk_motion;
 
-/* Reads a motion from a ParaView collection. Each DataSet has a timestep and a file, whose path is absolute or
- * relative to the folder of the .pvd file. Other attributes of a DataSet are ignored, so a time with several parts is refused.
+/* Reads a motion from a ParaView collection. Each DataSet has a timestep and the path of a file, which is absolute or relative to
+ * the folder of the .pvd file. Other attributes of a DataSet are ignored, so a time with several parts is refused.
  * Errors: RIIS_FILE_ERROR naming the .pvd file and the DataSet, also if there is no DataSet. */
 RIIS_API riis_status riis_vtk_motion_read_pvd(const char *path, const char *leaflets,
                                               riis_vtk_motion **motion);
@@ -315,38 +321,38 @@ RIIS_API riis_status riis_vtk_motion_read_pvd(const char *path, const char *leaf
  *   `n_files`: 1 to 1,000,000.
  *   `paths` (n_files).
  *   `times` (n_files).
- * Errors: RIIS_INVALID_ARGUMENT naming the entry of paths or times. */
+ * Errors: RIIS_INVALID_ARGUMENT naming the bad entry of paths or times. */
 RIIS_API riis_status riis_vtk_motion_read_files(int64_t n_files, const char *const *paths,
                                                 const double *times, const char *leaflets,
                                                 riis_vtk_motion **motion);
-/* Reads a motion from one .vtp or .vtu file with displacements. A frame consists of the points plus the displacements in a point
- * array of 3 components. The points without displacements are not a frame.
+/* Reads a motion from one .vtp or .vtu file with displacements. Each frame adds the displacements in a point array of 3
+ * components to the points. The points without displacements are not a frame.
  *   `prefix`: the name of each array is the prefix, then "_" or nothing, then a whole number, as in displacement_0 and
  *     displacement_10. Frames are in the order of the numbers, which may have gaps.
- *   `n_times`: the number of these arrays, or 0.
- *   `times` (n_times); NULL, with n_times 0, takes the times from the field array TimeValue.
- * Errors: RIIS_INVALID_ARGUMENT for a bad entry of times, which the message names, and if n_times is not the number of
- * arrays. */
+ *   `n_times`: the number of arrays of displacements, or 0.
+ *   `times` (n_times): the times of the frames. NULL, with n_times 0, means that the times are in the field array TimeValue.
+ * Errors: RIIS_INVALID_ARGUMENT naming a bad entry of times, and if n_times is not the number of arrays. */
 RIIS_API riis_status riis_vtk_motion_read_displacements(const char *path, const char *prefix, int64_t n_times,
                                                         const double *times, const char *leaflets,
                                                         riis_vtk_motion **motion);
 /* Reads a motion from a file for svMultiPhysics that riis export wrote. The file has the positions of all nodes, frame by frame.
- * The faces are in a .vtu or .vtp file in the same folder. For NAME_motion_open.dat the name of this file is NAME_motion_open,
- * NAME_motion or NAME, each also followed by _mesh or _face.
+ * The faces are in a .vtu or .vtp file in the same folder. For NAME_motion_open.dat this file is called NAME_motion_open,
+ * NAME_motion or NAME, or one of these names with _mesh or _face at its end.
  *   `path`: ends in .dat.
- *   `time_step`: above 0: the time from a frame to the next one. The first frame is at 0.
+ *   `time_step`: the time from one frame to the next, above 0. The first frame is at time 0.
  * Errors: RIIS_INVALID_ARGUMENT for a bad time_step. */
 RIIS_API riis_status riis_vtk_motion_read_frames(const char *path, double time_step, const char *leaflets,
                                                  riis_vtk_motion **motion);
-/* Adds the faces of another motion with the same times. Each motion is one leaflet, as in riis_vtk_surface_append. The call
- * riis_vtk_motion_get_files then gives the files of both. `other` stays.
- * Errors: RIIS_INVALID_ARGUMENT naming the frame with another time. */
+/* Adds the faces of another motion with the same times, so that riis_vtk_motion_get_files gives the files of both motions. Each
+ * motion is one leaflet, as in riis_vtk_surface_append. `other` stays.
+ * Errors: RIIS_INVALID_ARGUMENT naming the first frame whose time differs. */
 RIIS_API riis_status riis_vtk_motion_append(riis_vtk_motion *motion, const riis_vtk_motion *other);
 /* Gives the files that were read: one for each frame, or the one file with displacements.
- *   `paths` (n_files): the path as given, preceded by the folder of a .pvd file; valid until the motion is destroyed. */
+ *   `paths` (n_files): the paths of the files, valid until the motion is destroyed. Paths in a .pvd file are preceded by its
+ *     folder. */
 RIIS_API riis_status riis_vtk_motion_get_files(const riis_vtk_motion *motion, int64_t *n_files,
                                                const char *const **paths);
-/* Makes every connected piece of the first frame a leaflet, as riis_vtk_surface_number_pieces does. */
+/* Makes every connected piece of the first frame a leaflet (riis_vtk_surface_number_pieces). */
 RIIS_API riis_status riis_vtk_motion_number_pieces(riis_vtk_motion *motion);
 /* Destroys the motion. Its arrays become invalid. Keyframes made from it stay. */
 RIIS_API void riis_vtk_motion_destroy(riis_vtk_motion **motion);
@@ -360,7 +366,7 @@ RIIS_API riis_status riis_vtk_motion_get_frames(const riis_vtk_motion *motion, r
 
 /* ---- Pictures ------------------------------------------------------------------------------------------ */
 
-/* The direction in which a picture looks, by the mesh's axes or by the valve's axes. */
+/* The direction of view in a picture, by the axes of the mesh or of the valve. */
 enum {
   RIIS_VTK_VIEW_SIDE = 0,          /* along +y, z up */
   RIIS_VTK_VIEW_TOP = 1,           /* along -z, y up */
@@ -387,48 +393,49 @@ enum {
   RIIS_VTK_PANELS_MARKS = 2  /* only the marked cells. The picture must have a mesh */
 };
 
-/* The contents and the view of a picture. Texts are in ASCII. A character outside ASCII is drawn as "?". */
+/* The contents and the view of a picture. Texts are in ASCII, and any other character is drawn as "?". */
 typedef struct riis_vtk_picture_options {
   int64_t struct_size;    /* set by the init function */
   const char *title;      /* the caption of the surface, which may have one line break. Default NULL: "Surface" */
-  const char *unit;       /* follows the number at the scale bar, such as "mm". A bar below 0.1 "m" is given in mm. NULL,
-                             the default, and "" stand for "mesh units", or for "units" without a mesh or a wall */
+  const char *unit;       /* the text after the number at the scale bar, such as "mm". If the unit is "m", a bar below 0.1 m is
+                             given in mm. NULL, the default, and "" stand for "mesh units", or for "units" without a mesh or a
+                             wall */
   int64_t n_leaflet_names;/* >= 0, default 0 */
-  const char *const *leaflet_names; /* (n_leaflet_names): the names by leaflet_id, for the key of the colours. Default
-                                       NULL: "leaflet 0", ..., as for leaflets without a name here */
+  const char *const *leaflet_names; /* (n_leaflet_names): the leaflets' names by leaflet_id, for the key of the colours. A leaflet
+                                       without a name is called "leaflet 0", and so on. Default NULL: no names */
   int64_t n_leaking_edges;/* >= 0, default 0 */
-  const int64_t *leaking_edges; /* (2, n_leaking_edges): node ids of mesh edges, which are drawn dark red in front of everything
-                                   else. Default NULL: the picture says nothing about leaks. If n_leaking_edges is 0 and
-                                   leaking_edges is not NULL, the picture says that no edge leaks */
+  const int64_t *leaking_edges; /* (2, n_leaking_edges): the node ids of leaking mesh edges, which the picture shows in dark red
+                                   in front of everything else. Default NULL: the picture says nothing about leaks. If
+                                   n_leaking_edges is 0 and leaking_edges is not NULL, the picture says that no edge leaks */
   int32_t view;           /* RIIS_VTK_VIEW_*. Default RIIS_VTK_VIEW_OBLIQUE */
   int32_t width, height;  /* pixels, 64 to 8192. Default 1600 x 800 */
   int32_t reserved;       /* 0 */
-  double rotation_axis[3]; /* the rotation axis of the valve's placement, for RIIS_VTK_VIEW_VALVE_*, with the ranges of
+  double rotation_axis[3]; /* the rotation axis of the valve's placement, for RIIS_VTK_VIEW_VALVE_*, in the range of
                               riis_surface_options. Default (0, 0, 1) */
   double rotation_angle;  /* degrees. Default 0: the valve has the mesh's axes */
-  const riis_surface *wall; /* the wall around a surface without a mesh. With a mesh, whose boundary is the wall, this field is
-                               ignored. Default NULL: none */
-  double background[4];   /* red, green and blue, 0 to 1, then the opacity, 0 or 1. Texts are dark on a bright colour, and bright
-                             on a dark one. The opacity 0 makes the picture transparent; the texts still suit the colour. Default
-                             (1, 1, 1, 1): white */
+  const riis_surface *wall; /* the wall that is drawn around a surface without a mesh. If there is a mesh, its boundary is drawn
+                               instead. Default NULL: none */
+  double background[4];   /* the background: red, green and blue, 0 to 1, then the opacity, 0 or 1. Texts are dark on a bright
+                             colour, and bright on a dark colour. The opacity 0 makes the background transparent, and the colour
+                             still determines the texts. Default (1, 1, 1, 1): white */
   int32_t captions;       /* RIIS_VTK_CAPTIONS_*. Default RIIS_VTK_CAPTIONS_ALL */
   int32_t panels;         /* RIIS_VTK_PANELS_*. Default RIIS_VTK_PANELS_BOTH */
 } riis_vtk_picture_options;
 /* Fills *options with the defaults. */
 RIIS_API riis_status riis_vtk_picture_options_init(riis_vtk_picture_options *options, int64_t struct_size);
 
-/* Draws the surface and the marked cells of the mesh into a .png file, in two panels to the same scale.
- * - The left panel shows the surface with a colour for each leaflet. Six colours are used in turn. The key below this panel names
- *   as many leaflets as fit, and dots replace the others. Leaflets seen edge-on appear as lines.
+/* Draws the surface and the marked cells of the mesh to a .png file, in two panels of the same scale.
+ * - The left panel shows the surface with a colour for each leaflet. The leaflets have six colours in turn. The key below this
+ *   panel names as many leaflets as fit, and dots replace the others. A leaflet that is seen edge-on appears as a line.
  * - The right panel shows marked cells. A cell with all nodes marked has the colour of the leaflet nearest to
  *   one of them. Other cells with a marked node show only their far side, in a pale colour. If the mesh has
  *   volume cells, flat cells are not drawn.
- * - The wall is a translucent shell in both panels. The wall's flat ends are open: flat parts with a sharp rim, such as an inlet,
- *   are left out. A wall that consists of flat parts, such as a box, is drawn whole.
- * - Captions name the half thickness and count the marked nodes.
- * - Axes and a scale bar are below the panels. If a mesh is much longer than the surface, the picture cuts
- *   it at dashed lines. Pictures lower than 120 pixels have no texts, axes or bar.
- * - RIIS_VTK_VIEW_THREE and RIIS_VTK_VIEW_VALVE_THREE draw one column for each view, with one panel above the other. The columns
+ * - The wall is a translucent shell in both panels. Flat ends of the wall, such as an inlet, are left out. A wall of flat parts,
+ *   such as a box, is drawn whole.
+ * - The captions give the half thickness and the number of marked nodes.
+ * - Axes and a scale bar are below the panels. A mesh that is much longer than the surface is cut off at dashed lines. Pictures
+ *   lower than 120 pixels have no texts, axes or bar.
+ * - RIIS_VTK_VIEW_THREE and RIIS_VTK_VIEW_VALVE_THREE draw one column for each view, with one panel above the other. All columns
  *   have the same scale.
  *
  *   `mesh`: must have marks set. NULL draws the surface alone, in one panel.
@@ -438,21 +445,22 @@ RIIS_API riis_status riis_vtk_picture_options_init(riis_vtk_picture_options *opt
 RIIS_API riis_status riis_vtk_draw(const riis_surface *surface, const riis_vtk_mesh *mesh,
                                    const riis_vtk_picture_options *options, const char *path);
 
-/* Draws one picture for each view, as riis_vtk_draw does, but makes geometry and window only once.
+/* Draws a picture for each of several views. The call is faster than several riis_vtk_draw, because it makes the geometry and the
+ * window only once.
  *   `n_views`: >= 0.
- *   `views` (n_views) RIIS_VTK_VIEW_*; options->view is ignored.
- *   `paths` (n_views) the files. Pictures that were finished before an error stay.
+ *   `views` (n_views): the views, RIIS_VTK_VIEW_*. The call ignores options->view.
+ *   `paths` (n_views): the files. After an error, the finished pictures stay.
  * Errors: as riis_vtk_draw. */
 RIIS_API riis_status riis_vtk_draw_views(const riis_surface *surface, const riis_vtk_mesh *mesh,
                                          const riis_vtk_picture_options *options, int64_t n_views,
                                          const int32_t *views, const char *const *paths);
 
-/* Pictures of a moving valve in one mesh, all seen by one camera, such as the frames of a movie. */
+/* A film: pictures of a moving valve in one mesh, all from the same camera, such as the frames of a movie. */
 typedef struct riis_vtk_film riis_vtk_film;
-/* Makes the window and the outline of the mesh, which all pictures share.
+/* Makes a film, with the window and the outline of the mesh for all pictures.
  *   `mesh`: the nodes and cells must stay the same, but the marks may change. NULL draws the surface alone. The film shares the
  *     mesh's data, so the caller may destroy the mesh first.
- *   `lower`, `upper` (3), bounds of the surface at all times along the mesh's axes, for the camera.
+ *   `lower`, `upper` (3): the box in which the surface lies at all times, along the mesh's axes. The box determines the camera.
  *   `options`: the view, the size and the leaflets' names; title and leaking edges are ignored.
  * Errors: RIIS_UNAVAILABLE without a usable X display, after about half a second. RIIS_INVALID_ARGUMENT for
  * bounds that are not finite or do not ascend. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * surface.h - surfaces: triangles of a valve, of the caller or of frames in time, with their sizes, attachment and velocities.
- * The header riis.h includes this file, and has the rules that hold for every call.
+ * surface.h - surfaces: triangles from a valve, from the caller's arrays or from frames in time, with their sizes, attachment and
+ * velocities. The header riis.h includes this file, and has the rules that hold for every call.
  */
 /* clang-format off: argument lists in comments are laid out by hand */
 #ifndef RIIS_SURFACE_H
@@ -15,41 +15,41 @@ extern "C" {
 /* ---- Surface: triangles in space that answer closest-point queries ------------------------------------- */
 
 /* Triangles with a half thickness. A surface borrows nothing from the caller. The first query that needs an Embree scene of the
- * triangles builds this scene, also if several threads query at once. */
+ * triangles builds this scene, even if several threads query at once. */
 typedef struct riis_surface riis_surface;
 
 /* The leaflets of the parametric valves, as leaflet_id reports them. */
 enum {
   RIIS_LEAFLET_RIGHT = 0,       /* aortic: the right coronary cusp, "right" in names of parameters; other kinds: the cusp on the x
-                                   axis. More cusps follow counter-clockwise, seen from +z */
+                                   axis. The other cusps follow counter-clockwise, seen from +z */
   RIIS_LEAFLET_LEFT = 1,        /* aortic: the left coronary cusp, "left"; other kinds: the second cusp */
-  RIIS_LEAFLET_NON_CORONARY = 2,/* aortic: "non_coronary"; other kinds: the third cusp. The fourth cusp has the id 3 */
+  RIIS_LEAFLET_NON_CORONARY = 2,/* aortic: the cusp "non_coronary"; other kinds: the third cusp. The fourth cusp has the id 3 */
   RIIS_LEAFLET_ANTERIOR = 0,    /* mitral, mitral_coapting, tricuspid: the anterior leaflet */
   RIIS_LEAFLET_POSTERIOR = 1,   /* mitral, mitral_coapting: the posterior leaflet, with all its scallops.
                                    tricuspid: 1 is the septal leaflet, and 2 the posterior one */
   RIIS_LEAFLET_POSITIVE = 0,    /* bileaflet: the leaflet at x > 0 */
   RIIS_LEAFLET_NEGATIVE = 1,    /* bileaflet: the leaflet at x < 0 */
   RIIS_LEAFLET_HOUSING = 2,     /* bileaflet: the housing's wall, if ring_height is not 0 */
-  RIIS_LEAFLET_SKIRT = 3        /* the skirt of a valve of any kind except bileaflet, if skirt_length is not 0. The skirt has this
-                                   id, or the leaflets' largest leaflet_id + 1 if that number is larger, as for four cusps. A
-                                   skirt of arrays gets its id by the same rule. riis_surface_info tells the id */
+  RIIS_LEAFLET_SKIRT = 3        /* the skirt, if skirt_length is not 0. The skirt of four cusps, of patches or of arrays has a
+                                   larger id if the leaflets need it: the largest leaflet_id + 1.
+                                   riis_surface_info.skirt_leaflet_id tells the id */
 };
 
-/* How triangles of zero area in the caller's arrays are treated. */
+/* What happens to triangles of zero area in the caller's arrays. */
 enum {
   RIIS_ZERO_AREA_REFUSE = 0, /* refuse the surface: RIIS_INVALID_SURFACE naming the first such triangle */
   RIIS_ZERO_AREA_SKIP = 1    /* skip and count such triangles, and log a warning; other triangles keep their ids */
 };
 
 /* How the distance of a point to the surface is measured (paper, 4.1). Sampling and minimisation serve comparisons with the
- * paper, and work only for surfaces of valves. Sampling and minimisation measure the distance to points S(u,v) of the patches,
- * with the error e = measure_tolerance * half_thickness (docs/theory/paper-distances.md). A closest point by sampling or
- * minimisation has the leaflet_id of the patch, the normal of S (0 0 0 if S has none), triangle_id -1, barycentric 0 and side 0.
- * With sampling or minimisation, calls refuse RIIS_SEARCH_CLUSTERS and arrays for barycentric and side: RIIS_INVALID_ARGUMENT. */
+ * paper, and work only for surfaces of valves. Both measure the distance to points S(u,v) of the patches, with the error e =
+ * measure_tolerance * half_thickness (docs/theory/paper-distances.md). Their closest points have the leaflet_id of the patch, the
+ * normal of S (0 0 0 if S has none), triangle_id -1, barycentric 0 and side 0. RIIS_INVALID_ARGUMENT refuses both with
+ * RIIS_SEARCH_CLUSTERS, and with arrays for barycentric and side. */
 enum {
   RIIS_MEASURE_TRIANGLES = 0,   /* the closest point of all triangles, without approximation */
-  RIIS_MEASURE_SAMPLING = 1,    /* the nearest of at most 16,777,216 points that are spaced evenly on the patches. The distance is
-                                    at most e too large, and at most e / 10 too small */
+  RIIS_MEASURE_SAMPLING = 1,    /* the nearest of up to 16,777,216 sample points, which are spaced evenly on the patches. The
+                                   distance is at most e too large, and at most e / 10 too small */
   RIIS_MEASURE_MINIMIZATION = 2 /* Powell's method (1964) runs on every patch. The distance is at most e / 10 too small. In a
                                    local minimum the distance may be too large by any amount, and nothing shows this */
 };
@@ -57,13 +57,13 @@ enum {
 /* How the smooth valve is cut into triangles. */
 enum {
   RIIS_TRIANGULATION_ADAPTED = 0, /* as few triangles as each state needs; the triangles change as the valve opens */
-  RIIS_TRIANGULATION_FIXED = 1    /* the same ids, vertices and neighbours at every opening. The first call with this option
-                                     chooses the ids, vertices and neighbours. Afterwards only opening and placement may change:
+  RIIS_TRIANGULATION_FIXED = 1    /* triangles keep their ids, vertices and neighbours at every opening. The first call with this
+                                     option chooses the triangles. Afterwards only opening and placement may change:
                                      RIIS_INVALID_PARAMETER names any other parameter that changed. RIIS_LIMIT_EXCEEDED refuses an
                                      opening at which the tolerance does not hold. A triangle without area is left out, and its id
                                      is not reused. An update with RIIS_TRIANGULATION_ADAPTED forgets the chosen triangles.
                                      Vertices of mitral or warped valves slide along the surface. Velocities do not include this
-                                     slide of the vertices */
+                                     sliding of the vertices */
 };
 
 /* Options of a surface. The placement of a valve or of arrays is x -> scale * rotation * x + translation. */
@@ -76,8 +76,8 @@ typedef struct riis_surface_options {
   double scale;            /* 1e-12 to 1e12, default 1 */
   double rotation_axis[3]; /* components up to 1e50, length at least 1e-50; default (0, 0, 1) */
   double rotation_angle;   /* degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6, default 0 */
-  double translation[3];   /* mesh units; -1e50 to 1e50, default 0. Refused for a valve if coordinates would be
-                              rounded by more than a thousandth of tolerance * half_thickness */
+  double translation[3];   /* a shift in mesh units, -1e50 to 1e50, default 0. Refused for a valve if coordinates would be rounded
+                              by more than a thousandth of tolerance * half_thickness */
   double measure_tolerance; /* error of sampling and minimisation, in half thicknesses, 1e-6 to 1. Default: tolerance */
   int32_t measure;         /* RIIS_MEASURE_*, for closest points and marking only; default
                               RIIS_MEASURE_TRIANGLES, the only one for surfaces from arrays */
@@ -87,28 +87,25 @@ typedef struct riis_surface_options {
   int32_t n_threads;       /* default 0 */
   int32_t reserved;        /* 0 */
   double offset;           /* the offset o, in half thicknesses, above -1 and below 1, default 0. The middle of the band lies o
-                              half thicknesses beside the surface, along the normals after flip_normals. Other measures than
-                              RIIS_MEASURE_TRIANGLES need 0 */
+                              half thicknesses beside the surface, along the normals after flip_normals. RIIS_MEASURE_SAMPLING and
+                              RIIS_MEASURE_MINIMIZATION need 0 */
 } riis_surface_options;
 /* Fills *options with the defaults. */
 RIIS_API riis_status riis_surface_options_init(riis_surface_options *options, int64_t struct_size);
 
-/* Makes the surface of a valve, by way of curves, polylines, Coons patches, quads and triangles (paper, 3 and 4.1;
- * docs/theory.md).
+/* Makes the surface of a valve: curves, polylines, Coons patches, quads and triangles (paper, 3 and 4.1; docs/theory.md).
  *   `valve`: its parameters must fit together.
  *   `options`: accuracy and placement.
  * Normals point downstream: from the ventricular to the sinus face of the cusps, from the atrial to the ventricular face of
- * the mitral valve, and to +z on closed bileaflet leaflets. On the bileaflet ring, normals point outwards. Triangles of zero area
- * are skipped. Triangles of zero area lie at the root of each cusp, at the mitral commissures and at the ends of bileaflet middle
- * edges. The band around a surface has the thickness 2 eps, with the half thickness eps. With an offset o the middle of the band
- * lies o eps beside the triangles, on the side to which normals point. Let s be the signed distance of a node, with the sign of
- * its side. The band holds the nodes with |s - o eps| <= eps. At a rim with the closest point p and the normal n, the band holds
- * the nodes x with |x - p - o eps n| <= eps (docs/theory/marks.md, "Offset"). An offset changes no distance, side or closest
- * point.
+ * the mitral valve, and to +z on closed bileaflet leaflets. On the bileaflet ring, normals point outwards. Triangles of zero
+ * area, as at the root of each cusp, at the mitral commissures and at the ends of bileaflet middle edges, are skipped. The
+ * thickness of the band around a surface is 2 eps, twice the half thickness. With an offset o the middle of the band lies o eps
+ * beside the triangles, on the side to which normals point. Let s be the signed distance of a node, with the sign of its side.
+ * The band holds the nodes with |s - o eps| <= eps. At a rim with the closest point p and the normal n, the band holds the nodes
+ * x with |x - p - o eps n| <= eps (docs/theory/marks.md, "Offset"). An offset changes no distance, side or closest point.
  * Errors: RIIS_INVALID_PARAMETER for parameters that do not fit together or that put a curve out of range.
- * RIIS_INVALID_SURFACE with an offset, for two triangles that run along a shared edge in the same direction.
- * RIIS_LIMIT_EXCEEDED if a tolerance needs more than 16,777,216 triangles, quads or samples, or is smaller than the rounding
- * of coordinates. */
+ * RIIS_INVALID_SURFACE with an offset, if two neighbouring triangles have opposite windings. RIIS_LIMIT_EXCEEDED if a tolerance
+ * needs more than 16,777,216 triangles, quads or samples, or is smaller than the rounding of coordinates. */
 RIIS_API riis_status riis_surface_create(const riis_valve *valve, const riis_surface_options *options,
                                          riis_surface **surface);
 
@@ -128,32 +125,33 @@ typedef struct riis_surface_arrays {
   int32_t id_bits;           /* of vertex_ids */
   int32_t index_base;        /* of vertex_ids */
   int32_t real_bits;         /* of vertices and velocities */
-  double skirt_length;       /* the length of a skirt before placement. A skirt is a strip from the attachment outwards. The
-                                length is 1e-4 to 10 times the mean distance of the attachment from its axis. 0, the default: no
-                                skirt */
+  double skirt_length;       /* the length of a skirt before placement. A skirt is a strip that leads outwards from the
+                                attachment. The length is 1e-4 to 10 times the mean distance of the attachment from its axis. 0,
+                                the default: no skirt */
   const uint8_t *attached;   /* (n_vertices): a number above 0 marks a vertex of the attachment. The attachment consists of the
                                 open edges whose two vertices are attached. NULL: with a skirt, the call chooses the attachment */
-  const double *skirt_lengths; /* (n_vertices): the skirt's lengths at the attached vertices, at most skirt_length. A length below
-                                  the lower limit of skirt_length counts as this limit. NULL: skirt_length everywhere */
+  const double *skirt_lengths; /* (n_vertices): the skirt's lengths at the attached vertices, at most skirt_length. A length that
+                                  is less than the least skirt_length counts as the least skirt_length. NULL: skirt_length
+                                  everywhere */
 } riis_surface_arrays;
 /* Fills *arrays with the defaults. */
 RIIS_API riis_status riis_surface_arrays_init(riis_surface_arrays *arrays, int64_t struct_size);
 
 /* Makes a surface from arrays, with the caller's winding. A triangle's id is its face's number; the halves of quad q have the ids
- * 2 q and 2 q + 1. The id of a skipped triangle is not reused. A triangle has zero area if its longest edge is shorter than
- * 1e-60, or if its height over that edge is at most 1e-12 of the edge.
- * A skirt leads away from an axis: the line through the attachment's centroid along the attachment's vector area
- * (docs/theory/skirt.md). The skirt's vertices and triangles come after the caller's vertices and triangles. Without `attached`,
- * the attachment is the closed line of open edges that encloses the largest area. The line must enclose at least 0.8 of the area
- * of the leaflets' outline (RIIS_OUTLINE_BOUNDARY).
+ * 2 q and 2 q + 1. The id of a skipped triangle is not used again. A triangle has zero area if its longest edge is shorter than
+ * 1e-60, or if its height over its longest edge is at most 1e-12 of this edge.
+ * A skirt leads away from the axis of the attachment, the line through its centroid along its vector area (docs/theory/skirt.md).
+ * The skirt's vertices and triangles come after the caller's vertices and triangles. Without `attached`, the attachment is the
+ * closed line of open edges that encloses the largest area. This line must enclose at least 0.8 of the area of the leaflets'
+ * outline (RIIS_OUTLINE_BOUNDARY).
  * Errors: RIIS_LIMIT_EXCEEDED for too many triangles. RIIS_INVALID_SURFACE naming the face or vertex and its value, or saying
  * why an attachment is not found. RIIS_INVALID_ARGUMENT for a length of the skirt out of range. */
 RIIS_API riis_status riis_surface_create_from_arrays(const riis_surface_arrays *arrays,
                                                      const riis_surface_options *options,
                                                      riis_surface **surface);
 
-/* Replaces the surface's content by a valve, such as the same valve after a motion. The handle stays.
- *   `options`: NULL keeps the surface's own options, not the defaults.
+/* Replaces the content of the surface by a valve, such as the same valve after a motion. The handle stays the same.
+ *   `options`: NULL keeps the present options of the surface.
  * Errors: as riis_surface_create. */
 RIIS_API riis_status riis_surface_update(riis_surface *surface, const riis_valve *valve,
                                          const riis_surface_options *options);
@@ -177,17 +175,17 @@ typedef struct riis_surface_info {
   double area;               /* of all triangles, mesh units squared */
   double lower[3], upper[3]; /* bounds of the triangles, mesh units */
   double seconds_triangles;  /* wall time of the last call that made or updated the surface: for checks and triangles */
-  double seconds_scene;      /* wall time of the same call: for groups of triangles, sampling, minimisation. Embree's tree is not
-                                included, because the first query that needs the tree builds it */
-  double error_bound;        /* the largest possible difference between a point's distances to the triangles and to the smooth
-                                valve; at most tolerance * half_thickness. 0 for a surface from arrays */
+  double seconds_scene;      /* wall time of the same call for groups of triangles, sampling and minimisation. Embree's tree is
+                                not included, because the first query that needs the tree builds it */
+  double error_bound;        /* the largest possible error of a distance: the difference between the distances to the triangles
+                                and to the smooth valve. At most tolerance * half_thickness. 0 for a surface from arrays */
   int64_t largest_leaflet_id; /* of the triangles */
   double offset;             /* of the band, in half thicknesses */
   double contact_depth;      /* leaflets whose triangles cross deeper than this do more than touch (docs/theory/crossings.md) */
   int32_t skirt_leaflet_id;  /* the leaflet_id of the skirt; -1: no skirt */
   int32_t housing_leaflet_id; /* bileaflet: RIIS_LEAFLET_HOUSING; -1 for other surfaces */
 } riis_surface_info;
-/* Gives the size of the surface, and the seconds that it took. */
+/* Gives the size of the surface, and the time that it took to make it. */
 RIIS_API riis_status riis_surface_get_info(const riis_surface *surface, riis_surface_info *info,
                                            int64_t struct_size);
 
@@ -202,20 +200,21 @@ typedef struct riis_triangles {
   const int64_t *vertex_id;   /* (3, n_triangles): their vertices */
   const int64_t *triangle_id; /* (n_triangles), ascending: the id that queries report; 0, 1, 2, ... for a valve */
   const int32_t *leaflet_id;  /* (n_triangles): RIIS_LEAFLET_*, or the caller's from patches and arrays */
-  const int32_t *patch_id;    /* (n_triangles). From arrays: 0, skirt: 1. From patches: the patch's number, from 0. n cusps: 4 *
-                                 leaflet, plus 0 for the bottom, 1 for the top, 2 and 3 for their mirror images, plus 4 * n in a
-                                 fused part. Anterior mitral leaflet: 0 is the triangle at the posteromedial commissure, 1 the
-                                 side, 2 the middle, 3 the mirrored middle, 4 the mirrored side, 5 the mirrored triangle.
-                                 Posterior mitral leaflet: 6 is a side scallop, 7 half of the middle scallop, 8 the mirrored half,
-                                 9 the mirrored side scallop. Bileaflet: 2 * leaflet, plus 0 or 1 for the half; 4 to 7 are the
-                                 quarters of the ring. Skirt: the id of the patch that it continues, plus the number of patch ids
-                                 without the skirt: 10 for mitral, 12 for three cusps without a fused commissure */
+  const int32_t *patch_id;    /* (n_triangles). From arrays: 0, skirt: 1. Patches of the caller have their numbers from 0. A valve
+                                 of n cusps has 4 * leaflet, plus 0 for the bottom, 1 for the top, 2 and 3 for their mirror
+                                 images, plus 4 * n in a fused part. The anterior mitral leaflet has 0 for the triangle at the
+                                 posteromedial commissure, 1 for the side, 2 for the middle, and 3, 4, 5 for the mirror images of
+                                 2, 1, 0. The posterior mitral leaflet has 6 for a side scallop, 7 for half of the middle scallop,
+                                 and 8 and 9 for the mirror images of 7 and 6. A bileaflet valve has 2 * leaflet, plus 0 or 1 for
+                                 the half, and 4 to 7 for the quarters of the ring. A skirt has the id of the patch that it
+                                 continues, plus the number of patch ids without the skirt: 10 for mitral, 12 for three cusps
+                                 without a fused commissure */
 } riis_triangles;
 /* Gives the triangles of the surface, until its next update or its destruction. */
 RIIS_API riis_status riis_surface_get_triangles(const riis_surface *surface, riis_triangles *triangles,
                                                 int64_t struct_size);
 
-/* The attachment of a valve, after placement: the edges at which tissue or a stent holds its leaflets. The edges follow the order
+/* The attachment of a valve, after placement: the edges at which tissue or a stent holds its leaflets. The edges have the order
  * of the patches, and along a side the order of u or v. */
 typedef struct riis_attachment {
   int64_t n_edges;           /* the number of edges; edges of length 0 are left out */
@@ -238,14 +237,14 @@ RIIS_API riis_status riis_surface_get_attachment(const riis_surface *surface, ri
 /* ---- Motion: surfaces with velocities, from two states of a valve or from frames ----------------------- */
 
 /* Replaces the surface's content by a valve, and gives every vertex a velocity. The triangles are those that riis_surface_update
- * makes, to the last bit. For a valve at rest, also pass the valve as valve_before.
- *   `valve_before`: the earlier state, of the same kind. A valve from patches has the same curves and sides.
+ * makes, to the last bit. For a valve at rest, also pass the valve as valve_before. `valve_before`: the earlier state, of the
+ * same kind. Valves from patches must have the same curves and sides.
  *   `dt`: the time from valve_before to valve, 1e-30 to 1e30, or -1e30 to -1e-30 if time runs back.
  *   `options_before`: scale, rotation and translation of the earlier state; other fields are ignored. NULL: as now.
- * Each vertex is compared with the point of the earlier state at the same patch, u and v. The velocity of the vertex is the
- * displacement from that point, divided by dt (docs/theory/velocity.md). A warp does not change u and v, so vertices on the wall
- * have the wall's velocity (docs/theory/warp.md). The velocity is a mean over the step. This mean approximates the velocity in
- * the middle of the step to second order, and the velocity at either end to first order.
+ * The velocity of a vertex is its displacement divided by dt. The displacement starts at the point of the earlier state with the
+ * same patch, u and v (docs/theory/velocity.md). A warp does not change u and v, so vertices on the wall have the wall's velocity
+ * (docs/theory/warp.md). As a mean over the step, the velocity is accurate to second order in the middle of the step, and to
+ * first order at its ends.
  * Errors: as riis_surface_update. RIIS_INVALID_PARAMETER for a valve_before of another kind or other patches, or
  * with parameters that do not fit together. */
 RIIS_API riis_status riis_surface_update_moving(riis_surface *surface, const riis_valve *valve,
@@ -253,13 +252,13 @@ RIIS_API riis_status riis_surface_update_moving(riis_surface *surface, const rii
                                                 const riis_surface_options *options,
                                                 const riis_surface_options *options_before);
 
-/* Interpolation between keys in time. A time counts as a key, or as a key plus whole periods, if the difference is at most 8 *
- * 2^-52 of the largest of time, key and period. */
+/* Interpolation between keys in time. A time is rounded to a key, or to a key plus whole periods, if the difference is at most
+ * 2^-49 of the largest of time, key and period. */
 enum {
   RIIS_INTERPOLATION_LINEAR = 0, /* the rate jumps at keys; at a key it has the value after the jump */
   RIIS_INTERPOLATION_CUBIC = 1   /* monotone between keys, with a continuous rate (Fritsch, Butland 1984) */
 };
-/* A surface that moves by frames, such as a patient's valve: the vertices move, the faces stay the same. */
+/* A surface whose vertices move from frame to frame, such as a patient's valve. The faces stay the same. */
 typedef struct riis_keyframes riis_keyframes;
 /* The frames of a surface that moves, in the caller's arrays. */
 typedef struct riis_keyframe_arrays {
@@ -286,7 +285,7 @@ RIIS_API riis_status riis_keyframes_create(const riis_surface_arrays *arrays,
 RIIS_API void riis_keyframes_destroy(riis_keyframes **keyframes);
 /* Makes a surface from the frames around a time, with velocities.
  *   `time`: finite, magnitude at most 1e30.
- *   `dt`: the velocity is the mean from time - dt to time; for 0 it is the derivative of the interpolation.
+ *   `dt`: the velocity is the mean from time - dt to time, or for dt == 0 the derivative of the interpolation at that time.
  * Errors: as riis_surface_create_from_arrays. */
 RIIS_API riis_status riis_surface_create_from_keyframes(const riis_keyframes *keyframes, double time, double dt,
                                                         const riis_surface_options *options,

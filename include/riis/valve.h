@@ -17,31 +17,32 @@ extern "C" {
 /* A parametric valve: its kind and its parameters' values. The geometry is made by riis_surface_create. */
 typedef struct riis_valve riis_valve;
 
-/* Makes a valve with the default parameter values. The defaults of "aortic" and "mitral" are the paper's.
- *   `kind`: one of these (docs/theory.md); any other is RIIS_INVALID_PARAMETER:
- *     "aortic" and "mitral", the paper's three cusps and two leaflets
- *     "coapting", "bicuspid" and "quadricuspid", three, two and four cusps with a zone of coaptation
- *     "tricuspid" and "mitral_coapting", three and two leaflets of an annulus, with a zone of coaptation
- *     "trileaflet", three equal cusps that close in straight lines
- *     "bileaflet", a mechanical prosthesis. */
+/* Makes a valve with the default parameter values. For "aortic" and "mitral" the defaults come from the paper.
+ *   `kind`: one of these names (docs/theory.md). Any other name gives RIIS_INVALID_PARAMETER.
+ *     - "aortic" and "mitral", the paper's three cusps and two leaflets
+ *     - "coapting", "bicuspid" and "quadricuspid", three, two and four cusps with a zone of coaptation
+ *     - "tricuspid" and "mitral_coapting", three and two leaflets of an annulus, with a zone of coaptation
+ *     - "trileaflet", three equal cusps that close in straight lines
+ *     - "bileaflet", a mechanical prosthesis. */
 RIIS_API riis_status riis_valve_create(const char *kind, riis_valve **valve);
 /* Makes a second valve with the same parameters, patches and states. The caller destroys both valves. */
 RIIS_API riis_status riis_valve_copy(const riis_valve *valve, riis_valve **copy);
-/* Destroys the valve. Surfaces made from this valve do not change, and valves whose open state is this valve do not change. */
+/* Destroys the valve. Surfaces that were made from the valve do not change. Valves that use it as their open state do not
+ * change. */
 RIIS_API void riis_valve_destroy(riis_valve **valve);
 
-/* Sets a parameter by its name in the paper. Whether all values fit together is checked by riis_surface_create.
- *   `name`: such as "root_radius". Names such as "right.leaflet_angle", "commissure_0.fusion" and "bump_0.open" mean the
- *     parameter of one part. The name "leaflet_angle" means this parameter of all parts, or the valve's own parameter if the
- *     valve itself has it.
+/* Sets a parameter by its name in the paper. riis_surface_create checks that all values fit together.
+ *   `name`: such as "root_radius". A name such as "right.leaflet_angle", "commissure_0.fusion" or "bump_0.open" sets the
+ *     parameter of one part. The name "leaflet_angle" alone sets the parameter of all parts, or of the whole valve if it has such
+ *     a parameter.
  *   `n_values`: 3 for rotation, translation (x, y, z), t0_* and t3_* (right, left, non-coronary cusp); 1 for others.
  *   `values` (n_values), within the parameter's range.
  * Two parameters change the whole valve:
- * - "opening", 0 to 1, moves the valve from a closed to an open state. One set of parameters describes both states. The default
- *   is 1 (open) for the mitral valve, and 0 for other valves. The aortic valve at opening 0 is the paper's closed state, which
- *   leaves a hole. A valve from patches has only opening 0 until riis_valve_set_open_state. To move a valve, set "opening" and
- *   call riis_surface_update.
- * - "skirt_length" gives any valve except "bileaflet" a skirt. The skirt is a strip from the attachment outwards, and
+ * - "opening", 0 to 1, moves the valve from its closed to its open state. One set of parameters describes both states. The
+ *   default is 1 (open) for the mitral valve, and 0 for other valves. The aortic valve at opening 0 is the paper's closed state,
+ *   which leaves a hole. A valve from patches has only opening 0 until riis_valve_set_open_state. To move a valve, set "opening"
+ *   and call riis_surface_update.
+ * - "skirt_length" gives any valve except "bileaflet" a skirt. The skirt is a strip that leads outwards from the attachment and
  *   closes the gap to the wall (docs/theory/skirt.md). The length is 0 (the default), or 1e-4 to 10 times
  *   the mean distance of the attachment from its axis. The skirt_length of an open state is ignored.
  * Errors: RIIS_INVALID_PARAMETER naming the parameter and the value. */
@@ -60,9 +61,9 @@ RIIS_API riis_status riis_valve_get(const riis_valve *valve, const char *name, i
  *   `stj`: the diameter at the commissures, 2 leaflet_radius_out (aortic, trileaflet) or 2 commissure_radius (coapting, bicuspid,
  *     quadricuspid).
  *   `effective_height`: the height of the free edges above the annulus, leaflet_height (aortic, trileaflet). The other kinds with
- *     cusps have it as a parameter, for the middle of the edges.
- * Some parameters have a rule: until they are set, they follow from other parameters. The order of calls does not matter. The
- * call riis_valve_get gives the present values of such parameters. Copies and open states remember which parameters were set. */
+ *     cusps have a parameter of this name, for the middle of the edges.
+ * Some parameters have a rule: until they are set, they follow from other parameters. Parameters may be set in any order. The
+ * call riis_valve_get gives the present values of such parameters. Copies and open states also know which parameters were set. */
 
 /* Returns a parameter to the value that its rule gives, or to its default if it has no rule.
  *   `name`: as in riis_valve_set.
@@ -74,14 +75,14 @@ RIIS_API riis_status riis_valve_unset(riis_valve *valve, const char *name);
  * Errors: RIIS_INVALID_PARAMETER, also for a name that means all cusps. */
 RIIS_API riis_status riis_valve_is_set(const riis_valve *valve, const char *name, int32_t *is_set);
 
-/* Gives the valve a second state. At opening 0 the valve then has its own state, and at opening 1 the state of the valve `open`.
- *   `open`: a valve of the same kind, which is copied. The opening, leaflet ids and open state of the second valve are ignored.
- *     Two valves from patches must have the same curves, sides and degrees (degree 1 may stand for degree 2). Two bileaflet
- *     valves must both have a ring, or both lack it.
- * A second call replaces the open state. No call removes an open state. Control points are blended linearly between the states
- * (docs/theory/openings.md). A bileaflet valve blends lengths and angles instead. The middle of a coapting cusp's free edge hangs
- * as deep as the edge's length requires. All kinds except aortic and bileaflet take the closed shape from their own parameters,
- * and the open shape from the parameters of `open`.
+/* Gives the valve an open state. At opening 0 the valve then has its own shape, and at opening 1 the shape of the valve `open`.
+ *   `open`: a valve of the same kind, which is copied. The opening, leaflet ids and open state of `open` are ignored. Two valves
+ *     from patches must have the same curves, sides and degrees (degree 1 may stand for degree 2). If one of two bileaflet valves
+ *     has a ring, the other must also have one.
+ * A second call replaces the open state. No call removes an open state. Between the states, control points are interpolated
+ * linearly (docs/theory/openings.md). A bileaflet valve interpolates lengths and angles instead. The middle of a coapting cusp's
+ * free edge hangs as deep as the edge's length requires. All kinds except aortic and bileaflet take the closed shape from their
+ * own parameters, and the open shape from the parameters of `open`.
  * Errors: RIIS_INVALID_PARAMETER for another kind, or other curves, degrees or sides. */
 RIIS_API riis_status riis_valve_set_open_state(riis_valve *valve, const riis_valve *open);
 
@@ -90,7 +91,7 @@ RIIS_API riis_status riis_valve_set_open_state(riis_valve *valve, const riis_val
  * - The sides u = 0 and u = 1 run from the side v = 0 to the side v = 1.
  * - Sides must meet at corners to 1e-9 of the valve's size. A side may consist of a single point.
  * - Normals point along S_u x S_v.
- * - Patches that name the same curve meet without cracks. */
+ * - Patches with a common curve meet there without cracks. */
 typedef struct riis_patches {
   int64_t struct_size;       /* set by the init function */
   int64_t n_curves;          /* 1 to 4,000,000; each is a side of a patch */
@@ -131,9 +132,9 @@ RIIS_API riis_status riis_valve_get_n_parameters(const riis_valve *valve, int64_
 RIIS_API riis_status riis_valve_get_parameter(const riis_valve *valve, int64_t parameter_id,
                                               riis_parameter *parameter, int64_t struct_size);
 
-/* The curves and patches of a valve at its opening, after a warp and before placement. If n_pieces equals n_curves, these arrays
- * also fit into riis_patches, and make the same shape there. Trileaflet and aortic valves and valves from patches have as many
- * pieces as curves. Only a warp with landmarks on the curves adds pieces (riis_valve_set_warp). */
+/* The curves and patches of a valve at its present opening, after a warp and before placement. If n_pieces equals n_curves,
+ * riis_patches can take these arrays, and gives the same shape. Trileaflet and aortic valves and valves from patches have one
+ * piece for each curve. A warp with landmarks on the curves adds pieces (riis_valve_set_warp). */
 typedef struct riis_valve_patches {
   int64_t n_curves;           /* curves; each is a side of a patch */
   int64_t n_pieces;           /* Bezier pieces of all curves. Sides of mitral and bileaflet patches may have several */
@@ -151,9 +152,10 @@ typedef struct riis_valve_patches {
                                  0. The arc's middle control point lies bulge |W| unit(W x T) beside the middle of the straight
                                  line */
 } riis_valve_patches;
-/* Gives the curves and patches of a valve at its opening. The arrays are valid until the next call that may change the
- * valve. Along a side, u or v is the share of the side's length up to the point. All normals S_u x S_v have the directions that
- * riis_surface_create describes. A mitral patch has a bulge, so a Coons patch of its sides differs from it.
+/* Gives the curves and patches of a valve at its present opening. The arrays are valid until the next call that may change the
+ * valve. Along a side, u or v is the length from the side's start to the point, divided by the length of the side. All normals
+ * S_u x S_v have the directions that riis_surface_create describes. A mitral patch has a bulge, and therefore differs from the
+ * Coons patch with the same sides.
  * Errors: RIIS_INVALID_PARAMETER as riis_surface_create. */
 RIIS_API riis_status riis_valve_get_patches(riis_valve *valve, riis_valve_patches *patches, int64_t struct_size);
 

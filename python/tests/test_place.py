@@ -301,7 +301,7 @@ def test_landmarks_must_be_at_the_nodes(tmp_path):
         assert placed(axes, "mm", -1, 1, axes=other).axes == other
     with pytest.raises(riis.InvalidArgumentError, match="in millimetres, they are .* give unit='mm'"):
         placed("LPS", "cm", 1, 0.1)
-    words = "in millimetres and with x and y reversed.* give unit='mm' and give axes='RAS'"
+    words = "in millimetres and with the signs of x and y reversed.* give unit='mm' and give axes='RAS'"
     with pytest.raises(riis.InvalidArgumentError, match=words):
         placed("LPS", "cm", -1, 0.1)
     with pytest.raises(riis.InvalidArgumentError, match="reversed.* state the axes of the file"):

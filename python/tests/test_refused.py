@@ -421,7 +421,7 @@ REFUSED = {
     "scale of a sweep": (Argument, "^scale is 0", lambda o: riis.Valve().swept_volume(0.0, 1.0, scale=0.0)),
     "cells without adjacency": (Argument, "^mesh has no adjacency, .* see Mesh.set_adjacency$",
                                 lambda o: riis.mark(o.surface, two_nodes()).cells_across(riis.Mesh(o.triangle[:2]))),
-    "cells of empty marks": (Argument, "^marks are empty: call riis.mark", lambda o: riis.Marks().cells_across(chain(o))),
+    "cells of empty marks": (Argument, "^marks are empty: first call riis.mark", lambda o: riis.Marks().cells_across(chain(o))),
     "mesh of cells": (TypeError, "mesh: must be a riis.Mesh", lambda o: o.marks.cells_across(o.surface)),
     "area out of reach": (Argument, "^area 1 is 9, which is out of reach: from opening 0 to 1", lambda o: riis.find_by_area(
         riis.Valve("bileaflet"), numpy.array([1.0, 9.0]), n_samples=3)),

@@ -31,7 +31,7 @@ struct Band {
     if (!steps_aside() || !(distance > 0)) return distance;
     const double cosine = height / distance, along = offset * cosine;
     const double root = std::sqrt(1 - offset * offset * ((1 - cosine) * (1 + cosine)));
-    // Neither formula subtracts numbers of the same sign, so no digits are lost. For a node off the rim, the root is 1.
+    // Neither formula of a root subtracts numbers of the same sign, so no digits are lost. For a node off the rim, the root is 1.
     const double made =
         root == 1 || along >= 0 ? distance / (along + root) : distance * (root - along) / ((1 - offset) * (1 + offset));
     double least = distance / reach_of(1);
@@ -39,8 +39,8 @@ struct Band {
     return made < least ? least : made;
   }
   bool holds(double distance, double height) const {
-    // The sign of the equation at the half thickness decides without a root. Only near the edge of the band could rounding change
-    // this decision.
+    // The sign of the equation at the half thickness decides without a root. Rounding could change this decision only near the
+    // edge of the band.
     constexpr double near_edge = 1e-6;
     const double e = half_thickness,
                  over = ((1 - offset) * (1 + offset) * e + 2 * offset * height) * e - distance * distance;

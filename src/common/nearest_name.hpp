@@ -11,7 +11,7 @@
 namespace riis {
 
 // Returns the number of changes that turn one name into the other. A change replaces, adds or removes a letter, or swaps two
-// neighbouring letters. Capitals count as small letters. Only the first 80 letters are compared.
+// neighbouring letters. Capitals count as small letters. Only the first 80 letters of a name are compared.
 inline std::size_t edit_distance(std::string_view a, std::string_view b) {
   constexpr std::size_t longest = 80;
   a = a.substr(0, longest);
@@ -35,7 +35,7 @@ inline std::size_t edit_distance(std::string_view a, std::string_view b) {
   return rows[a.size() % 3][b.size()];
 }
 
-// Compares candidates, and keeps the nearest. Among equally near candidates, it keeps the first. It ignores very different names.
+// Compares candidates, and keeps the nearest, or the first of several equally near ones. It ignores very different names.
 class NearestName {
  public:
   explicit NearestName(std::string_view name)

@@ -40,8 +40,8 @@ struct CutVessels {
 Triangles surface_of(const std::function<double(const Vector3 &)> &function, const Vector3 &lower, double side,
                      int n_cells);
 
-// Cuts off the part beyond a plane, within a ball around a point of the plane. Closes the cut with a cap. Returns the end, which
-// is measured even if it stays open.
+// Cuts off the part beyond a plane, within a ball around a point of the plane. Closes the cut with a cap. Returns the cut end,
+// which is measured even if it stays open.
 CutEnd cut(Triangles &triangles, const Vector3 &point, const Vector3 &outward, double radius, Cap cap,
            random_source &random);
 

@@ -263,8 +263,8 @@ TEST(test_foam) {
               "mark", box, "--cells", "--resistance", "2", "--output", time);
   RUN_REFUSED(2, "--k-unit has no effect on the fields of OpenFOAM, whose K has the unit 1/s", "mark", box, "--cells",
               "--resistance", "2", "--density", "1060", "--k-unit", "1/s", "--output", time);
-  RUN_REFUSED(2, "--density has no effect: it divides K only in the fields of an OpenFOAM case", "mark", box, "--cells",
-              "--resistance", "2", "--density", "1060", "--output", scratch_path("out.vtu"));
+  RUN_REFUSED(2, "--density has no effect: only the fields of an OpenFOAM case have K divided by the density", "mark",
+              box, "--cells", "--resistance", "2", "--density", "1060", "--output", scratch_path("out.vtu"));
   RUN_REFUSED(2, "box/7 takes fields of cells: write --cells", "mark", box, "--output", time);
   RUN_REFUSED(2, "--cells: --picture shows marks of nodes", "mark", box, "--cells", "--picture", "a.png");
   RUN_REFUSED(2, "--cells: --steps marks nodes, not centres", "mark", box, "--cells", "--steps", "3");

@@ -138,8 +138,8 @@ TEST(test_files_of_leaflets) {
                      "\"middle.ply\", \"deep.vtk\"]}]}");
   RUN_FINE("mark", "--case", scratch_path("case.json"), "--output", scratch_path("out.vtu"), "--quiet");
   expect_leaflets(scratch_path("out.vtu"), (int[3]){0, 1, 2});
-  RUN_REFUSED(2, "--leaflets has no effect with several files: each file is a leaflet", "mark", mesh, THREE_FILES,
-              "--leaflets", "connected");
+  RUN_REFUSED(2, "--leaflets has no effect with several files, because each file is one leaflet", "mark", mesh,
+              THREE_FILES, "--leaflets", "connected");
   RUN_REFUSED(2, "--surface: one of ", "mark", mesh, "--surface", paths[0], "--surface", "a.pvd");
   RUN_REFUSED(1, "none.obj: cannot be read: No such file or directory", "mark", mesh, "--surface", paths[0],
               "--surface", "none.obj");

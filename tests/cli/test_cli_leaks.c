@@ -127,7 +127,8 @@ TEST(test_fine_meshes_do_not) {
     write_mesh("fine.vtu", surface, 0.2);
     RUN_FINE("mark", scratch_path("fine.vtu"), "--valve", kinds[i], "--opening", "0");
     assert_string_equal(program_leaks, "");
-    assert_non_null(strstr(program_out, "leaks     none: no edge crosses the surface between unmarked nodes\n"));
+    assert_non_null(
+        strstr(program_out, "leaks     none: no mesh edge between two unmarked nodes crosses the surface\n"));
     riis_surface_destroy(&surface);
   }
 }

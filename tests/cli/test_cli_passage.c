@@ -210,7 +210,7 @@ TEST(test_pieces) {
               "--between", "0.1,0,0.6", "0,0,8.5", NULL);
   assert_int_equal(program_exit_code, 0);
   assert_non_null(strstr(program_err, "nothing to seal: the mesh itself does not join 0.1 0 0.6 and 0 0 8.5\n"));
-  assert_non_null(strstr(program_out, "\npassage   none: the mesh itself does not join the two points\n"));
+  assert_non_null(strstr(program_out, "\npassage   none, because the mesh itself does not connect the two points\n"));
   RUN_REFUSED(2, "--between: FROM, 0 0 4, is outside the mesh: the nearest node, 3, is 3 away", "check", "leaks",
               scratch_path("pieces.vtk"), "--surface", scratch_path("one.stl"), "--allow-none", "--between", "0,0,4",
               "0,0,8.5");

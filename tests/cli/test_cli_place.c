@@ -716,8 +716,8 @@ TEST(wrong_axes_are_named) {
     n += snprintf(text + n, sizeof text - (size_t)n, "%s,%.17g,%.17g,%.17g\n", names[i], -p[0] - 9.5, -p[1] - 10, p[2]);
   }
   scratch_write_text("far.csv", text);
-  RUN_REFUSED(1, "with x and y reversed, as between LPS and RAS, they are", "place", scratch_path("far.csv"), "--mesh",
-              scratch_path("far.vtu"), "--quiet");
+  RUN_REFUSED(1, "with the signs of x and y reversed, as between LPS and RAS, they are", "place",
+              scratch_path("far.csv"), "--mesh", scratch_path("far.vtu"), "--quiet");
   assert_non_null(strstr(program_err, "give --axes LPS"));
   RUN_FINE("place", scratch_path("far.csv"), "--mesh", scratch_path("far.vtu"), "--quiet", "--axes", "LPS");
   RUN_REFUSED(2, "states the axes mesh", "place", json_of("a.json", "cm", 1, "mesh", 1, ""), "--mesh",

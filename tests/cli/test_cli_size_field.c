@@ -240,8 +240,8 @@ TEST(refusals) {
   RUN_REFUSED(2, "--spacing: the grid would have ", "size-field", "-", "--spacing", "1e-4");
   RUN_REFUSED(2, "--spacing: inf is not above 0 and finite", "size-field", "-", "--spacing", "inf");
   RUN_REFUSED(2, "--count: 1 is not from 2 to 100001", "size-field", "-", "--count", "1");
-  RUN_REFUSED(2, "--count has no effect: there is only one opening", "size-field", "-", "--opening", "0.5", "--count",
-              "3");
+  RUN_REFUSED(2, "--count has no effect, because the command uses only one opening", "size-field", "-", "--opening",
+              "0.5", "--count", "3");
   RUN_REFUSED(2, "--times needs --cycle", "size-field", "-", "--times", "0:1:0.5");
   RUN_REFUSED(1, "no such folder", "size-field", scratch_path("no such folder/field.dat"));
 }

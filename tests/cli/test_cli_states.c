@@ -348,7 +348,7 @@ static void run_flat_triangle(const char *sides) {
   assert_int_equal(table.n_rows, 1);
   CHECK_NEAR(cell(0, "leaflet_0_area"), 1, 1e-12);
   CHECK_NEAR(cell(0, "orifice_area"), 0, 1e-9);
-  expect_said("only opening 0, because it has no open state\n");
+  expect_said("only opening 0, because the valve has no open state\n");
   expect_said("; the outline of the attachment has 1\n");
 }
 
@@ -361,7 +361,7 @@ TEST(test_collapsed_sides) {
   CHECK_NEAR(cell(0, "leaflet_0_edge"), sqrt(5), 1e-12);
   run_flat_triangle("\"v0\": \"slope\", \"v1\": \"origin\", \"u0\": \"-x\", \"u1\": \"-y\"");
   assert_false(has_column("leaflet_0_edge"));
-  expect_said("edges     not measured: a leaflet has no side v = 1 on its rim\n");
+  expect_said("edges     not measured: a leaflet has no side v = 1 that is free\n");
 }
 
 /* Two patches above each other share a side. The common side is the side v = 1 of one patch, but it is not a free edge. The
@@ -503,7 +503,8 @@ TEST(test_refusals) {
   RUN_REFUSED(2, "OUT: the value is empty", "states", "");
   RUN_REFUSED(2, "OUT is required", "states");
   RUN_REFUSED(2, "in.vtu is one argument too many", "states", csv, scratch_path("in.vtu"));
-  RUN_REFUSED(2, "--set opening has no effect: the table has all openings", "states", csv, "--set", "opening=0.5");
+  RUN_REFUSED(2, "--set opening has no effect, because the table lists all openings", "states", csv, "--set",
+              "opening=0.5");
   const char *const others[] = {"--opening=0.5", "--rotate=0,0,1,90", "--threads=1", "--case=a.json"};
   for (size_t i = 0; i < sizeof others / sizeof others[0]; ++i)
     RUN_REFUSED(2, " is not an option", "states", csv, others[i]);

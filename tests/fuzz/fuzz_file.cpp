@@ -91,7 +91,7 @@ void read_motion() {
   use_motion(status, read, named());
 }
 
-// Reads the list of a mesh in pieces. A piece that the list names is refused, because the folder has no grid.
+// Reads the list of a mesh in pieces. A listed piece is refused, because the folder has no grid.
 void read_pieces() {
   riis_vtk_pieces *read = nullptr;
   if (!is_fine(riis_vtk_pieces_read(file().path().c_str(), &read), RIIS_FILE_ERROR)) {

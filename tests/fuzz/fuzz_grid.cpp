@@ -95,7 +95,7 @@ bool is_made(riis_status status) {
   return false;
 }
 
-// The nodes of the grid as points. Each point has its number.
+// Gives the nodes of the grid as points. Each point has its number.
 struct Points {
   std::vector<double> xyz;
   std::vector<std::int64_t> number;
@@ -219,7 +219,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *bytes, std::size_t siz
   Input in(bytes, size);
   const Surface &surface = surfaces[in.below(2)];
   riis_mesh *mesh = nullptr;
-  // A second grid replaces the first one. A refused grid changes nothing.
+  // If two grids are valid, the second grid replaces the first. A refused grid changes nothing.
   Case last;
   for (int turn = 0; turn < 2; ++turn) {
     Case of = case_of(in);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Turns the fuzzer's bytes into choices, numbers and files. After the last byte every choice is 0, which is always harmless.
+// Turns the fuzzer's bytes into choices, numbers and files. When all bytes are used, every choice is 0, which is always harmless.
 #pragma once
 
 #include <fcntl.h>

@@ -44,7 +44,8 @@ Seen run_loop(std::int64_t n_blocks, int n_threads, LoopChoice *choice = nullptr
       return;
     }
     Thread &thread = threads[static_cast<std::size_t>(number)];
-    // After its own share, a thread goes on to the next shares. After the last share comes the first share.
+    // After its own share, a thread goes on to the next shares. The order of shares is cyclic: the first share follows the last
+    // share.
     thread.n_descents += block < thread.last;
     if (thread.n_inside.fetch_add(1) != 0 || block == thread.last || thread.n_descents > (number == 0 ? 0 : 1))
       is_right = false;
@@ -202,7 +203,7 @@ int caller_calls_a_team_later() {
       1'000'000, 2,
       [&](std::int64_t, int thread) {
         if (n_come >= 2) return;
-        // The calling thread works alone until a second thread comes. Then each thread waits for the other thread.
+        // The calling thread works alone until a second thread comes, and then both threads wait for each other.
         if (thread == 1 || n_alone.load() >= 10) {
           n_come.fetch_add(1);
           wait_for(n_come, 2);

@@ -275,7 +275,7 @@ static void posterior(const mitral_oracle *o, real v, real *point) {
   by_length(&o->scallop[scallop], 3 * v - scallop, point);
 }
 
-/* Gives L(u) in the cases of the paper's section "Leaflet surfaces". 1 - r_at = 2 u_pm. */
+/* Gives L(u) in the cases of the paper's section "Leaflet surfaces". The number 1 - r_at equals 2 u_pm. */
 static void leaflet_at(const mitral_oracle *o, real u, real *point) {
   const real first = o->u_pm + o->triangle, last = o->u_al - o->triangle;
   if (u < o->u_pm)

@@ -44,7 +44,7 @@ tbb_seen tbb_run(int region, int n_tasks, void (*body)(void *data, int task), vo
             std::this_thread::yield();
           }
           for (int task = range.begin(); task < range.end(); ++task) body(data, task);
-          // The whole process has one limit on threads, so calls of other tasks may have raised it meanwhile.
+          // The whole process has one limit on TBB's threads, so calls of other tasks may have raised it meanwhile.
           n_changed += tbb::this_task_arena::max_concurrency() != arena;
           --n_running;
         },

@@ -603,9 +603,9 @@ Vector<Vec3> offset_moves(const TwoStates &states, std::size_t patch, const TwoC
   return made;
 }
 
-// A map adds a part to a warped Coons patch. Bounds how far this part deviates from linear, on a range of u or of v. On [0, 1],
-// the sizes of the part's polynomials' second derivatives add up to at most 81. The sizes of the polynomials' values add up to at
-// most 1.3.
+// A warp's map adds a part to the displacement inside a warped Coons patch. Bounds how far this part deviates from linear, on a
+// range of u or of v. On [0, 1], the sizes of the part's polynomials' second derivatives add up to at most 81. The sizes of the
+// polynomials' values add up to at most 1.3.
 double off_linear(const RestInside &rest, double width) {
   double size = 0;
   for (const double u : {1. / 3, 2. / 3})

@@ -13,8 +13,8 @@
 
 namespace {
 
-// The report must name this variable. The variable has a separate cache line, away from the often-used flags, because the
-// sanitizer remembers few accesses to each eight bytes.
+// The report of the sanitizer must name `planted`. The variable has a separate cache line, away from the often-used flags,
+// because the sanitizer remembers few accesses to each eight bytes.
 alignas(64) int planted = 0;
 alignas(64) std::atomic<int> n_come{0};
 std::atomic<bool> is_written{false}, is_written_again{false};

@@ -115,7 +115,8 @@ class vtkPolyData;
 template <class T>
 class vtkSmartPointer;
 
-// Returns triangles with the vertices xyz (3, n_points) and corners (3, n_triangles). The other shims use these triangles.
+// Returns triangles with the vertices xyz (3, n_points) and corners (3, n_triangles). The functions of other shims use the
+// returned triangles.
 vtkSmartPointer<vtkPolyData> shim_polydata(int64_t n_points, const double *xyz, int64_t n_triangles,
                                            const int64_t *corners);
 #endif

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a surface. Out: points on the surface that stand for equal shares of its area, as nearly as its triangles allow.
+// The input is a surface. The results are points on the surface that stand for equal shares of its area, as nearly as its
+// triangles allow.
 #pragma once
 
 #include <riis/riis.h>
@@ -9,7 +10,7 @@
 
 namespace riis::program {
 
-// A run warns if more than a small share of the leaflets' area is outside the mesh.
+// A run warns if too large a share of the leaflets' area is outside the mesh.
 inline constexpr double most_outside = 0.02;
 
 struct AreaSamples {
@@ -18,7 +19,7 @@ struct AreaSamples {
   std::vector<std::int32_t> leaflet;
 };
 
-// Samples the leaflets, but not the skirt and the housing. Each triangle is cut into equal triangles, with a point in each.
+// Samples the leaflets, but not the skirt and the housing. Each triangle is divided into equal triangles, with a point in each.
 AreaSamples area_samples(const riis_surface *surface);
 
 }  // namespace riis::program

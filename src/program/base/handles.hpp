@@ -35,7 +35,7 @@ Object create(const Call &call, const Arguments &...arguments) {
   return create_for<Object>("", call, arguments...);
 }
 
-// The functions below copy the content of a handle into a struct.
+// The functions below copy the content of a library's handle into a struct.
 inline riis_triangles triangles_of(const riis_surface *surface) {
   return get<riis_triangles>(riis_surface_get_triangles, surface);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The options of each command, as the user gave them. The program checks only the form of an option, and the library checks its
+// The options of each command, as the user gave them. The program checks only the form of an option. The library checks its
 // value. The library checks the values.
 #pragma once
 

@@ -14,7 +14,7 @@ namespace riis::program {
 
 namespace {
 
-// A product of powers of kilograms, metres and seconds, with a factor.
+// A unit, as a product of powers of kilograms, metres and seconds, with a factor.
 struct Product {
   double si = 1;
   int mass = 0, length = 0, time = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Quantities of the flow, such as R, and their units (docs/program.md, "Units of R").
-// In: a number as the user wrote it, perhaps with a unit. Out: the number in the units of a mesh, and the names of units.
+// The input is a number as the user wrote it, perhaps with a unit. The result is the number in the units of a mesh, and the names
+// of units.
 //
 // The unit of mass is the kilogram for a mesh in metres, and the gram for a mesh in centimetres or millimetres. If the mesh's
 // unit of length is known, a number without a unit is in SI units. If the unit of the mesh is not known, the number is in the

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The processes of a run. There is one process if the program was built without MPI or started without mpirun. With mpirun there
+// The processes of a run. If the program was built without MPI or started without mpirun, there is one process. With mpirun there
 // are several processes, the ranks, and every rank takes its share of a mesh's pieces. Only ranks.cpp calls MPI.
 
 // All ranks call the exchanges in the same order. Each exchange begins with an agreement, in which all ranks learn whether one of
@@ -32,8 +32,8 @@ int n_ranks();
 // Only the first rank prints, and it writes the files that all ranks share.
 inline bool is_first() { return rank() == 0; }
 
-// While an object of this type lives, the first rank works alone. The first rank's exchanges and agreements then have no partner.
-// The other ranks wait in the agreement at the end of the program.
+// While an object of this type lives, the first rank works alone. While the first rank works alone, exchanges and agreements have
+// no partner. The other ranks wait in the agreement at the end of the program.
 class Alone {
  public:
   Alone();
@@ -75,7 +75,7 @@ inline std::int64_t sum(std::int64_t own) {
   return std::accumulate(all.begin(), all.end(), std::int64_t{0});
 }
 
-// Sends each element to the rank that rank_of(element) names. Returns the elements that were sent to this rank.
+// Sends each element to the rank rank_of(element), and returns the elements that were sent to this rank.
 template <class T, class RankOf>
 std::vector<T> exchange(std::vector<T> own, const RankOf &rank_of) {
   static_assert(std::is_trivially_copyable_v<T>);

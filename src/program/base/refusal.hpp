@@ -21,8 +21,8 @@ struct Refusal {
 [[noreturn]] inline void refuse_data(const std::string &text) { throw Refusal{exit_bad_data, text}; }
 [[noreturn]] inline void refuse_usage(const std::string &text) { throw Refusal{exit_wrong_usage, text}; }
 
-// Returns the library's message. If the message begins with the name of a struct's field, the command-line option of this field
-// replaces the name.
+// Returns the library's message. If the message begins with the name of a struct's field, the program replaces this name by the
+// option of the command line.
 inline std::string with_option_named(const std::string &text) {
   static const std::pair<std::string, std::string> options[] = {{"options.scale ", "--scale "},
                                                                 {"options.rotation_axis ", "--rotate: the axis "},

@@ -19,8 +19,8 @@ bool make_pipe(int ends[2]);
 // ended before the call.
 void end_with_parent(int signal);
 
-// Returns the bytes of this process that count towards the limit of its memory (RLIMIT_AS). Returns nothing if the system does
-// not tell this number, or ignores the limit.
+// Returns the bytes of this process that count towards the limit of its memory (RLIMIT_AS). If the system does not tell this
+// number, or ignores the limit, returns nothing.
 std::optional<std::uintmax_t> limited_memory();
 
 }  // namespace riis::program

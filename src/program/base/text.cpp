@@ -167,7 +167,7 @@ std::string text_of_file(const std::string &path) {
   std::ifstream file(path);
   std::ostringstream text;
   if (file) text << file.rdbuf();
-  // Opening a folder as a file succeeds. The failure comes only when the folder is read, so folders are recognised here.
+  // On Linux, a folder can be opened as a file. Reading a folder fails, so folders are recognised here.
   if (!file.is_open() || errno != 0) refuse_file(path, "cannot be read: " + system_text(errno));
   std::string content = text.str();
   if (content.empty()) refuse_file(path, "is empty");
@@ -210,7 +210,7 @@ double tidied(double time, double step) {
 std::vector<double> stepped(double start, double stop, double step, const std::string &subject) {
   if (!(step > 0)) refuse_usage(subject + ": the step " + shortest(step) + " is not above 0");
   if (stop < start) refuse_usage(subject + ": the stop " + shortest(stop) + " is before the start " + shortest(start));
-  // If the step divides the span, rounding could lose the last step. The small additions prevent this.
+  // If the step divides the span, rounding could otherwise lose the last step. The small additions prevent this.
   const double n = std::floor((stop - start) / step * (1 + 1e-12) + 1e-9) + 1;
   if (n > static_cast<double>(most_times)) refuse_count(subject, n);
   if (n < 2) refuse_usage(subject + ": the step " + shortest(step) + " is beyond the stop " + shortest(stop));
@@ -290,7 +290,7 @@ std::vector<CsvLine> csv_lines(const std::string &text) {
     if (line[0] != '#') {
       lines.push_back({where, line, {}});
     } else if (const std::size_t equals = line.find('='); equals != std::string::npos) {
-      // A spreadsheet adds empty cells to a line.
+      // A spreadsheet may add empty cells to a line.
       const std::string value = line.substr(equals + 1, line.find_last_not_of(",; ") - equals);
       lines.push_back({where, "", {{trimmed(line.substr(1, equals - 1)), trimmed(value)}}});
     }

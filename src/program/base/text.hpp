@@ -12,8 +12,8 @@
 
 namespace riis::program {
 
-// In: words of the command line. Out: numbers, which are read alike in every locale. If other characters follow the number, the
-// word is refused as wrong usage. `subject` names the value in the refusal.
+// The inputs are words of the command line. The results are numbers, which are read alike in every locale. If other characters
+// follow the number, the word is refused as wrong usage. `subject` names the value in the refusal.
 
 // Returns the number if the whole text is one number, or nothing.
 std::optional<double> number_in(const std::string &text);
@@ -34,7 +34,7 @@ int decimal_exponent(double number);
 // Returns 10 to the given power as the nearest double, or 0 if a double cannot hold it.
 double power_of_ten(int exponent);
 
-// Returns the texts of the numbers, separated by the given text.
+// Joins the texts of numbers by the given text.
 std::string numbers_text(const double *numbers, std::size_t n, const char *between,
                          std::string (*as_text)(double) = shortest);
 
@@ -45,8 +45,8 @@ std::vector<std::string> split(const std::string &text, const char *marks);
 // joined_by puts a text between the parts. one_of returns a list for a sentence, such as "m, cm or mm".
 std::string joined_by(const std::vector<std::string> &parts, const char *between);
 std::string one_of(const std::vector<std::string> &names);
-// Returns ", did you mean NAME?" with the name nearest to a word, or "" if no name is near. In the suggestion, `before` and
-// `after` enclose the name.
+// Returns ", did you mean NAME?" with the name nearest to a word, or "" if no name is near. The name stands between `before` and
+// `after`.
 std::string did_you_mean(const std::string &word, const std::vector<std::string> &names, const char *before = "",
                          const char *after = "");
 
@@ -59,21 +59,21 @@ inline bool is_control(unsigned char c) { return c < ' ' || c == 127; }
 // Returns the system's message for errno.
 std::string system_text(int error);
 
-// In: a path. Out: the ending of the path, or the text of the file. Refusals name the file.
+// The input is a path. The result is the ending of the path, or the text of the file. Refusals name the file.
 
 // Returns the ending of a path in small letters, from its last point on.
 std::string ending_of(const std::string &path);
 // Returns whether the path has this ending, in small letters or in capitals.
 bool has_ending(const std::string &path, const std::string &ending);
 
-// Refuses the file. The reason may quote parts of the file of any length.
+// Refuses the file. The reason of a refusal may quote parts of the file of any length.
 [[noreturn]] void refuse_file(const std::string &path, const std::string &reason);
 
 // Refuses a file that cannot be read or is empty.
 std::string text_of_file(const std::string &path);
 
-// In: the text of a CSV. Out: the rows, and the facts that lines of the form # NAME = VALUE state. Lines that begin with # and
-// have another form are comments.
+// The input is the text of a CSV. The results are the rows, and the facts that lines of the form # NAME = VALUE state. Lines that
+// begin with # and have another form are comments.
 
 std::string trimmed(const std::string &text);
 // Returns the cells of a line. Commas or semicolons separate cells, except within quotation marks. Within a quoted cell, two
@@ -102,7 +102,7 @@ struct CsvFile {
 CsvFile csv_of_text(const std::string &path, const std::string &text, const std::vector<std::string> &names,
                     const std::string &form, std::size_t n_cells);
 
-// In: the times of a series as the user writes them. Out: the times in ascending order.
+// The input is the times of a series as the user writes them. The result is the times in ascending order.
 
 // The largest number of times in a series.
 inline constexpr std::size_t most_times = 100000;

@@ -15,7 +15,8 @@ namespace {
 
 constexpr std::array<Unit, 3> all_units = {Unit::metre, Unit::centimetre, Unit::millimetre};
 
-// The results are whole numbers. A quotient of two results is thus exactly the number that a user would write, such as 0.01.
+// The results are whole numbers. The quotient of two results is therefore exactly the number that a user would write, such as
+// 0.01.
 double millimetres_of(Unit unit) { return unit == Unit::metre ? 1000 : unit == Unit::centimetre ? 10 : 1; }
 
 bool is_about(double a, double b) { return std::abs(a - b) <= 1e-9 * b; }
@@ -68,8 +69,8 @@ namespace {
 
 // A unit fits if it makes the vessel neither narrower than the least width nor wider than the largest width. The least width
 // limits the mesh's middle side, because a valve is no wider than its vessel. The largest width limits the mesh's shortest side,
-// because a vessel is not much wider than its valve. Both widths are multiples of the valve's largest side. The two widths are a
-// decade apart, so two units seldom fit.
+// because a vessel is not much wider than its valve. Both widths are multiples of the valve's largest side. The two widths differ
+// by a factor of ten, so two units seldom fit.
 constexpr double least_width = 0.4, largest_width = 4;
 // The longest edge of a mesh that can show the valve, as a share of the valve's largest side.
 constexpr double longest_edge = 0.3;
@@ -80,13 +81,13 @@ constexpr double shortest_edge = 0.3;
 // Longer edges mean that the mesh was made for another valve. The limits are a number of half thicknesses, and a share of the
 // valve's largest side.
 constexpr double most_edge = 10, most_edge_of_valve = 0.4;
-// The least half thickness, as a share of the mesh's edge length. A thinner band falls between two layers of nodes and contains
+// The least half thickness, as a share of the mesh's edge length. A thinner band fits between two layers of nodes, and contains
 // few nodes.
 constexpr double smallest_half_thickness = 0.3;
 // A unit is impossible if it makes the vessel much too narrow or much too wide. The larger ratio allows a valve in a wide basin.
 constexpr double most_too_narrow = 1.5, most_too_wide = 10;
-// A unit is possible if its oddity is at most a few times the oddity of the likeliest unit. The oddity of a unit is a product of
-// ratios of at least 1.
+// A unit is possible if its oddity (a measure of how unlikely it is) is at most a few times the oddity of the likeliest unit. The
+// oddity of a unit is a product of ratios of at least 1.
 constexpr double most_odd = 2.7;
 // In a wide basin, the present unit is right if every other unit is clearly odder.
 constexpr double surely_odder = 1.35;

@@ -68,8 +68,8 @@ inline Box empty_box() {
   return {{far, far, far}, {-far, -far, -far}};
 }
 
-// Sums over points, for their moments. The sums tell how far the points reach along their principal axes. A narrow vessel thus
-// does not count as wide if it lies obliquely.
+// Sums over points, for their moments. The sums tell how far the points reach along their principal axes. A narrow vessel that
+// lies obliquely therefore does not count as wide.
 struct Moments {
   double n = 0, sum[3]{}, squares[6]{};  // squares has xx, yy, zz, xy, xz, yz
 

@@ -35,10 +35,10 @@ constexpr milliseconds longest_start{30000};  // of Xvfb; it takes less than a s
 constexpr milliseconds longest_end{3000};
 constexpr const char *name_of_server = "Xvfb";
 
-// The numbers of the file descriptors in Xvfb.
+// The numbers that the file descriptors have in Xvfb.
 enum ServerFile : int { display_file = 3, key_file = 4, n_server_files = 5 };
 
-// A file descriptor that Xvfb's files cannot replace, because its number is above their numbers.
+// A file descriptor whose number is so large that Xvfb's files cannot replace it.
 class File {
  public:
   explicit File(int low) : number_(low < 0 ? -1 : fcntl(low, F_DUPFD_CLOEXEC, 10)) {
@@ -118,8 +118,8 @@ int file_with_key() {
   _exit(127);
 }
 
-// Reads the number of the display. Xvfb writes the number and a line break when it is ready. Returns "" if Xvfb has ended, or if
-// no time is left.
+// Reads the number of the display from Xvfb. Xvfb writes the number and a line break when it is ready. Returns "" if Xvfb has
+// ended, or if no time is left.
 std::string read_number(int file, Clock::time_point end) {
   std::string text;
   for (;;) {

@@ -30,7 +30,7 @@ void check_opening(const ValveOptions &options) {
 
 void check_surface_files(const Command &command, const ValveOptions &options) {
   if (options.surface_files.size() > 1 && !options.leaflets.empty())
-    refuse_usage("--leaflets has no effect with several files: each file is a leaflet");
+    refuse_usage("--leaflets has no effect with several files, because each file is one leaflet");
   if (command.has("--time-step") && !is_motion(options)) refuse_usage("--time-step needs a motion, --surface FILE.dat");
 }
 
@@ -57,7 +57,7 @@ void check_motion(const Command &command, const MarkOptions &options) {
   if (!moves && options.time)
     refuse_usage("--time has no effect with --surface " + options.surface + ": a motion is a .pvd or .dat file");
   if (command.has("--period") && !moves && options.series.cycle.empty())
-    refuse_usage("--period needs a motion, --surface FILE.pvd, or --cycle");
+    refuse_usage("--period needs something that repeats: --surface FILE.pvd or --cycle");
 }
 
 void check_open_state(const ValveOptions &options) {
@@ -69,7 +69,7 @@ void check_open_state(const ValveOptions &options) {
 // and the user would not notice.
 void check_open_state_is_met(const MarkOptions &options) {
   if (!options.params_open.empty() && !sets_opening(options) && options.series.cycle.empty())
-    refuse_usage("--params-open needs --opening or --cycle: otherwise the valve does not open to this state");
+    refuse_usage("--params-open needs --opening or --cycle: without them the valve stays closed");
 }
 
 void check_series(const Command &command, const MarkOptions &options) {
@@ -86,7 +86,7 @@ void check_series(const Command &command, const MarkOptions &options) {
       refuse_usage("--times has no effect with --surface " + options.surface + ": a motion is a .pvd or .dat file");
     return;
   }
-  if (series.cycle.empty()) refuse_usage("--times needs --cycle, the valve's opening in time");
+  if (series.cycle.empty()) refuse_usage("--times needs --cycle, a file with the valve's openings in time");
   check_set_opening(options, "has no effect with --times: see --cycle");
 }
 
@@ -104,8 +104,8 @@ void finish_valve(const Command &command, ValveOptions &options) {
   finish_units(options);
 }
 
-// Completes the options of a surface in a mesh. Options that the command does not have are left at their defaults.
-// `sweeps_openings` says whether the command opens the valve by itself.
+// Completes the options of a surface in a mesh. If the command lacks an option, the option has its default. `sweeps_openings`
+// says whether the command opens the valve by itself.
 void finish_surface_in_place(const Command &command, MarkOptions &options, bool sweeps_openings = false) {
   check_valve(command, options);
   check_series(command, options);
@@ -158,8 +158,8 @@ void check_solver_scale(const ExportOptions &options) {
                " in place of --scale, and riis export converts");
 }
 
-// svMultiPhysics gets numbers in grams, centimetres and seconds. Without --unit, numbers are taken as they are, in the solver's
-// units.
+// svMultiPhysics gets numbers in grams, centimetres and seconds. Without --unit, numbers are taken as they are, because they are
+// in the solver's units.
 void finish_solver_units(ExportOptions &options) {
   check_solver_scale(options);
   const auto in_solver_units = [&](const std::optional<Amount> &given, const Quantity &quantity, double usual) {
@@ -209,12 +209,13 @@ MarkOptions finish_mark(const Command &command, MarkOptions options) {
     options.series.all_cells = true;  // centres have no parts
   }
   if (options.n_steps > 0 && (has_case || !options.series.times.empty()))
-    refuse_usage("--steps has no effect with --times and --case, because --steps moves one valve by itself");
+    refuse_usage("--steps has no effect with --times and --case, which move the valves themselves");
   if (has_case) return options;
   apply_amounts(options);
   if (options.mesh.empty()) refuse_usage("nothing to do: a MESH is needed");
   check_style(command, options);
-  if (options.quiet && !has_output(options)) refuse_usage("nothing to do: --quiet is given and no output is named");
+  if (options.quiet && !has_output(options))
+    refuse_usage("nothing to do: --quiet is given, and no option names an output");
   return options;
 }
 
@@ -240,7 +241,7 @@ MarkOptions finish_leaks(const Command &command, MarkOptions options) {
 SizeFieldOptions finish_size_field(const Command &command, SizeFieldOptions options) {
   finish_surface_in_place(command, options, true);
   if (command.has("--count") && (sets_opening(options) || !options.surface.empty()))
-    refuse_usage("--count has no effect: there is only one opening");
+    refuse_usage("--count has no effect, because the command uses only one opening");
   return options;
 }
 
@@ -248,17 +249,17 @@ StatesOptions finish_states(const Command &command, StatesOptions options) {
   if (command.has("--wall") && options.surface.empty() && !options.skirt)
     refuse_usage("--wall needs --skirt or --surface");
   check_surface_files(command, options);
-  check_set_opening(options, "has no effect: the table has all openings");
+  check_set_opening(options, "has no effect, because the table lists all openings");
   finish_valve(command, options);
   return options;
 }
 
 AreaOptions finish_from_area(const Command &command, AreaOptions options) {
   if (!options.given_area && options.areas.empty()) refuse_usage("nothing to do: --area or --areas is needed");
-  if (!options.areas.empty() && options.output.empty()) refuse_usage("--areas needs --output, the file of the cycle");
+  if (!options.areas.empty() && options.output.empty())
+    refuse_usage("--areas needs --output, the file to which the cycle is written");
   if (options.solve == "opening" && sets_opening(options))
-    refuse_usage(
-        "an opening has no effect, because --solve opening finds the opening; --solve scale or NAME finds a size");
+    refuse_usage("an opening has no effect, because the command finds the opening; --solve scale or NAME finds a size");
   finish_valve(command, options);
   finish_areas(options);
   return options;
@@ -271,7 +272,7 @@ ExportOptions finish_export(const Command &command, ExportOptions options) {
     refuse_usage("--name: '" + options.name.substr(0, 64) + "' must be 1 to 64 letters, digits, _, . and single -");
   if (command.has("--ring") && options.valve != "bileaflet")
     refuse_usage("--ring has no effect: only a bileaflet valve has a ring");
-  check_set_opening(options, "has no effect: the valve opens and closes in an export");
+  check_set_opening(options, "has no effect, because the export contains all openings");
   finish_valve(command, options);
   if (options.cycle.empty() && (!options.opening_duration || !options.closing_duration))
     refuse_usage("riis export needs --opening-seconds and --closing-seconds, or --cycle");
@@ -291,7 +292,7 @@ PlaceOptions finish_place(const Command &command, PlaceOptions options) {
   use_named_valve(options);
   if (options.output != "-" && !options.output.empty() && !is_valve_file(options.output))
     refuse_usage("--output: " + options.output + " must end in .json, so that other commands accept the file");
-  check_set_opening(options, "has no effect: landmarks are those of the closed valve");
+  check_set_opening(options, "has no effect, because landmarks belong to the closed valve");
   return options;
 }
 
@@ -300,7 +301,7 @@ PatientOptions finish_patient(const Command &command, PatientOptions options) {
   if (options.has_valve && is_valve_file(options.valve))
     refuse_usage("--valve: " + options.valve + " is a file; landmarks place a kind of valve");
   if (options.has_valve) use_named_valve(options);
-  check_set_opening(options, "has no effect: the valve opens and closes");
+  check_set_opening(options, "has no effect, because the command uses all openings of the valve");
   if (options.noise && options.noise->number < 0) refuse_usage("--noise: " + options.noise->text + " is below 0");
   if (options.solver == "none") return options;
   const Unit needed = options.solver == "svmultiphysics" ? Unit::centimetre : Unit::metre;
@@ -326,7 +327,7 @@ void apply_units(ValveOptions &options) {
 void apply_amounts(MarkOptions &options) {
   const bool has_fields = is_foam_case(options.output) || is_foam_time(options.output);
   if (options.density && !has_fields)
-    refuse_usage("--density has no effect: it divides K only in the fields of an OpenFOAM case");
+    refuse_usage("--density has no effect: only the fields of an OpenFOAM case have K divided by the density");
   if (!options.given_resistance) return;
   const Amount &given = *options.given_resistance;
   if (given.number < 0) throw Refusal{given.exit_code, given.subject + " is " + given.text + "; it must be at least 0"};

@@ -30,7 +30,7 @@ class BriefHelp : public CLI::Formatter {
   }
 };
 
-// Replaces two blank lines by one blank line.
+// Replaces each pair of blank lines in a help text by one blank line.
 std::string tidied(std::string help) {
   for (std::size_t at = 0; (at = help.find("\n\n\n", at)) != std::string::npos;) help.erase(at, 1);
   return help;

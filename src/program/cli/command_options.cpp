@@ -90,10 +90,10 @@ CLI::Option *declare_unit_of(Command &command, const char *name, const char *hel
 
 void declare_valve(Command &command, ValveOptions &options) {
   command.group("Valve");
-  command.text(
-      "--valve", "KIND|DISEASE|FILE.json",
-      "aortic (default), coapting, mitral or another (riis help valves, riis help diseases), or a file of patches",
-      options.valve);
+  command.text("--valve", "KIND|DISEASE|FILE.json",
+               "Kind of valve, such as aortic (default) or mitral, a disease, or a file of patches; see riis help "
+               "valves and diseases",
+               options.valve);
   command.text("--params,--params-closed", "FILE.json", "Parameters of the valve, or of its closed state",
                options.params);
   declare_settings(command, "Set one parameter to a number or X,Y,Z; may be repeated", options);
@@ -109,10 +109,11 @@ void declare_shape(Command &command, ValveOptions &options) {
   command.text("--warp", "FILE.json|.csv", "Landmarks on the valve and in the patient, for a warp of the valve",
                options.warp);
   CLI::Option *const skirt = command.parsed(
-      "--skirt", "L", "Length of a skirt to the wall, in the mesh's unit; with --wall, its largest length",
+      "--skirt", "L", "Length of a skirt to the wall, in the mesh's unit; with --wall, the largest length of the skirt",
       options.skirt, parse_positive_finite);
   command
-      .text("--wall", "FILE", "The wall that the skirt reaches, in the mesh's coordinates and in a format of --surface",
+      .text("--wall", "FILE",
+            "File of the wall to which the skirt reaches, in the mesh's coordinates; formats as for --surface",
             options.wall)
       ->needs(skirt);
 }
@@ -124,8 +125,8 @@ void declare_tolerance(Command &command, ValveOptions &options) {
 
 void declare_leaflets(Command &command, CLI::Option *surface, ValveOptions &options) {
   command
-      .text("--leaflets", "connected|ARRAY", "Leaflets of --surface: connected pieces, or a cell array",
-            options.leaflets)
+      .text("--leaflets", "connected|ARRAY",
+            "How --surface is divided into leaflets: connected pieces, or a cell array", options.leaflets)
       ->needs(surface);
 }
 
@@ -133,8 +134,8 @@ CLI::Option *declare_surface_files(Command &command, ValveOptions &options) {
   CLI::Option *const surface =
       command
           .values("--surface", "FILE",
-                  "A file in place of a valve: .vtp, .vtu, .vtk, .stl, .obj, .ply, or a motion, .pvd or .dat; may be "
-                  "repeated, one leaflet per file",
+                  "Read a surface in place of a valve: .vtp, .vtu, .vtk, .stl, .obj or .ply; or a motion: .pvd or "
+                  ".dat; may be repeated, one leaflet per file",
                   [&options](const std::vector<std::string> &files) { set_surface(options, files, "--surface"); })
           ->allow_extra_args(false);
   command
@@ -159,20 +160,22 @@ void declare_file(Command &command, ValveOptions &options) {
   command.value("--flip-normals", nullptr, "Turn every triangle over",
                 [&how](const std::string &) { how.flip_normals = 1; });
   declare_tolerance(command, options);
-  command.choice("--triangulation", "Triangles adapted to each opening (default), or fixed, the same at every opening",
+  command.choice("--triangulation",
+                 "Make triangles that are adapted to each opening (default), or fixed, the same for all openings",
                  triangulation_names(), how.triangulation);
   for (const char *name : {"--tolerance", "--triangulation"}) surface->excludes(command.option(name));
-  command.parsed("--time", "T", "Time at which to take the motion of --surface", options.time, parse_number)
+  command.parsed("--time", "T", "Time to which the motion of --surface is interpolated", options.time, parse_number)
       ->needs(surface);
-  command.parsed("--period", "P", "Period of the motion of --surface, or of --cycle (default none)", options.period,
-                 parse_positive);
+  command.parsed("--period", "P", "Period with which the motion of --surface, or --cycle, repeats (default none)",
+                 options.period, parse_positive);
 }
 
 void declare_unit(Command &command, ValveOptions &options) {
   command.group("Placement (x -> scale * rotation * x + translation)");
-  CLI::Option *const scale = command.parsed("--scale", "S", "Factor from the surface's unit to the mesh's (default 1)",
-                                            options.surface_options.scale, parse_number);
-  declare_unit_of(command, "--unit", "Unit of the mesh, in place of --scale", options.unit)->excludes(scale);
+  CLI::Option *const scale =
+      command.parsed("--scale", "S", "Factor from the surface's unit to the mesh's unit (default 1)",
+                     options.surface_options.scale, parse_number);
+  declare_unit_of(command, "--unit", "Unit of the mesh; replaces --scale", options.unit)->excludes(scale);
   declare_unit_of(command, "--surface-unit", "Unit of the file that holds the surface or the patches",
                   options.surface_unit);
 }
@@ -225,7 +228,7 @@ void declare_threads(Command &command, MarkOptions &options) {
 void declare_search(Command &command, MarkOptions &options) {
   command.choice("--search", "auto (default), exhaustive, neighbor, clusters or paper", search_names,
                  options.mark_options.search);
-  command.parsed("--distance-limit", "L", "Report distances up to this length (default the half thickness)",
+  command.parsed("--distance-limit", "L", "Write distances up to this length (default the half thickness)",
                  options.mark_options.distance_limit, parse_positive);
   declare_threads(command, options);
 }
@@ -233,28 +236,30 @@ void declare_search(Command &command, MarkOptions &options) {
 void declare_marking(Command &command, MarkOptions &options) {
   command.group("Marking");
   declare_half_thickness(command, options);
-  CLI::Option *const resistance =
-      command.parsed("--resistance", "R", "Write riis_K, R/eps times the delta function at each node; R in kg/(m s)",
-                     options.given_resistance, amount_of(a_resistance));
+  CLI::Option *const resistance = command.parsed(
+      "--resistance", "R", "Write riis_K at each node: R/eps times the delta function, with R in kg/(m s)",
+      options.given_resistance, amount_of(a_resistance));
   command
-      .parsed("--k-unit", "UNIT", "Unit of riis_K (default by the mesh's unit: from kg, m, s; g, cm, s; or g, mm, s)",
+      .parsed("--k-unit", "UNIT",
+              "Unit of riis_K (default in kg, m, s; in g, cm, s; or in g, mm, s, depending on the mesh's unit)",
               options.chosen_K_unit, [](const std::string &text, const std::string &) { return text; })
       ->needs(resistance);
   command
       .parsed("--density", "RHO", "Density in kg/m3, by which OpenFOAM's fields of K are divided", options.density,
               positive_amount_of(a_density))
       ->needs(resistance);
-  command.parsed("--far-distance", "X", "Value of riis_distance at nodes beyond the limit (default 1e30)",
+  command.parsed("--far-distance", "X", "Value of riis_distance at nodes beyond the distance limit (default 1e30)",
                  options.far_distance, parse_number);
   command
-      .choice("--distance", "Distances to triangles (default), or by sampling or minimization", distance_names,
-              options.surface_options.measure)
+      .choice("--distance",
+              "Measure distances to triangles (default), or by sampling or minimization of the smooth valve",
+              distance_names, options.surface_options.measure)
       ->excludes(command.option("--surface"));
   command.parsed("--distance-tolerance", "F", "Tolerance of sampling or minimization, in half thicknesses",
                  options.surface_options.measure_tolerance, parse_positive);
   declare_search(command, options);
   command
-      .value("--steps", "N", "Also measure the time of N steps: each moves the opening by 0.02 and marks again",
+      .value("--steps", "N", "Also measure the time of N steps; each step moves the opening by 0.02 and marks again",
              [&options](const std::string &text) {
                options.n_steps = parse_integer(text, "--steps");
                if (options.n_steps < 1) refuse_usage("--steps: " + text + " is not above 0");
@@ -302,10 +307,10 @@ void declare_style(Command &command, PictureStyle &style) {
   command.parsed("--picture-size", "WIDTHxHEIGHT", "Pixels of pictures and movies (default 1600x800)", style.size,
                  parse_size);
   command.parsed("--picture-background", "COLOUR",
-                 "white (default), black, transparent, or a colour such as f4f1ea; see riis help pictures",
+                 "Background: white (default), black, transparent, or a colour such as f4f1ea; see riis help pictures",
                  style.background, parse_background);
-  command.choice("--picture-captions", "Captions: all (default), scale (only the scale bar) or none", caption_names,
-                 style.captions, "WHICH");
+  command.choice("--picture-captions", "Captions of pictures: all (default), scale (only the scale bar) or none",
+                 caption_names, style.captions, "WHICH");
   command.choice("--picture-panels", "both (default), valve or marks", panel_names, style.panels, "WHICH");
 }
 
@@ -321,7 +326,7 @@ void declare_pictures(Command &command, MarkOptions &options) {
           ->allow_extra_args(false);
   command
       .values("--view", "VIEW",
-              "View of --picture: side, top, oblique (default), three; valve-side, ...: by the valve's axes",
+              "View of --picture: side, top, oblique (default) or three; valve-side, ... use the valve's axes",
               [&options](const std::vector<std::string> &views) {
                 if (views.size() > options.pictures.size()) refuse_usage("--view: there are more views than pictures");
                 for (std::size_t i = 0; i < views.size(); ++i)
@@ -339,7 +344,7 @@ void declare_stats(Command &command, MarkOptions &options) {
 
 void declare_cycle(Command &command, std::string &cycle, std::int32_t &interpolation) {
   CLI::Option *const file =
-      command.text("--cycle", "FILE.csv", "Times and openings of the valve, in two columns", cycle);
+      command.text("--cycle", "FILE.csv", "File with the times and openings of the valve in two columns", cycle);
   command
       .choice("--interpolation", "Interpolation between the times of the cycle: linear (default) or cubic",
               interpolation_names(), interpolation)
@@ -347,11 +352,11 @@ void declare_cycle(Command &command, std::string &cycle, std::int32_t &interpola
 }
 
 CLI::Option *declare_case(Command &command, SeriesOptions &series) {
-  return command.text("--case", "FILE.json", "Valves, placements, cycles and times from a file (riis help cases)",
+  return command.text("--case", "FILE.json", "File with valves, placements, cycles and times (riis help cases)",
                       series.case_file);
 }
 
-// Excludes the options whose values are in the case file.
+// Excludes the options whose values come from the case file.
 void exclude_by_case(const Command &command, CLI::Option *all_of_it) {
   for (const char *name :
        {"--surface", "--leaflets",      "--valve",         "--opening",        "--params",         "--params-open",
@@ -366,11 +371,11 @@ void declare_series(Command &command, MarkOptions &options) {
   SeriesOptions &series = options.series;
   command.group("Series in time, and several valves");
   CLI::Option *const times =
-      command.parsed("--times", "START:STOP:STEP|T,T,...", "Mark at each of these times; --output then takes a .pvd",
+      command.parsed("--times", "START:STOP:STEP|T,T,...", "Mark at each of these times; --output is then a .pvd file",
                      series.times, parse_times);
   declare_cycle(command, series.cycle, series.interpolation);
   CLI::Option *const all_of_it = declare_case(command, series);
-  command.flag("--all-cells", "Write the whole mesh at each time, not only the cells near the moving valve",
+  command.flag("--all-cells", "At each time, write the whole mesh, not only the cells near the moving valve",
                series.all_cells);
   command.text("--series-table", "OUT.csv", "Write time, opening, marked nodes and speed of each step", series.table);
   CLI::Option *const movie =
@@ -387,7 +392,7 @@ void declare_series(Command &command, MarkOptions &options) {
 
 void declare_cells_where(Command &command, ValveOptions &options) {
   command.text("--cells-where", "NAME=VALUES",
-               "Take only the cells with these values of a cell array, or gmsh:physical=NAME: riis help mesh",
+               "Use only the cells with these values of a cell array, or gmsh:physical=NAME; see riis help mesh",
                options.cells_where);
 }
 
@@ -412,13 +417,15 @@ void declare_mark(Command command, MarkOptions &options) {
   declare_surface_in_place(command, options);
   declare_marking(command, options);
   command.group("Output");
-  CLI::Option *const output = command.text(
-      "--output", "OUT",
-      "Write the marked mesh: .vtu or .xdmf; .pvtu, .vti or .vtr if MESH has this ending; --cells: fields in CASE/TIME",
-      options.output);
-  command.text("--prefix", "NAME", "Names of the arrays: NAME_marked and so on (default riis)", options.prefix)
+  CLI::Option *const output = command.text("--output", "OUT",
+                                           "Write the marked mesh: .vtu or .xdmf, or .pvtu, .vti or .vtr like MESH; "
+                                           "with --cells also CASE/TIME",
+                                           options.output);
+  command
+      .text("--prefix", "NAME", "Begin the names of the arrays with NAME, as in NAME_marked (default riis)",
+            options.prefix)
       ->needs(output);
-  command.flag("--replace", "Replace arrays of the mesh that have the names of new arrays", options.replace)
+  command.flag("--replace", "Allow new arrays to replace arrays of the mesh with the same names", options.replace)
       ->needs(output);
   declare_allow_none(command, options);
   command.text("--surface-output", "OUT.vtp", "Write the placed triangles", options.surface_output);
@@ -449,10 +456,9 @@ void declare_crossings(Command command, MarkOptions &options) {
 
 void declare_leaks(Command command, MarkOptions &options) {
   declare_mesh(command, options);
-  command.flag("--cells", "Use the centres of cells in place of the nodes, as riis mark --cells does",
-               options.at_cells);
+  command.flag("--cells", "Use the centres of cells in place of the nodes, as in riis mark --cells", options.at_cells);
   command
-      .values("--between", "X,Y,Z X,Y,Z", "Say whether and where unmarked nodes join these two points",
+      .values("--between", "X,Y,Z X,Y,Z", "Report whether unmarked nodes connect these two points, and where",
               [&options](const std::vector<std::string> &ends) {
                 options.check_leaks = LeakCheck{{}, "--between"};
                 for (const std::string &end : ends)
@@ -463,15 +469,16 @@ void declare_leaks(Command command, MarkOptions &options) {
       ->multi_option_policy(CLI::MultiOptionPolicy::Throw);
   options.measures = true;
   command
-      .flag("--first-passage", "Also tell at which opening unmarked nodes first join the points", options.first_passage)
+      .flag("--first-passage", "Also report the first opening at which unmarked nodes connect the points",
+            options.first_passage)
       ->needs(command.option("--between"));
-  command.flag("--demand-sealed", "Exit with status 4 if the valve leaks, or if this is unknown",
+  command.flag("--demand-sealed", "Exit with status 4 if the valve leaks or if leaks are unknown",
                options.demand_sealed);
   CLI::Option *const resistance =
-      command.parsed("--resistance", "R", "Resistance of the valve in kg/(m s), for the ideal leak",
+      command.parsed("--resistance", "R", "Resistance of the valve in kg/(m s); reports the ideal leak",
                      options.given_resistance, positive_amount_of(a_resistance));
   CLI::Option *const drop =
-      command.parsed("--drop", "DP", "Pressure drop over the closed valve in Pa, for the ideal leak",
+      command.parsed("--drop", "DP", "Pressure drop across the closed valve in Pa; reports the ideal leak",
                      options.given_drop, amount_of(a_pressure));
   drop->needs(resistance);
   resistance->needs(drop);
@@ -492,8 +499,8 @@ void declare_size_field(Command command, SizeFieldOptions &options) {
       ->required();
   command.parsed("--band-edge", "F", "Edge length in the band, in half thicknesses (default 0.95)", options.band_edge,
                  parse_positive_finite);
-  command.parsed("--growth", "F", "Growth of the edge length by distance outside the band (default 0.3)",
-                 options.growth, parse_positive_finite);
+  command.parsed("--growth", "F", "Growth of the edge length per distance from the band (default 0.3)", options.growth,
+                 parse_positive_finite);
   command.parsed("--largest-edge", "L", "Largest edge length, in the mesh's unit (default 4 half thicknesses)",
                  options.largest_edge, parse_positive_finite);
   command.parsed("--spacing", "L", "Spacing of the grid, in the mesh's unit (default 0.5 half thicknesses)",
@@ -504,8 +511,9 @@ void declare_size_field(Command command, SizeFieldOptions &options) {
   declare_placed_valve(command, options);
   SeriesOptions &series = options.series;
   command.group("Motion in time, and several valves");
-  CLI::Option *const times = command.parsed("--times", "START:STOP:STEP|T,T,...",
-                                            "Times of a motion, in place of openings", series.times, parse_times);
+  CLI::Option *const times =
+      command.parsed("--times", "START:STOP:STEP|T,T,...", "Use the times of a motion in place of openings",
+                     series.times, parse_times);
   declare_cycle(command, series.cycle, series.interpolation);
   CLI::Option *const all_of_it = declare_case(command, series);
   exclude_by_case(command, all_of_it);
@@ -514,7 +522,9 @@ void declare_size_field(Command command, SizeFieldOptions &options) {
 }
 
 void declare_states(Command command, StatesOptions &options) {
-  command.text("OUT", "OUT.csv|-", "The table: free edges, leaflet areas and the orifice; - is stdout", options.output)
+  command
+      .text("OUT", "OUT.csv|-", "Write the table of free edges, leaflet areas and orifices; - is stdout",
+            options.output)
       ->required();
   command.parsed("--count", "N", "Number of openings (default 101)", options.n_states, parse_count);
   command.flag("--coaptation", "Also give the area and the length over which leaflets touch", options.has_contacts);
@@ -535,23 +545,25 @@ void declare_from_area(Command command, AreaOptions &options) {
   CLI::Option *const area =
       command.parsed("--area", "A", "The area in the mesh's unit squared, or with a unit, such as '2.5 cm2'",
                      options.given_area, amount_of(an_area));
-  CLI::Option *const areas =
-      command.text("--areas", "FILE.csv",
-                   "File of areas in time, for a cycle of openings; its columns are time and area", options.areas);
+  CLI::Option *const areas = command.text(
+      "--areas", "FILE.csv", "File with the columns time and area, from which the command makes a cycle of openings",
+      options.areas);
   area->excludes(areas);
   command
       .parsed("--area-unit", "UNIT", "Unit of the areas in --areas, such as cm2 (default the mesh's unit squared)",
               options.area_unit, [](const std::string &text, const std::string &) { return text; })
       ->needs(areas);
-  command.flag("--effective", "The areas are effective areas: without the part that the band closes",
+  command.flag("--effective", "The given areas are effective areas, without the part that the band closes",
                options.is_effective);
   command
-      .text("--solve", "opening|scale|NAME", "What to find: the opening (default), the scale, or a parameter",
+      .text("--solve", "opening|scale|NAME", "Find the opening (default), the scale, or the parameter NAME",
             options.solve)
       ->excludes(areas);
   command.parsed("--from", "X", "Least opening or size to consider", options.from, parse_number);
   command.parsed("--to", "X", "Largest opening or size to consider", options.to, parse_number);
-  command.text("--output", "OUT.csv|-", "The cycle, for --cycle of the other commands; - is stdout", options.output)
+  command
+      .text("--output", "OUT.csv|-", "Write the cycle, a file for --cycle of the other commands; - is stdout",
+            options.output)
       ->needs(areas);
   command.parsed("--period", "P", "Period of --areas (default none)", options.period, parse_positive)->needs(areas);
   declare_loudness(command, options);
@@ -559,7 +571,8 @@ void declare_from_area(Command command, AreaOptions &options) {
   declare_opening(command, options);
   declare_shape(command, options);
   declare_tolerance(command, options);
-  command.choice("--triangulation", "Triangles adapted to each opening (default), or fixed, the same at every opening",
+  command.choice("--triangulation",
+                 "Make triangles that are adapted to each opening (default), or fixed, the same for all openings",
                  triangulation_names(), options.surface_options.triangulation);
   declare_unit(command, options);
   declare_half_thickness(command, options);
@@ -567,15 +580,16 @@ void declare_from_area(Command command, AreaOptions &options) {
 
 void declare_export(Command command, ExportOptions &options) {
   command.text("FOLDER", "FOLDER", "A new or empty folder for the files of svMultiPhysics", options.folder)->required();
-  command.text("MESH", "FILE", "The mesh of the solver's run: say what the solver will do in it", options.mesh);
+  command.text("MESH", "FILE", "The mesh of the solver's run; the command then predicts what the solver will do in it",
+               options.mesh);
   declare_cells_where(command, options);
   command.option("--cells-where")->needs(command.option("MESH"));
   command
-      .parsed("--time-step", "DT", "Time step of the solver, which plays one frame in each step", options.time_step,
+      .parsed("--time-step", "DT", "Time step of the solver; the motion has one frame for each step", options.time_step,
               parse_positive_finite)
       ->required();
   command
-      .parsed("--resistance", "R", "Resistance of the valve in kg/(m s), for the block of the solver's input",
+      .parsed("--resistance", "R", "Resistance of the valve in kg/(m s), for the solver's input",
               options.given_resistance, amount_of(a_resistance))
       ->required();
   command.parsed("--opening-seconds", "T", "Open from 0 to 1 in this time, by a smooth ramp", options.opening_duration,
@@ -598,13 +612,14 @@ void declare_export(Command command, ExportOptions &options) {
                options.name);
   command
       .text("--starts", "closed|open",
-            "State at the solver's first step (default closed, or the state of --cycle at time 0)", options.starts)
+            "State of the valve at the solver's first step (default closed, or as --cycle at time 0)", options.starts)
       ->check(CLI::IsMember(std::vector<std::string>{"closed", "open"}));
-  command.choice("--ring", "Ring of a bileaflet valve: a face beside the leaflets (default), or none", ring_names,
-                 options.ring);
-  command.parsed("--density", "RHO", "Density of the fluid in kg/m3, for MESH (default that of blood, 1060)",
+  command.choice("--ring",
+                 "Export the ring of a bileaflet valve as a face beside the leaflets (default), or export none",
+                 ring_names, options.ring);
+  command.parsed("--density", "RHO", "Density of the fluid in kg/m3, used with MESH (default 1060, as blood)",
                  options.given_density, positive_amount_of(a_density));
-  command.parsed("--viscosity", "MU", "Viscosity of the fluid in Pa s, for MESH (default that of blood, 0.004)",
+  command.parsed("--viscosity", "MU", "Viscosity of the fluid in Pa s, used with MESH (default 0.004, as blood)",
                  options.given_viscosity, positive_amount_of(a_viscosity));
   for (const char *name : {"--density", "--viscosity"}) command.option(name)->needs(command.option("MESH"));
   declare_loudness(command, options);
@@ -620,9 +635,9 @@ void declare_place(Command command, PlaceOptions &options) {
       .text("LANDMARKS", "FILE.json|.csv|.fcsv", "The landmarks: JSON, CSV, or 3D Slicer's .mrk.json or .fcsv",
             options.landmarks)
       ->required();
-  command.text("--output", "OUT.json", "The placed valve, for --valve of the other commands; - is stdout",
+  command.text("--output", "OUT.json", "Write the placed valve, a file for --valve of the other commands; - is stdout",
                options.output);
-  command.text("--foam", "OUT", "The placed valve as OpenFOAM reads it, in metres", options.foam_output);
+  command.text("--foam", "OUT", "Write the placed valve as OpenFOAM reads it, in metres", options.foam_output);
   command
       .parsed("--skirt", "L", "The longest skirt that OpenFOAM accepts, in the mesh's unit (default 6 mm)",
               options.skirt, parse_positive_finite)
@@ -631,7 +646,7 @@ void declare_place(Command command, PlaceOptions &options) {
   command.text("--fortran", "OUT", "The placed valve as lines of Fortran", options.fortran_output);
   declare_loudness(command, options);
   command.group("Landmarks");
-  command.text("--mesh", "MESH", "Refuse landmarks that do not lie at this mesh", options.mesh);
+  command.text("--mesh", "MESH", "Refuse landmarks that are far from this mesh", options.mesh);
   declare_cells_where(command, options);
   command.option("--cells-where")->needs(command.option("--mesh"));
   declare_unit_of(command, "--unit", "Unit of the mesh (default that of the landmarks)", options.unit);
@@ -649,8 +664,8 @@ void declare_place(Command command, PlaceOptions &options) {
   command.group("Valve");
   command.text("--valve", "KIND", "aortic, coapting, mitral, trileaflet or bileaflet (default that of the file)",
                options.valve);
-  command.text("--params", "FILE.json", "Parameters of the valve before the landmarks size it", options.params);
-  declare_settings(command, "Set one parameter, in cm, and keep it; may be repeated", options);
+  command.text("--params", "FILE.json", "Parameters of the valve before it is fitted to the landmarks", options.params);
+  declare_settings(command, "Set one parameter, in cm, which then does not change; may be repeated", options);
 }
 
 void declare_patient(Command command, PatientOptions &options) {
@@ -671,15 +686,13 @@ void declare_patient(Command command, PatientOptions &options) {
       ->check(CLI::IsMember(solver_names));
   command.flag("--replace", "Replace the files that an earlier riis patient wrote to FOLDER", options.replace);
   declare_loudness(command, options);
-  command.group("Landmarks and wall (lengths without a unit and points are in the unit of WALL)");
-  declare_unit_of(command, "--wall-unit", "Unit of WALL (default the unit in which the landmarks lie at the wall)",
+  command.group("Landmarks and wall (points, and lengths without a unit, are in the unit of WALL)");
+  declare_unit_of(command, "--wall-unit", "Unit of WALL (default the unit that puts the landmarks at the wall)",
                   options.wall_unit);
-  command
-      .text("--axes", "LPS|RAS", "Axes of WALL (default the axes with which the landmarks lie at the wall)",
-            options.axes)
+  command.text("--axes", "LPS|RAS", "Axes of WALL (default the axes that put the landmarks at the wall)", options.axes)
       ->check(CLI::IsMember(std::vector<std::string>{"LPS", "RAS"}));
   declare_unit_of(command, "--unit",
-                  "Unit of the files in FOLDER (default that of the solver; without a solver that of WALL)",
+                  "Unit of the files in FOLDER (default the solver's unit, or WALL's unit without a solver)",
                   options.unit);
   command.choice("--warp", "Warp the valve to the landmarks: none, exact, or smoothed by their noise (default)",
                  warp_names, options.warp_choice);
@@ -687,7 +700,8 @@ void declare_patient(Command command, PatientOptions &options) {
                  options.noise, amount_of(a_length));
   command.value("--flow", "X,Y,Z", "Direction of flow through the valve, in the axes of WALL",
                 [&options](const std::string &text) { options.flow = parse_list(text, "--flow", 3, "X,Y,Z"); });
-  command.value("--inlet", "X,Y,Z", "A point near the flat end through which blood enters (default found by the valve)",
+  command.value("--inlet", "X,Y,Z",
+                "A point near the flat end through which blood enters (default found from the valve)",
                 [&options](const std::string &text) { options.inlet = parse_list(text, "--inlet", 3, "X,Y,Z"); });
   command
       .values("--outlet", "X,Y,Z",
@@ -698,10 +712,10 @@ void declare_patient(Command command, PatientOptions &options) {
               })
       ->allow_extra_args(false);
   command.group("Valve");
-  command.text("--valve", "KIND|DISEASE", "coapting, mitral or another kind, or a disease (default by the landmarks)",
-               options.valve);
-  command.text("--params", "FILE.json", "Parameters of the valve before the landmarks size it", options.params);
-  declare_settings(command, "Set one parameter, in cm, and keep it; may be repeated", options);
+  command.text("--valve", "KIND|DISEASE",
+               "Kind of valve, such as coapting or mitral, or a disease (default from the landmarks)", options.valve);
+  command.text("--params", "FILE.json", "Parameters of the valve before it is fitted to the landmarks", options.params);
+  declare_settings(command, "Set one parameter, in cm, which then does not change; may be repeated", options);
   command.parsed("--skirt", "L", "The longest acceptable skirt from the valve to the wall (default 6 mm)",
                  options.given_skirt, positive_amount_of(a_length));
   command.group("Mesh and flow");

@@ -17,36 +17,36 @@ void run_states(const StatesOptions &options);
 // Without --tolerance, the triangles are finer than those of riis mark.
 riis_surface_options own_frame(const ValveOptions &options);
 
-// riis from-area, the inverse of riis states. In: an area, or areas in time. Out: for one area, a summary with the opening or the
-// size that gives this area. For areas in time, the result is a cycle of openings.
+// riis from-area, the inverse of riis states. The input is an area, or areas in time. For one area, the result is a summary with
+// the opening or the size that gives this area. For areas in time, the result is a cycle of openings.
 void run_from_area(const AreaOptions &options);
 
-// riis place. In: landmarks of a patient. Prints the sizes and the placement of the valve: as a report, as a file for every
-// command, and as text for OpenFOAM, C and Fortran.
+// riis place. The inputs are landmarks of a patient. Prints the sizes and the placement of the valve: as a report, as a file for
+// every command, and as text for OpenFOAM, C and Fortran.
 void run_place(const PlaceOptions &options);
 
-// riis patient. In: a patient's wall and landmarks. Out: a folder with the placed valve, a mesh with named boundaries, marks
-// without leaks, a beat, pictures and a report. A solver's case can be added.
+// riis patient. The input is a patient's wall and landmarks. The result is a folder with the placed valve, a mesh with named
+// boundaries, marks without leaks, a beat, pictures and a report. A solver's case can be added.
 ExitCode run_patient(const PatientOptions &options);
 
 // riis export. Writes the opening and closing of a valve as files for svMultiPhysics. Prints the block of the solver's input that
 // names the files.
 void export_uris(const ExportOptions &options);
-// The files of an export, after they are written. `named_folder` is the path of the folder as the solver sees it. In the block,
-// the paths of the files begin with `named_folder`.
+// The files of an export, after they are written. `named_folder` is the path of the folder as the solver will see it. In the
+// block, the paths of the files begin with `named_folder`.
 struct UrisExport {
   std::string block;
   std::string failure;  // why the drop was not found; "" if it was found, or without a mesh
 };
 UrisExport write_uris(const ExportOptions &options, const std::string &named_folder);
 
-// riis size-field. In: valves and their motion. Out: a grid of edge lengths that gmsh reads. The edges are short near the valves.
-// Each edge length follows from the distance between the grid's point and the valves at all times.
+// riis size-field. The inputs are valves and their motion. The result is a grid of edge lengths that gmsh reads. The edges are
+// short near the valves. Each edge length follows from the distance between the grid's point and the valves at all times.
 ExitCode run_size_field(const SizeFieldOptions &options);
 
-// In: the user's request. Out: the files, and the report on stdout. Returns exit_none_marked if no node was marked, unless the
-// user allowed this. Returns exit_warned if a check found a fault, or if there was a warning and the user gave --strict.
-// Otherwise returns exit_fine.
+// The input is the user's request. The results are the files, and the report on stdout. Returns exit_none_marked if no node was
+// marked, unless the user allowed this. Returns exit_warned if a check found a fault, or if there was a warning and the user gave
+// --strict. Otherwise returns exit_fine.
 ExitCode run(const Request &request);
 
 }  // namespace riis::program

@@ -19,8 +19,8 @@ std::string advice_on_band(const std::string &kind) {
   if (kind == "bileaflet") return "band: leave --offset at 0, because the flow passes on both sides of the leaflets\n";
   std::string advice =
       "band: with a cut rim and a skirt, --offset 0.75 gives the flow the full width of an open valve. The half\n"
-      "thickness must be at least twice the gap of the closed valve. Take 0.5 if it is at least the gap but less\n"
-      "than twice the gap, and 0 for a wider gap (docs/choosing.md)\n";
+      "thickness must be at least twice the gap of the closed valve. Take 0.5 for a half thickness between the gap\n"
+      "and twice the gap, and 0 for a smaller half thickness (docs/choosing.md)\n";
   if (kind == "coapting")
     advice +=
         "A half-open coapting valve still has 5 % less area than walls at a half thickness of 1 mm "
@@ -48,7 +48,7 @@ ExitCode run_command(const Request &request) {
   return exit_fine;
 }
 
-// Several ranks share the work only if the mesh is in pieces. A case may name a mesh in pieces.
+// Several ranks share the work only if the mesh has pieces. A case may name a mesh in pieces.
 bool has_ranks(const Request &request) {
   const auto *options = std::get_if<MarkOptions>(&request);
   return options && (is_in_pieces(options->mesh) || !options->series.case_file.empty());

@@ -146,9 +146,9 @@ States frame_of(const StatesOptions &options, Measured &valve) {
     states.names.push_back(name_of_leaflet(options, info, leaflet.leaflet_id));
     if (leaflet.free_edge == 0 && leaflet.leaflet_id != info.skirt_leaflet_id)
       states.why_no_edges =
-          is_valve ? "a leaflet has no side v = 1 on its rim" : "a leaflet has no open edge besides the outline";
+          is_valve ? "a leaflet has no side v = 1 that is free" : "a leaflet has no open edges except on the outline";
   }
-  // A rigid leaflet only turns, so its lengths do not change.
+  // A rigid leaflet only rotates, so its lengths do not change.
   if (info.housing_leaflet_id >= 0) states.why_no_edges = "the leaflets are rigid";
   if (orifice.outline == RIIS_OUTLINE_DISC) states.disc = "the disc of radius " + shown(orifice.radius);
   if (orifice.outline == RIIS_OUTLINE_ATTACHMENT) states.disc = "the outline of the attachment";
@@ -178,7 +178,7 @@ States measure_states(const StatesOptions &options) {
 
 // ---- State table ----
 
-// The summary mentions a change of a free edge's length only above a certain share of the length.
+// The summary mentions a change of a free edge's length only if it exceeds a certain share of the length.
 constexpr double fair_change = 0.1;
 // Lengths and areas count as equal if their difference can be due to rounding.
 constexpr double same = 1e-9;
@@ -202,7 +202,7 @@ std::string rounded(double value) { return shown(std::round(value * 1e4) / 1e4);
 
 std::string at(const State &state) { return " at " + shown(state.opening); }
 
-// Returns the opening or the time of the first state. The first state of a valve is the closed state.
+// Returns the opening or the time of the first state. For a valve, the first state is the closed state.
 std::string at_first(const States &states) {
   if (states.is_of_file && states.states.size() == 1) return "";
   return at(states.states.front());
@@ -258,7 +258,7 @@ std::string text_of_area(const States &states, double riis_orifice::*area) {
 }
 
 std::string text_of_orifice(const States &states) {
-  if (states.disc.empty()) return "not measured: no open edges surround an area";
+  if (states.disc.empty()) return "not measured, because no open edges surround an area";
   return text_of_area(states, &riis_orifice::area) + "; " + states.disc + " has " + rounded(states.disc_area);
 }
 
@@ -312,7 +312,7 @@ std::string cells_of(const riis_leaflet &now, const riis_leaflet &closed, bool h
 }
 
 // The table has a column for the opening, then NAME_edge, NAME_edge_ratio, NAME_area and NAME_area_ratio of each leaflet, then
-// orifice_area, orifice_perimeter and effective_area. A ratio is the value over the value of the closed state.
+// orifice_area, orifice_perimeter and effective_area. A ratio is the value divided by the value of the closed state.
 std::string csv_of(const States &states) {
   std::string text = states.is_of_file ? "time" : "opening";
   for (const std::string &name : columns_of(states)) {
@@ -348,7 +348,7 @@ std::string summary_of(const States &states, const StatesOptions &options) {
   else
     summary.add("valve", options.valve + ": " +
                              (can_open ? counted(n, "opening") + " from 0 to 1"
-                                       : "only opening 0, because it has no open state"));
+                                       : "only opening 0, because the valve has no open state"));
   add_leaflets(states, summary);
   summary.add("orifice", text_of_orifice(states));
   if (!states.disc.empty())
@@ -369,8 +369,8 @@ std::string summary_of(const States &states, const StatesOptions &options) {
 
 riis_surface_options own_frame(const ValveOptions &options) {
   // The orifice of the triangles differs slightly from the orifice of the smooth valve. At the program's usual tolerance, the two
-  // orifices of the prosthesis differ by up to 0.3 %. At the tolerance chosen here, the two orifices differ by at most about 0.1
-  // % for the prosthesis and for the aortic valve.
+  // orifices of the prosthesis differ by up to 0.3 %. At the tolerance chosen here, these two orifices differ by at most about
+  // 0.1 % for the prosthesis and for the aortic valve.
   constexpr double fine_tolerance = 0.01;
   riis_surface_options own = options.surface_options;
   if (!options.has_tolerance) own.tolerance = fine_tolerance;

@@ -152,7 +152,7 @@ class CaseReader {
     if (values.has("surface")) set_surface(options, files_of(values, "surface"), source.subject);
     options.leaflets = values.text("leaflets");
     if (options.surface_files.size() > 1 && !options.leaflets.empty())
-      values.refuse("leaflets", "it has no effect, because each file is a leaflet");
+      values.refuse("leaflets", "it has no effect, because each file of the list is one leaflet");
     options.valve = values.text("valve");
     if (options.valve.empty() == options.surface.empty())
       values.refuse("valve", "either it or \"surface\" must be given");
@@ -189,7 +189,8 @@ class CaseReader {
         if (values.has(key)) values.refuse(key, "it has no effect, because the placement is in " + options.placed);
     riis_surface_options &surface = options.surface_options;
     if (const auto scale = values.above_zero("scale")) {
-      if (options.unit) values.refuse("scale", "it cannot be combined with \"unit\", which gives the scale");
+      if (options.unit)
+        values.refuse("scale", "it cannot be combined with \"unit\", because the unit determines the scale");
       options.has_scale = true;
       surface.scale = *scale;
     }
@@ -199,7 +200,8 @@ class CaseReader {
     }
     if (const auto offset = values.number("offset")) surface.offset = *offset;
     options.surface_unit = values.unit("surface_unit");
-    if (options.surface_unit && !options.unit) values.refuse("surface_unit", "it needs \"unit\", the unit of the mesh");
+    if (options.surface_unit && !options.unit)
+      values.refuse("surface_unit", "it needs the unit of the mesh, as in \"unit\": \"mm\"");
     const bool is_file = !options.surface.empty() || is_valve_file(options.valve);
     if (options.unit && is_file && !options.surface_unit)
       values.refuse("surface_unit", "it is missing: \"unit\" needs the unit of the file");
@@ -253,7 +255,7 @@ class CaseReader {
       source.warp = WarpSource(path_, object, values.needed("warp"), source.options.surface_options);
     }
     if (times.empty() && source.warp.moves())
-      values.refuse("warp", "landmarks that move need times, in the file or by --times");
+      values.refuse("warp", "landmarks that move need times in the file or from --times");
     source.warp.apply(times.empty() ? 0 : times.front(), valve);
   }
 
@@ -276,7 +278,7 @@ class CaseReader {
       if (!found.file.empty()) all_.files.push_back(found.file);
     }
     if (times.empty() && !source.law.is_constant())
-      values.refuse("opening", "a valve that moves needs times, in the file or by --times");
+      values.refuse("opening", "a valve that moves needs times in the file or from --times");
     check(riis_valve_set_scalar(valve, "opening", largest_opening(source.law, times)), source.subject);
   }
 
@@ -284,12 +286,12 @@ class CaseReader {
     for (const char *key : {"parameters", "open_parameters", "opening", "tolerance", "triangulation", "warp"})
       if (values.has(key)) values.refuse(key, "it cannot be combined with \"surface\"");
     if (is_motion(source.options)) {
-      if (!all_.is_series()) values.refuse("surface", "a surface that moves needs times, in the file or by --times");
+      if (!all_.is_series()) values.refuse("surface", "a surface that moves needs times in the file or from --times");
       source.options.period = values.above_zero("period").value_or(0);
       source.options.frame_step = values.above_zero("time_step").value_or(1);
     } else {
       for (const char *key : {"period", "time_step"})
-        if (values.has(key)) values.refuse(key, "it needs a \"surface\" that moves, a .pvd or .dat file");
+        if (values.has(key)) values.refuse(key, "it needs a \"surface\" that moves: a .pvd or .dat file");
     }
   }
 
@@ -410,7 +412,8 @@ void read_surfaces(Case &all) {
       continue;
     }
     KeyframeFiles read = read_keyframes(options, all.seconds);
-    // Outputs are written after all frames are read. Without a check, the user would not notice an output that replaces a frame.
+    // Outputs are written after all frames are read. Without this check, an output could replace a frame, and the user would not
+    // notice.
     check_no_output_is("a frame of --surface " + options.surface, read.files, options);
     source.keyframes = std::move(read.keyframes);
     all.files.insert(all.files.end(), read.files.begin(), read.files.end());

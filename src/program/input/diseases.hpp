@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sick valves that --valve takes by the names of diagnoses. docs/diseases.md has the sources of their areas.
+// The diseased valves that --valve accepts by the names of diagnoses. docs/diseases.md has the sources of their areas.
 #pragma once
 
 #include <string>

@@ -27,8 +27,8 @@ struct Side {
   std::int32_t leaflet;
 };
 
-// Faces that are joined along sides, as disjoint sets. The sets also tell how the faces are oriented against each other. The
-// number i stands for face i as it is, and the number n + i stands for face i turned over. Two numbers are in one set if the
+// Faces that are joined along sides, as disjoint sets. The disjoint sets also tell how the faces are oriented against each other.
+// The number i stands for face i as it is, and the number n + i stands for face i turned over. Two numbers are in one set if the
 // faces are joined and have the same orientation.
 class Pieces {
  public:
@@ -42,8 +42,8 @@ class Pieces {
     const std::int64_t as_it_is = sets_.root(face), turned = sets_.root(n_ + face);
     return {std::min(as_it_is, turned), turned < as_it_is};
   }
-  // Joins two faces, whose orientations agree or differ. `turned` tells whether the orientations differ. If the two faces are in
-  // one piece already, nothing changes.
+  // Joins two faces, whose orientations agree or differ. `turned` tells whether the orientations differ. Two faces in one piece
+  // stay as they are.
   void join(std::int64_t one, std::int64_t other, bool turned) {
     if (find(one).piece == find(other).piece) return;
     sets_.unite(one, turned ? n_ + other : other);
@@ -94,7 +94,7 @@ class FaceCheck {
     return view(places_)[triangles_.vertex_id[3 * face + k % 3]];
   }
 
-  // Returns the faces that have different corners. Of several faces with the same corners, returns only the first.
+  // Returns the faces that have different corners. If several faces have the same corners, returns only the first of them.
   std::vector<std::int64_t> different_faces() const {
     using Key = std::array<std::int64_t, 3>;
     std::vector<std::pair<Key, std::int64_t>> sorted;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a surface from a file. Out: warnings about triangles whose side or area may not be as the user expects, and lines of open
-// edges.
+// The input is a surface from a file. The results are lines of open edges, and warnings about triangles whose side or area may
+// not be as the user expects.
 #pragma once
 
 #include <riis/riis.h>

@@ -56,7 +56,7 @@ Json parse_json(const std::string &path, const std::string &text, const std::str
     return Json::parse(text, observe);
   } catch (const Json::exception &error) {
     const std::string said = error.what();
-    // The parser's text begins like "[json.exception.parse_error.101] parse error at line 1, column 2: ...".
+    // The parser's text begins with "[json.exception.parse_error.101]", and then states the line and the column.
     const std::size_t end = said.find("] ");
     refuse_file(path, "is not JSON: " + (end == std::string::npos ? said : said.substr(end + 2)));
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a JSON file. Out: its value. The reader refuses deep nesting, repeated keys, and control characters in keys, which the
-// parser alone would accept.
+// The input is a JSON file, and the result is its value. The reader refuses deep nesting, repeated keys, and control characters
+// in keys, which the parser alone would accept.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -30,7 +30,8 @@ void check_keys(const std::string &path, const std::string &subject, const Json 
 // Returns the point if the value is [x, y, z], or nothing.
 std::optional<std::array<double, 3>> point_in(const Json &value);
 
-// In: an object of a case file. Out: the object's values by key, after checks. Refusals name the file, the object and the key.
+// The input is an object of a case file. The results are the object's values by key, after checks. Refusals name the file, the
+// object and the key.
 
 class CaseValues {
  public:

@@ -138,7 +138,7 @@ class Collector {
     if (ends_.size() == 1)
       refuse_file(file_.path, ends_.begin()->first + " is given without " +
                                   (ends_.begin()->first == flow_from ? flow_to : flow_from));
-    if (file_.flow) refuse_file(file_.path, "the flow is given twice, by flow and by flow_from and flow_to");
+    if (file_.flow) refuse_file(file_.path, "the file gives the flow twice: by flow, and by flow_from and flow_to");
     const auto &from = ends_.at(flow_from), &to = ends_.at(flow_to);
     file_.flow = {to[0] - from[0], to[1] - from[1], to[2] - from[2]};
     file_.flow_ends = {from[0], from[1], from[2], to[0], to[1], to[2]};
@@ -243,7 +243,7 @@ Unit slicer_unit(const std::string &path, const Json &list, const std::string &w
   return stated_unit(path, unit.get<std::string>());
 }
 
-// A file of 3D Slicer has many keys, which differ between versions. Only the keys needed here are read.
+// A file of 3D Slicer has many keys, and they differ between versions. Only the keys that are needed are read.
 void read_slicer(const Json &root, LandmarkFile &file) {
   const std::string &path = file.path;
   const Json &lists = root["markups"];

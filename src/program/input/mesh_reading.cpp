@@ -27,8 +27,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Returns whether a damaged file of this format can crash its reader. HDF5 files can crash their reader, and so can files that
-// VTK's reader of Exodus reads.
+// Returns whether a damaged file of this format can crash its reader. Files of HDF5, and files that VTK's reader of Exodus reads,
+// can crash their reader.
 bool may_crash(const std::string &path) {
   static const std::set<std::string> endings = {".xdmf", ".xmf", ".e", ".exo", ".ex2", ".exii"};
   return endings.count(ending_of(path)) != 0;
@@ -78,7 +78,7 @@ struct Answer {
 
 // Reads the mesh, writes it to a .vtu file, and sends the result through the pipe.
 [[noreturn]] void read_as_child(const std::string &path, const std::string &passed, int answer, pid_t parent) {
-  // Readers print their own errors, which the child process drops. The child process sends its message through the pipe.
+  // Readers print their own errors. The child process discards them. The child process sends its message through the pipe.
   const int nowhere = open("/dev/null", O_WRONLY);
   // The child process ends with its parent, and does not remove the parent's files.
   for (const int ending : UnbrokenWrite::signals)
@@ -95,7 +95,7 @@ struct Answer {
   if (status == RIIS_OK) status = riis_vtk_mesh_get_notes(mesh, &notes);
   if (status == RIIS_OK) status = riis_vtk_mesh_write(mesh, passed.c_str());
   const char *const text = status == RIIS_OK ? notes : riis_last_error();
-  // The text is short enough for a pipe to take it in one call.
+  // The text is so short that one write to a pipe takes it whole.
   const auto n_bytes = static_cast<ssize_t>(std::strlen(text));
   const bool is_written =
       write(answer, &status, sizeof status) == sizeof status && write(answer, text, std::strlen(text)) == n_bytes;

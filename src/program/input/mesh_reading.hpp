@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: the path of a mesh. Out: the mesh. A child process reads the formats in which a damaged file can crash the reader.
+// The input is the path of a mesh, and the result is the mesh. A child process reads the formats in which a damaged file can
+// crash the reader.
 #pragma once
 
 #include <string>

@@ -118,7 +118,7 @@ TimedValues read_keys(const std::string &path, const KeyColumn &column) {
       refuse("has " + std::to_string(columns.size()) + " columns: '" + line + "'; it must have 2, time and " + name);
     if (may_be_header && !number_in(columns[0]) && !number_in(columns[1])) continue;
     const double time = number(columns[0], "the time"), value = number(columns[1], "the " + name);
-    if (keys.times.size() == most_keys) refuse("is one key too many; at most 1000000 keys are allowed");
+    if (keys.times.size() == most_keys) refuse("is one key more than allowed; a file may have at most 1000000 keys");
     if (std::abs(time) > largest_key_time) refuse("the time " + columns[0] + " is beyond 1e30");
     if (!keys.times.empty() && time <= keys.times.back())
       refuse("the time " + columns[0] + " is not above the time before it");

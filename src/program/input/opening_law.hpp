@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: the user's description of a valve's motion. Out: the opening at any time, computed by the library's laws.
+// The input is the user's description of a valve's motion. The result is the opening at any time, computed by the library's laws.
 #pragma once
 
 #include <riis/riis.h>
@@ -12,7 +12,7 @@
 
 namespace riis::program {
 
-// A table of openings at key times. A period of 0 means that the table does not repeat.
+// A table of openings at key times. If the period is 0, the table does not repeat.
 struct OpeningTable {
   std::vector<double> times, openings;
   double period = 0;
@@ -33,7 +33,7 @@ class OpeningLaw {
   bool is_constant() const { return std::holds_alternative<double>(law_); }
 
  private:
-  // Evaluates the law once. The library thus refuses a bad law before the program does any other work.
+  // Evaluates the law once. The library therefore refuses a bad law before the program does any other work.
   void rehearse() const;
 
   std::variant<double, OpeningTable, riis_opening_times> law_;
@@ -46,7 +46,7 @@ double largest_opening(const OpeningLaw &law, const std::vector<double> &times);
 // Returns the names of the constants RIIS_INTERPOLATION_*. A name's position in the list is the value of its constant.
 const std::vector<std::string> &interpolation_names();
 
-// In: a CSV file of times and values. Out: the keys. Refusals name the file, the line and the value.
+// The input is a CSV file of times and values, and the result is the keys. Refusals name the file, the line and the value.
 
 // Describes the second column of a file of keys.
 struct KeyColumn {

@@ -131,7 +131,7 @@ Row row_of(const riis_valve *valve, const riis_parameter &parameter) {
           text_of(parameter.minimum) + " to " + text_of(parameter.maximum), description_of(parameter)};
 }
 
-// The rows of a numbered part of the valve, such as bump_0. A parameter without a numbered part has a row alone.
+// The rows of a numbered part of the valve, such as bump_0. A parameter without a numbered part has a separate row.
 struct Part {
   std::string name;  // "" without a number
   std::vector<Row> rows;

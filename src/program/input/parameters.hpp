@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a JSON file or NAME=VALUE. Out: parameters of a valve, with the names that riis_valve_set accepts. json_template writes
-// such a JSON file for a valve.
+// The input is a JSON file or NAME=VALUE. The results are parameters of a valve, with the names that riis_valve_set accepts.
+// json_template writes such a JSON file for a valve.
 #pragma once
 
 #include <riis/riis.h>
@@ -23,8 +23,8 @@ void set_from_json(riis_valve *valve, const Json &parameters, const std::string 
 // Sets the parameter of one option --set.
 void set_from_text(riis_valve *valve, const std::string &setting);
 
-// Returns all parameters of the valve with their values. If these values are read back, every parameter is set, and none follows
-// from another. Bumps that have no place are left out, except bump_0.
+// Returns all parameters of the valve with their values. If these values are read back, every parameter counts as set, and none
+// follows from another. Bumps that have no place are left out, except bump_0.
 std::string json_template(const riis_valve *valve);
 // Returns the parameters as a table for the user to read. Each line has a parameter's name, value, unit, range and description.
 // One line stands for all parts that are alike, such as bumps.

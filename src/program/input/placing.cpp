@@ -275,8 +275,8 @@ double distance_from_nodes(const LandmarkFile &landmarks, int64_t n_nodes, const
 
 void check_at_nodes(const LandmarkFile &landmarks, std::int64_t n_nodes, const double *nodes, const std::string &of,
                     Reader reader) {
-  // Landmarks lie on the wall, so nodes of the mesh must be near them. If landmarks are a centimetre away from the nodes, they
-  // belong to another place.
+  // Landmarks lie on the wall, so nodes of the mesh must be near them. Landmarks that are a centimetre away from the nodes
+  // therefore belong to another place.
   const double near = factor_between(Unit::centimetre, landmarks.unit);
   const double apart = distance_from_nodes(landmarks, n_nodes, nodes, 1, 1);
   if (apart <= near) return;
@@ -289,7 +289,7 @@ void check_at_nodes(const LandmarkFile &landmarks, std::int64_t n_nodes, const d
       if (other > factor * near) continue;
       std::vector<std::string> changes;
       if (unit != landmarks.unit) changes.push_back(std::string("in ") + words_of(unit));
-      if (sign < 0) changes.emplace_back("with x and y reversed, as between LPS and RAS");
+      if (sign < 0) changes.emplace_back("with the signs of x and y reversed, as between LPS and RAS");
       text +=
           "; " + joined_by(changes, " and ") + ", they are " + digits(other, 3) + " " + name_of(unit) + " from them: ";
       std::vector<std::string> advice;
@@ -301,7 +301,7 @@ void check_at_nodes(const LandmarkFile &landmarks, std::int64_t n_nodes, const d
                          ", the mesh's axes");
       else if (sign < 0)
         advice.emplace_back(landmarks.is_file ? "state the axes of the file"
-                                              : "turn the landmarks by half a turn about z");
+                                              : "rotate the landmarks by 180 degrees about z");
       text += joined_by(advice, " and ");
       refuse_data(text);
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: landmarks of a patient. Out: the sizes and the placement of the valve, as a report and as the file of a placed valve. The
-// program and the Python package share this code.
+// The inputs are landmarks of a patient. The results are the sizes and the placement of the valve, as a report and as the file of
+// a placed valve. The program and the Python package share this code.
 #pragma once
 
 #include <array>
@@ -15,8 +15,8 @@
 
 namespace riis::program {
 
-// In: a file of landmarks (docs/formats.md): JSON, 3D Slicer's .mrk.json, or CSV. Out: the landmarks as the library takes them.
-// A file must state its unit and its axes, because the program does not guess them.
+// The input is a file of landmarks (docs/formats.md): JSON, 3D Slicer's .mrk.json, or CSV. The results are the landmarks as the
+// library takes them. A file must state its unit and its axes, because the program does not guess them.
 
 // The directions of x, y and z. LPS is left, posterior, superior; RAS is right, anterior, superior. `mesh` stands for the mesh's
 // own axes.
@@ -46,7 +46,7 @@ struct LandmarkFile {
 
 // Reads the text of a file of landmarks. The ending of its path tells the format.
 LandmarkFile read_landmarks(const std::string &path, const std::string &text);
-// Reads landmarks in memory from an object that has the keys of a file. Refusals call the landmarks by `subject`.
+// Reads landmarks in memory from an object that has the keys of a file. `subject` names the landmarks in refusals.
 LandmarkFile landmarks_of_json(const std::string &subject, const Json &root);
 
 // The reader of a message: a user of the program or of the Python package. Messages write options like --unit mm for the program,

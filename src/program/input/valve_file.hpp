@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a JSON file of boundary curves and patches. Out: a valve, which has an open state if the file has one.
+// The input is a JSON file of boundary curves and patches. The result is a valve, which has an open state if the file has one.
 #pragma once
 
 #include <riis/riis.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: the description of a valve, from the command line or from a case. Out: the valve or the file with its surface, and the
-// surface.
+// The input is the description of a valve, from the command line or from a case. The results are the valve or the file with its
+// surface, and the surface.
 #pragma once
 
 #include <string>
@@ -32,8 +32,8 @@ class NewValve {
   // `valve` is a kind, or a file of patches. `subject` begins the refusal of an unknown kind.
   NewValve(const std::string &valve, const std::string &subject);
   operator riis_valve *() const { return valve_; }
-  // Hands over the valve. Refuses an opening if the valve's file has no open state. The library's message would advise another
-  // valve.
+  // Hands over the valve. Refuses an opening if the valve's file has no open state. Otherwise the library would refuse it, and
+  // advise another valve.
   Valve take();
   Valve take_unchecked() { return std::move(valve_); }
 
@@ -79,8 +79,8 @@ enum class FileVelocity { none, zero };
 // Makes the surface. A moving surface is taken at options.time, and it has velocities.
 Surface make_surface(const ValveSource &source, FileVelocity velocity);
 
-// Returns the name of a leaflet. A leaflet without a name has the given word and its number. If each leaflet has a file, the
-// leaflet's name is the name of the file.
+// Returns the name of a leaflet. A leaflet without a name is called by the given word and its number. If each leaflet has a file,
+// the leaflet's name is the name of the file.
 std::string name_of_leaflet(const ValveOptions &options, const riis_surface_info &surface, std::int32_t leaflet,
                             const char *word = "leaflet ");
 // Returns the name of a kind's leaflet. The name consists of letters, digits and _.
@@ -100,7 +100,7 @@ struct KeyframeFiles {
 };
 KeyframeFiles read_keyframes(const ValveOptions &options, Seconds &seconds);
 
-// In: a file in a format that the program does not read. Out: a command that converts the file.
+// The input is a file in a format that the program does not read. The result is a command that converts the file.
 
 enum class Content { mesh, surface };
 

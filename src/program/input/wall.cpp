@@ -69,7 +69,7 @@ std::string hint_of_change(const ValveOptions &options, const SurfaceFile &file,
   return "";
 }
 
-// Prints a warning only once in a run, because several stages make the valve again.
+// Prints a warning only once in a run, although several stages make the valve again.
 void warn_once(const std::string &text) {
   static std::set<std::string> printed;
   if (printed.insert(text).second) warn(text);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: --skirt and --wall. Out: the gap between a valve and a wall, and a skirt from a valve or a surface to the wall.
+// The inputs are --skirt and --wall. The results are the gap between a valve and a wall, and a skirt from a valve or a surface to
+// the wall.
 #pragma once
 
 #include <riis/riis.h>

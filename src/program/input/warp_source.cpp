@@ -104,7 +104,7 @@ namespace {
 // object that describes the warp.
 Json json_of_csv(const std::string &path) {
   const CsvFile file = csv_of_text(path, text_of_file(path), {"noise", "coordinates"},
-                                   "SX,SY,SZ,TX,TY,TZ, a landmark on the valve and in the patient", 6);
+                                   "SX,SY,SZ,TX,TY,TZ: the place of a landmark on the valve, then in the patient", 6);
   Json warp = Json::object();
   warp["sources"] = warp["targets"] = Json::array();
   for (const auto &[name, value] : file.stated)

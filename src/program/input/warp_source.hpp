@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: the warp of a valve, {"sources": [[x, y, z], ...], "targets": ..., ...}. The warp stands in a case, in a placed valve, or
-// in a separate file, which may also be a CSV. Out: the warp at a time.
+// The input is the warp of a valve, {"sources": [[x, y, z], ...], "targets": ..., ...}. The warp stands in a case, in a placed
+// valve, or in a separate file, which may also be a CSV. The result is the warp at a time.
 #pragma once
 
 #include <cstdint>

@@ -57,7 +57,8 @@ void sweep_openings(const ValveOptions &options, riis_valve *valve, CrossingRepo
   }
 }
 
-// --quiet does not silence this warning. A valve whose leaflets cross cannot exist, and its normals contradict each other.
+// --quiet does not silence this warning. A valve whose leaflets cross cannot exist, and the normals of its leaflets contradict
+// each other.
 void warn_of_crossings(const ValveOptions &options, const riis_surface_info &surface, const CrossingReport &report,
                        const std::string &part, const std::string &advice) {
   const riis_crossing_list &found = report.found;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Implements riis check crossings, and a shorter check for shapes that the user chose.
-// In: a valve or its surface. Out: the first opening at which leaflets cross.
+// The input is a valve or its surface. The result is the first opening at which leaflets cross.
 #pragma once
 
 #include <riis/riis.h>

@@ -38,7 +38,7 @@ Surface with_half_thickness(const MarkOptions &options, const riis_valve *valve,
 
 namespace {
 
-// Rounds up to three digits. The printed number thus also closes the leaks when the user types it.
+// Rounds up to three digits. The printed number therefore also closes the leaks if the user types it.
 double rounded_up(double x) {
   const double unit = power_of_ten(decimal_exponent(x) - 2);
   for (int steps = 0;; ++steps) {
@@ -65,7 +65,7 @@ double closing_half_thickness(const riis_valve *valve, double half_thickness, co
       wanted = rounded_up(std::max(*needed, 1.01 * wanted));
     }
   } catch (const Refusal &) {
-    // A warning without advice is still valid. Advice is missing if the half thickness allows no surface, or if the thicker band
+    // A warning without advice is still valid. There is no advice if the half thickness allows no surface, or if the thicker band
     // contains an end of the passage.
   }
   return 0;

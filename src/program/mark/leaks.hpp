@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a marked mesh. Out: the number of mesh edges that cross the surface between unmarked nodes, and a half thickness that
-// closes these leaks.
+// The input is a marked mesh. The results are the number of mesh edges that cross the surface between unmarked nodes, and a half
+// thickness that closes these leaks.
 #pragma once
 
 #include <riis/riis.h>
@@ -72,8 +72,8 @@ class MeshLeaks {
   std::vector<KeyedEdge> found_;
 };
 
-// In: a mesh and two points. Out: whether unmarked nodes join the points, where the widest passage is, and a half thickness that
-// closes it.
+// The input is a mesh and two points. The result says whether unmarked nodes join the points, where the widest passage is, and
+// which half thickness closes it.
 
 // The end of a passage: the node that is nearest to a point of the user. Nodes without a neighbour do not count.
 struct PieceEnd {
@@ -108,8 +108,8 @@ class PassageCheck {
   PieceEnd ends_[2] = {};
 };
 
-// In: the marked pieces of a mesh. Out: measures of one valve's band for a flow: the number of mesh edges across the band, and
-// the open regions that the band separates.
+// The inputs are the marked pieces of a mesh. The results are measures of one valve's band for a flow: the number of mesh edges
+// across the band, and the open regions that the band separates.
 class BandMeasures {
  public:
   // Adds a piece, whose nodes' neighbours must be known. Returns the open region of each node.
@@ -118,8 +118,8 @@ class BandMeasures {
   void judge(const MatchedNodes &matched, double half_thickness, FlowReport &report) const;
 
  private:
-  // The lengths of the edges that have a marked node. The sum is a long double. The mean thus hardly depends on the division into
-  // pieces.
+  // The lengths of the edges that have a marked node. The sum is a long double. The mean therefore hardly depends on the division
+  // into pieces.
   using Lengths = EdgeLengths<long double>;
   void add_lengths(const Piece &piece, const riis_mark_list &marked);
 

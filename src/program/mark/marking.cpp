@@ -368,7 +368,7 @@ void Marking::judge() {
   report_.seconds.leaks += stage.seconds();
 }
 
-// Fills the report of a valve. The marks belong to the valve's least opening.
+// Fills the report of a valve. Its counts of marks belong to the valve's least opening.
 void Marking::report_marks(std::size_t i, std::int64_t n_nodes, const MeshCounts &counts) {
   ValveReport &report = report_.valves[i];
   const MovingValve &valve = valves_[i];
@@ -393,7 +393,7 @@ void Marking::report_marks(std::size_t i, std::int64_t n_nodes, const MeshCounts
   report.leaks.n_cells_left_out = counts.n_cells_left_out;
 }
 
-// Warns of suspicious marks. Each valve is judged at the time when it marks the most nodes.
+// Warns of suspicious marks. The state at which a valve marks the most nodes decides for each valve.
 void Marking::warn_of_marks(std::int64_t n_nodes, const MeshCounts &counts) {
   std::vector<Warning> warnings;
   bool are_complete = true;
@@ -418,7 +418,7 @@ void Marking::warn_of_marks(std::int64_t n_nodes, const MeshCounts &counts) {
   warn(warnings);
 }
 
-// Reports the state with the largest share outside the mesh. Warns only if the valve is in the mesh at all.
+// Reports the state with the largest share outside the mesh. Warns only if at least a part of the valve is in the mesh.
 void Marking::report_outside(std::size_t i, const MeshCounts &counts) {
   std::optional<OutsideReport> &report = report_.valves[i].outside;
   std::optional<OutsideReport> closed;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: the valves and the times of a case, and the pieces of a mesh, one by one. Out: marks in the pieces, and the report about
-// all of them.
+// The inputs are the valves and the times of a case, and the pieces of a mesh, one by one. The results are marks in the pieces,
+// and the report about all of them.
 #pragma once
 
 #include <cstdint>
@@ -70,8 +70,7 @@ class Marking {
   std::vector<std::string> names_of_arrays() const;
   // Returns the report of a valve's surface at its present position.
   ValveReport report_of(std::size_t i);
-  // The node counts have several kinds: the marked nodes at each step, and the nodes within the distance limit at the least
-  // opening.
+  // The node counts have several kinds: marked nodes at each step, and nodes within the distance limit at the least opening.
   std::size_t marked_at(std::size_t step, std::size_t valve) const { return step * valves_.size() + valve; }
   std::size_t within_limit(std::size_t valve) const { return marked_at(times_.size(), valve); }
 

@@ -49,7 +49,7 @@ void check_one_time(const MarkOptions &options) {
 void check_first_passage(const Case &all) {
   if (!all.options.first_passage) return;
   if (!all.valves[0].options.surface.empty())
-    refuse_usage("--first-passage needs a valve; a surface from a file does not open");
+    refuse_usage("--first-passage needs a valve, because a surface from a file does not open");
   if (all.valves.size() > 1)
     refuse_usage(
         "--first-passage takes one valve, because one of several valves may close the passage through another");
@@ -371,7 +371,7 @@ bool is_sealed(const Report &report) {
   });
 }
 
-// Returns whether a check found the fault for which it looks.
+// Returns whether a check found what it looks for, such as a leak.
 bool has_fault(const MarkOptions &options, const Report &report) {
   const bool crosses = std::any_of(report.valves.begin(), report.valves.end(), [](const ValveReport &valve) {
     return valve.crossings && valve.crossings->found.n_pairs > 0;

@@ -79,7 +79,7 @@ class FileNodes {
   // Finds the neighbours of all nodes if they are not known yet.
   void find_neighbors(std::int32_t n_threads);
   void forget_neighbors() { neighbors_.reset(); }
-  // The next two functions need the neighbours of the nodes.
+  // Both functions below need the neighbours of the nodes.
   template <class Visit>
   void for_each_neighbor(std::int64_t node, const Visit &visit) const {
     if (const riis_grid *const axes = points_.axes()) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a mesh, one file or several pieces. Out: the mesh's pieces, which are read one by one, and the nodes that several pieces
-// share. A mesh in one file counts as one piece. Each node has a key. Nodes of two pieces are the same node if their keys are
-// equal.
+// The input is a mesh, in one file or in several pieces. The results are the mesh's pieces, which are read one by one, and the
+// nodes that several pieces share. A mesh in one file counts as one piece. Each node has a key. Nodes of two pieces are the same
+// node if their keys are equal.
 #pragma once
 
 #include <riis/riis_vtk.h>
@@ -140,7 +140,7 @@ struct MeshCounts {
 // Returns the sums over all ranks. Refuses a mesh without nodes, and a mesh in which only some pieces have global ids.
 MeshCounts sum_of(const MeshCounts &own, const MeshPieces &mesh);
 
-// Disjoint sets of things, which can be united. At the beginning, each set has one thing.
+// Disjoint sets of things, which can be united. At the beginning, each thing is a set of its own.
 template <class Thing>
 class JoinedSets {
  public:

@@ -73,7 +73,7 @@ double MovingValve::largest_speed() const {
 
 namespace {
 
-// Marks a single node. The library thus refuses bad options before a large mesh is read and marked.
+// Marks a single node. The library therefore refuses bad options before a large mesh is read and marked.
 void rehearse_marking(const MarkOptions &options, const riis_surface *surface) {
   const double origin[3] = {0, 0, 0};
   const auto mesh = create<Mesh>(riis_mesh_create, 1, origin, origin + 1, origin + 2, 3);

@@ -73,8 +73,8 @@ class JoinedTriangles {
   std::vector<std::int32_t> leaflets_;
 };
 
-// In: the surfaces of several valves. Out: one surface with the triangles of all valves. The leaflets of each valve are numbered
-// after the leaflets of the valves before it.
+// The inputs are the surfaces of several valves. The result is one surface with the triangles of all valves. The leaflets of each
+// valve are numbered after the leaflets of the valves before it.
 
 // Returns the largest leaflet id plus one.
 int32_t n_leaflets_of(const riis_surface *surface);

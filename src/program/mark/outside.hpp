@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a surface and the pieces of a mesh. Out: the share of the leaflets' area that is farther than the half thickness from the
-// mesh. Skirts and the housing of a bileaflet valve do not count, because they may reach beyond the wall.
+// The inputs are a surface and the pieces of a mesh. The result is the share of the leaflets' area that is farther than the half
+// thickness from the mesh. Skirts and the housing of a bileaflet valve do not count, because they may reach beyond the wall.
 #pragma once
 
 #include <cstdint>
@@ -39,11 +39,11 @@ class LeafletsOutside {
 };
 
 // Warns if more than a small share of the leaflets is outside the mesh. Open leaflets may rightly lie against the wall and reach
-// into it. The closed state, `closed`, therefore decides whether the valve stands in a wrong place. A surface from a file has no
+// into it. The closed state, `closed`, therefore decides whether the valve is in a wrong place. A surface from a file has no
 // `closed`. In the warning, `name` names the surface.
 void warn_of_outside(const OutsideReport &report, const std::optional<OutsideReport> &closed, double half_thickness,
                      const std::string &name);
-// Returns a text such as "26 % of the leaflets' area (right 61 %)".
+// Returns the share of the leaflets' area outside the mesh, and of single leaflets, such as "26 %" and "right 61 %".
 std::string outside_text(const OutsideReport &report);
 
 }  // namespace riis::program

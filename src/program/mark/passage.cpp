@@ -104,10 +104,10 @@ riis_passage passage_in(const Piece &piece, const MarkOptions &options, const ri
 //
 // Each piece is reduced to the ways that join its shared nodes. A node's distance is the least half thickness that marks the
 // node. If the band has no offset, the least half thickness is the node's distance from the surface. At first, all nodes beyond a
-// limit are open, and their connected regions are labelled. The nodes within the limit are then opened one by one, from far to
+// limit are open, and their connected regions get labels. The nodes within the limit are then opened one by one, from far to
 // near. If a node joins two sets, and each of the two has a shared node or an end, the node becomes a link. A link has the
-// distance of its node. Regions of different pieces are joined if they have a common node. Links are opened from far to near
-// until the two ends are joined. If the two ends are joined before any link is opened, the limit was too small.
+// distance of its node. Regions of different pieces are joined if they have a common node. Links between regions are opened from
+// far to near until the two ends are joined. If the two ends are joined before any link is opened, the limit was too small.
 
 namespace {
 

@@ -296,7 +296,7 @@ namespace {
 // Areas count only above a small share of the outline's area, because the triangles are coarse. The area that the bands leave is
 // mostly 0, so its error is smaller.
 constexpr double least_share = 1e-3, least_share_left = 1e-5;
-// The width of the gap is found by halving, with a small share of the bridge between the bands as its error.
+// The width of the gap is found by halving. Its error is a small share of the width that two bands bridge.
 constexpr int n_halvings = 10;
 
 // Removes all bumps from the valve. Returns whether the valve had a bump with a place.

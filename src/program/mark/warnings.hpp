@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Prints and counts all warnings of the program. The texts of warnings about leaks are in leaks.cpp.
-// In: the number of marks, and all sizes. Out: lines that name the suspicious values and the options to write instead.
+// The inputs are the number of marks, and all sizes. The results are lines that name the suspicious values and the options to
+// write instead.
 #pragma once
 
 #include <riis/riis_vtk.h>
@@ -72,8 +73,8 @@ std::string place_text(const ValveOptions &options, const double *point, double 
 // Returns the text of a number as a user would write it.
 std::string shown(double number);
 
-// Warns if bumps (docs/theory/bumps.md) leave a gap in the closed valve, but the gap is nowhere wider than the bridge between two
-// bands. The gap is measured in the orifice, as seen along its axis. Slits that the valve has without bumps do not count. The
+// Warns if bumps (docs/theory/bumps.md) leave a gap in the closed valve that is nowhere wider than the two bands beside it can
+// bridge. The gap is measured in the orifice, as seen along its axis. Slits that the valve has without bumps do not count. The
 // warning begins with `part`.
 void warn_of_bridged_gap(const ValveOptions &options, const riis_valve *valve, const std::string &part);
 

@@ -197,7 +197,7 @@ void SeriesLists::end() {
   write_(true);
 }
 
-// After writing, the thread pauses twenty times as long as the writing took. Writing the lists therefore takes little of the
+// After each write, the thread pauses twenty times as long as the write took. Writing the lists therefore takes little of the
 // run's time.
 void SeriesLists::follow() {
   using Clock = std::chrono::steady_clock;

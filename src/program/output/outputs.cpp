@@ -44,8 +44,8 @@ void check_ending(const std::string &path, const std::string &ending, const std:
   refuse_data(path + ": cannot be written: " + reason);
 }
 
-// Returns whether the path is a device or a pipe. The program writes into a device or a pipe. Any other file is replaced as a
-// whole.
+// Returns whether the path is a device or a pipe. If the path is a device or a pipe, the program writes into it. Any other file
+// is replaced as a whole.
 bool is_special(const std::string &path) {
   std::error_code error;
   return fs::exists(path, error) && !fs::is_regular_file(path, error);
@@ -351,8 +351,8 @@ void remove_held() {
   for (const std::string &path : held_locks) unlink(path.c_str());
 }
 
-// Removes the lock files, and raises the signal again. The signal is blocked until the handler returns. After the return of the
-// handler, the signal ends the process.
+// Removes the lock files, and raises the signal again. The signal is blocked until the handler returns. When the handler returns,
+// the signal ends the process.
 void remove_and_end(int signal) {
   remove_held();
   unlink(scratch_file);

@@ -75,7 +75,7 @@ class UnbrokenWrite {
 };
 
 // Throws a Refusal for an output that would replace an input or another output. Also refuses a wrong ending, and a folder that is
-// not writable. Also throws a Refusal for a picture without a display, and for an output that another run is writing. The caller
+// not writable. Also throws a Refusal if there is no display for a picture, and if another run is writing the output. The caller
 // must keep the returned locks until all outputs are written. more_inputs are other files that the run has read.
 [[nodiscard]] OutputLocks check_outputs(const MarkOptions &options, const std::vector<std::string> &more_inputs = {});
 [[nodiscard]] OutputLocks check_outputs(const SizeFieldOptions &options, const std::vector<std::string> &more_inputs);

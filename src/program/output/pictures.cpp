@@ -81,7 +81,8 @@ std::string title_of_valve(const ValveOptions &options) {
   return title;
 }
 
-// Returns the title of a picture. The title begins with the title of the valve. The report begins with the valve's name instead.
+// Returns the title of a picture. The title begins with the title of the valve. Titles of reports begin with the valve's name
+// instead.
 std::string picture_title(const ValveOptions &options, const riis_valve *valve, const ValveReport &report) {
   std::string title = surface_title(report);
   const bool is_kind = report.opening && !is_valve_file(report.surface_name);
@@ -118,8 +119,8 @@ std::string orifice_text(const riis_surface *surface, const std::optional<Unit> 
   return ", orifice " + (unit ? fixed(area * factor * factor, 2) + " cm2" : printed("%.3g", area));
 }
 
-// Returns the line of a title with the half thickness. The line begins with a line break. Returns "" if the valves have different
-// half thicknesses.
+// Returns the line of a title with the half thickness. The line with the half thickness begins with a line break. Returns "" if
+// the valves have different half thicknesses.
 std::string half_thickness_line(const std::vector<MovingValve> &valves, const std::optional<Unit> &unit) {
   const double first = info_of(valves[0].surface()).half_thickness;
   for (const MovingValve &valve : valves)
@@ -369,7 +370,7 @@ void Movie::encode() const {
   if (end.status == 0 && std::rename(temporary.c_str(), place.c_str()) == 0) return;
   const int error = errno;
   std::remove(temporary.c_str());
-  // If the user presses Ctrl-C, the signal also reaches ffmpeg. The failure of ffmpeg then needs no message.
+  // If the user presses Ctrl-C, the signal also reaches ffmpeg. If Ctrl-C ended ffmpeg, its failure needs no message.
   if (UnbrokenWrite::has_signal()) return;
   if (end.status == 0) refuse_movie(path_, system_text(error));
   refuse_movie(path_, "ffmpeg ends with status " + std::to_string(end.status) + ": " + end.last_message.substr(0, 200));

@@ -24,7 +24,8 @@ namespace riis::program {
 // options of the first valve.
 void check_views(const MarkOptions &options, std::size_t n_valves, const ValveOptions &valve);
 
-// In: the movie's frames, which are files in a temporary folder. Out: a movie, which the program ffmpeg makes.
+// The inputs are the movie's frames, which are files in a temporary folder. The result is a movie, which the program ffmpeg
+// makes.
 
 // Refuses a movie whose ending is not .mp4 or .gif. Refuses every movie if ffmpeg is missing. Does nothing if the path is "".
 void check_movie(const std::string &path);

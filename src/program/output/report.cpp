@@ -26,7 +26,7 @@ std::string bytes_text(double n) {
 }
 
 bool has_slits(const riis_orifice &orifice) {
-  // An orifice consists of slits if a circle with a hundredth of its area has a longer perimeter.
+  // An orifice counts as slits if a circle with a hundredth of its area has a longer perimeter.
   const bool has_no_rim = orifice.perimeter * orifice.perimeter < 4 * pi * 0.01 * orifice.area;
   return has_no_rim && orifice.area > 1e-3 * orifice.outline_area && orifice.effective_area < 0.5 * orifice.area;
 }
@@ -104,7 +104,8 @@ void add_search(const ValveReport &valve, std::ostringstream &out) {
   if (marks.n_unreached > 0) out << ", " << counted(marks.n_unreached, "node") << " not reached from a neighbour";
   out << "\n";
   if (!marks.complete)
-    out << line("complete", valve.name) << "unknown: the search misses nodes that are not connected to its start\n";
+    out << line("complete", valve.name)
+        << "unknown, because this search misses nodes that are not connected to its start node\n";
 }
 
 void add_leaks(const ValveReport &valve, std::ostringstream &out) {
@@ -115,7 +116,7 @@ void add_leaks(const ValveReport &valve, std::ostringstream &out) {
     out << counted(leaks.found.n_edges, "edge") << " between unmarked nodes across the surface, length up to "
         << leaks.found.longest_length << (unknown.empty() ? "" : "; more are unknown: ") << unknown;
   else if (unknown.empty() && leaks.is_near)
-    out << "none: no edge crosses the surface between unmarked nodes";
+    out << "none: no mesh edge between two unmarked nodes crosses the surface";
   else
     out << "unknown: " << (unknown.empty() ? "no node is marked" : unknown);
   out << "\n";
@@ -188,10 +189,11 @@ void add_flow(const ValveReport &valve, std::ostringstream &out) {
     if (flow.first->state == RIIS_FIRST_PASSAGE_FOUND)
       out << "for the mesh at opening " << flow.first->opening << ", closed at " << flow.first->closed_opening;
     else if (flow.first->state == RIIS_FIRST_PASSAGE_ALWAYS)
-      out << "always: the mesh has a passage at opening 0";
+      out << "always: even the closed valve leaves a passage open";
     else
-      out << (flow.first->state == RIIS_FIRST_PASSAGE_NEVER ? "never: the mesh has no passage at any opening tried"
-                                                            : "unknown: the mesh has no path between the points");
+      out << (flow.first->state == RIIS_FIRST_PASSAGE_NEVER
+                  ? "never: no opening that was tried leaves a passage open"
+                  : "unknown, because the mesh itself does not connect the points");
     out << "\n";
   }
   if (flow.leak_per_drop && flow.drop) {
@@ -310,7 +312,7 @@ std::string line_of_passage(const Report &report) {
   std::ostringstream out = table_stream();
   out << line("passage", "") << (report.passage->is_unknown ? "unknown; along the known edges " : "");
   if (found.state == RIIS_PASSAGE_NONE)
-    out << "none: the mesh itself does not join the two points";
+    out << "none, because the mesh itself does not connect the two points";
   else
     out << (found.state == RIIS_PASSAGE_OPEN ? "open" : "closed") << ": at " << report.passage->place << ", "
         << found.distance << " from the surface" << (report.passage->is_end ? ", an end" : "");
@@ -345,7 +347,7 @@ void add_marks(const ValveReport &valve, nlohmann::ordered_json &json) {
                {"outside", valve.outside ? json_of_outside(*valve.outside) : nlohmann::ordered_json()}});
 }
 
-// Returns the JSON keys of a valve. If there is only one valve, the keys of the run are added.
+// Returns the JSON keys of a valve. For a single valve, the keys of the run are added.
 nlohmann::ordered_json json_of_valve(const Report &report, const ValveReport &valve, bool is_only) {
   nlohmann::ordered_json json;
   if (is_only) json["version"] = riis_version_string();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: the results and times of a run. Out: JSON for programs, and a short table for the user.
+// The inputs are the results and times of a run. The results are JSON for programs, and a short table for the user.
 #pragma once
 
 #include <riis/riis.h>

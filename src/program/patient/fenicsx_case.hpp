@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a patient's case. Out: a folder in which dolfinx runs one beat as it is (docs/patient_fenicsx.md).
+// The input is a patient's case. The result is a folder in which dolfinx runs one beat as it is (docs/patient_fenicsx.md).
 #pragma once
 
 #include "program/patient/solver_case.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: the file of a patient's wall. Out: a closed surface whose triangles face outwards, and the flat ends at which the vessels
-// were cut.
+// The input is the file of a patient's wall. The results are a closed surface whose triangles face outwards, and the flat ends at
+// which the vessels were cut.
 #pragma once
 
 #include <array>

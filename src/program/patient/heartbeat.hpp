@@ -9,8 +9,8 @@ namespace riis::program {
 inline constexpr double mmHg = 133.322;         // Pa
 inline constexpr double beat_period = 0.8;      // s
 inline constexpr double motion_seconds = 0.04;  // in which a valve opens, and in which it closes
-// The dwell time of the law of opening. Leaflets that close push blood back, and the pressure of this blood must not open the
-// valve. Each motion of the leaflets therefore ends before the next motion may begin, as in svMultiPhysics.
+// The dwell time of the law of opening. Closing leaflets push blood back, and the pressure of this blood must not open the valve
+// again. Each motion of the leaflets therefore ends before the next motion may begin, as in svMultiPhysics.
 inline constexpr double dwell_seconds = motion_seconds;
 // Pa. The opening pressure is larger than the rounding error of the difference between two equal pressures.
 inline constexpr double opening_pressure = 50;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a patient's mesh with named boundaries, and a valve that is placed in the mesh. Out: a folder that OpenFOAM 1912 runs as it
-// is.
+// The inputs are a mesh with named boundaries of a patient, and a valve that is placed in the mesh. The result is a folder that
+// OpenFOAM 1912 runs as it is.
 #pragma once
 
 #include "program/patient/solver_case.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: the file of a placed valve. Out: the valve's entries in OpenFOAM's dictionary of riisValve (examples/openfoam/README.md).
+// The input is the file of a placed valve. The results are the valve's entries in OpenFOAM's dictionary of riisValve
+// (examples/openfoam/README.md).
 #pragma once
 
 #include <optional>

@@ -36,10 +36,10 @@ using Words = std::vector<std::string>;
 
 // Defaults of lengths, in millimetres.
 constexpr double aortic_half_thickness = 1, mitral_half_thickness = 1.5, usual_skirt = 6, usual_noise = 0.3;
-// Limits of the half thickness. A value beyond the limits has a wrong unit, or would close the open valve.
+// Limits of the half thickness. A value beyond these limits has a wrong unit, or would close the open valve.
 constexpr double least_half_thickness_mm = 0.1, most_half_thickness_mm = 4, most_skirt_mm = 30;
-// The largest usual average distance of landmarks from the wall, for landmarks that a person sets. Above the second distance,
-// landmarks are doubtful.
+// The largest usual average distance of landmarks from the wall, for landmarks that a person sets. Above the second distance, the
+// landmarks are probably wrong.
 constexpr double usual_distance_mm = 1, doubtful_distance_mm = 2;
 constexpr double usual_band_edge = 0.95, usual_largest_edge = 3;
 // svMultiPhysics spreads K over whole elements. In a coarser mesh, svMultiPhysics' closed valve would therefore leak much

@@ -38,7 +38,7 @@ constexpr double end_edge_share = 0.35;
 // The time in seconds that gmsh has: a fixed time, and an additional time for each triangle. If gmsh cannot remesh a surface, it
 // may run for hours.
 constexpr double least_seconds = 120, seconds_per_triangle = 0.01;
-// If gmsh may be run twice, the share of the time for the first run.
+// If gmsh may have to run twice, the first run gets this share of the time.
 constexpr double first_share = 0.25;
 // In the second try, nodes are moved by at most a tiny share of the wall's size. The movement is as small as the rounding errors
 // of files in single precision.
@@ -225,7 +225,7 @@ std::vector<BoundaryGroup> boundary_groups(const PatientWall &wall) {
   std::vector<BoundaryGroup> groups;
   for (std::size_t i = 0; i < wall.ends.size(); ++i)
     groups.push_back({wall.ends[i].name, static_cast<std::int32_t>(i)});
-  // The inlet comes first, then outlet, outlet_2 and so on.
+  // The inlet is the first boundary. After the inlet follow outlet, outlet_2 and so on.
   std::sort(groups.begin(), groups.end(), [](const BoundaryGroup &a, const BoundaryGroup &b) {
     return std::make_pair(a.name.size(), a.name) < std::make_pair(b.name.size(), b.name);
   });
@@ -356,7 +356,8 @@ class PatientMesher {
                                ? options_.surface_seconds
                                : least_seconds + seconds_per_triangle * static_cast<double>(old_.n());
     write_text(in_gmsh("wall.msh"), text_of_wall(old_.points));
-    // In rare cases gmsh refines a clean surface and never stops. If the last digits of the nodes are changed, gmsh succeeds.
+    // In rare cases gmsh refines a clean surface and never stops. If the last digits of the coordinates are changed, gmsh
+    // succeeds.
     surface_ = run_gmsh(seconds, "-2", in_gmsh("surface.geo"), in_gmsh("surface.msh"), cure_of_surface(),
                         [&] { write_text(in_gmsh("wall.msh"), text_of_wall(moved_points())); });
     name_patches();
@@ -427,8 +428,8 @@ class PatientMesher {
     return text.text();
   }
 
-  // gmsh gives new numbers to its patches, and turns some patches over. Each new patch belongs to the part of the boundary that
-  // it covers.
+  // gmsh gives new numbers to its patches, and turns some patches over. Each new patch gets the name of the part of the boundary
+  // that it covers.
   void name_patches() {
     std::map<std::int64_t, std::vector<std::size_t>> patches;
     for (std::size_t i = 0; i < surface_.triangles.size(); ++i) patches[surface_.triangles[i].first].push_back(i);

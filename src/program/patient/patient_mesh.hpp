@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a wall with named ends, and a size field of riis size-field. Out: a volume mesh with named boundaries, in the files that
-// solvers read. gmsh makes the mesh.
+// The inputs are a wall with named ends, and a size field of riis size-field. The result is a volume mesh with named boundaries,
+// in the files that solvers read. gmsh makes the mesh.
 #pragma once
 
 #include <cstdint>

@@ -58,7 +58,7 @@ std::string taken_folder(const std::string &path, bool replace, const std::vecto
     if (!is_empty && !is_unfinished && !replace)
       refuse_folder(path, "the folder has the results of an earlier run: name another, or write --replace");
     check_inputs(folder, path, inputs);
-    // The report is removed first. A folder that has lost some of its files thus never looks finished.
+    // The report is removed first. A folder that has lost some of its files therefore never looks finished.
     for (const char *const name : own_names) fs::remove_all(folder / name, error);
   } else {
     fs::create_directory(folder, error);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: the folder of riis patient. Out: the steps that fill the folder. Each step is a command of riis that the user could also
-// type in the folder.
+// The input is the folder of riis patient. The results are the steps that fill the folder. Each step is a command of riis that
+// the user could also type in the folder.
 #pragma once
 
 #include <chrono>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a patient's mesh with named boundaries, and a valve that is placed in the mesh. Out: a folder in which a flow solver can
-// run without changes. riis patient fills a SolverCase. For each solver, one function writes this solver's folder from the
-// SolverCase.
+// The inputs are a mesh with named boundaries of a patient, and a valve that is placed in the mesh. The result is a folder in
+// which a flow solver can run without changes. riis patient fills a SolverCase. For each solver, one function writes this
+// solver's folder from the SolverCase.
 #pragma once
 
 #include <array>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a patient's case. Out: a folder in which svMultiPhysics runs one beat as it is (docs/patient_svmultiphysics.md).
+// The input is a patient's case. The result is a folder in which svMultiPhysics runs one beat as it is
+// (docs/patient_svmultiphysics.md).
 #pragma once
 
 #include "program/patient/solver_case.hpp"

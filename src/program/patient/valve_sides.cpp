@@ -104,7 +104,7 @@ ValveSides sides_of_valve(const std::string &mesh, const MarkOptions &marking, c
       if (squared(i) < squared(nearest)) nearest = i;
     return nearest;
   };
-  // On each side of the valve, the middle of the ball is the first place that has room for the ball. A ball farther away than the
+  // On each side of the valve, the first place with enough room becomes the middle of the ball. A ball farther away than the
   // valve extends is outside the valve's jet. If the vessel is short, there may be room only beside the leaflets.
   ValveSides sides;
   std::int64_t before = -1, after = -1;  // the nodes at the middles

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a mesh with a placed valve. Out: a point in the blood before the valve, a point behind the valve, and the side of the valve
-// on which each end lies.
+// The input is a mesh with a placed valve. The results are a point in the blood upstream of the valve, a point downstream, and
+// the side of the valve on which each end lies.
 #pragma once
 
 #include <array>

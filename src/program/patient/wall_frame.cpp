@@ -13,7 +13,7 @@ namespace {
 
 // The largest mean distance of landmarks from their wall, in millimetres. Cusps and annuli are about 25 mm wide.
 constexpr double at_wall = 5;
-// Another unit or other axes are excluded if the landmarks would then be clearly farther from the wall.
+// Another unit or other axes are excluded if they would put the landmarks clearly farther from the wall.
 constexpr double clearly_farther = 2;
 
 std::string mm_text(double length) { return printed("%.3g", length) + " mm"; }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a patient's wall from a file that states neither a unit nor axes, and landmarks from a file that states both. Out: the unit
-// and the axes with which the landmarks lie at the wall.
+// The inputs are a patient's wall from a file that states neither a unit nor axes, and landmarks from a file that states both.
+// The results are the unit and the axes with which the landmarks lie at the wall.
 #pragma once
 
 #include <optional>

@@ -17,7 +17,7 @@ namespace riis::program {
 namespace {
 
 // Two vertices of open sides are joined if their distance is below a tiny share of the wall's size. In single precision, the
-// rounding errors of a root at a metre from the origin are a sixth of the share.
+// rounding errors of a root that is a metre away from the origin are a sixth of this share.
 constexpr double joined_share = 1e-5;
 // A piece is an island of the segmentation if its area is below a small share of the largest piece's area.
 constexpr double island_share = 0.01;
@@ -389,7 +389,7 @@ class WallRepair {
     return true;
   }
 
-  // A closed line of open sides. The triangles lie to the left of the line.
+  // A closed line of sides with only one triangle. The triangles lie to the left of the line.
   using RimLoop = std::vector<std::int64_t>;
 
   std::vector<RimLoop> open_loops() const {
@@ -413,7 +413,7 @@ class WallRepair {
     return loops;
   }
 
-  // Closes holes whose rims are flat. Later steps decide whether the holes are ends. Refuses holes that are not flat.
+  // Closes holes whose rims are flat. Later steps decide whether the closed holes are ends. Refuses holes that are not flat.
   void close_holes() {
     std::vector<RimLoop> loops = open_loops();
     std::stable_sort(loops.begin(), loops.end(),

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: the file of a wall. Out: a closed surface whose triangles face outwards, or a refusal that says how to repair the file.
+// The input is the file of a wall. The result is a closed surface whose triangles face outwards, or a refusal that says how to
+// repair the file.
 #pragma once
 
 #include <array>

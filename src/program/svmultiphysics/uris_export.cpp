@@ -284,7 +284,7 @@ std::string vtu_text(const std::vector<double> &xyz, const UrisLeaflet &leaflet)
          "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
 }
 
-// Stops the export after a frame if a signal is waiting. The message is never printed, because the signal ends the process after
+// Stops the export after a frame if a signal is waiting. This message is never printed, because the signal ends the process after
 // the files are removed.
 void stop_if_interrupted() {
   if (UnbrokenWrite::has_signal()) refuse_data("riis export: interrupted, and nothing is left");
@@ -371,7 +371,7 @@ std::string title_of(const ExportOptions &options) {
 // Returns the line of the block about units. Two dashes in a row would end the comment in the XML file.
 std::string text_of_units(const ExportOptions &options) {
   if (!options.unit) return "the units are assumed to be g, cm and s, because no unit was given";
-  const std::string units = "units are g, cm and s: R is in g/(cm s)";
+  const std::string units = "the units are g, cm and s, so R is in g/(cm s)";
   if (options.to_solver == 1) return units;
   return units + "\n     lengths were converted from " + name_of(*options.unit) + ": in its Add_mesh, the mesh in " +
          name_of(*options.unit) + " needs Mesh_scale_factor " + shortest(options.to_solver);

@@ -24,7 +24,7 @@ constexpr double band_end = 5;
 // The least sufficient drop, as a share of (R / eps) u. The second number is the largest half thickness that is tried, divided by
 // the given half thickness.
 constexpr double enough = 0.9, most_thickness = 2;
-// A drop is no forecast if it exceeds (R / eps) u by more than a small share.
+// If a drop exceeds (R / eps) u by more than a small share, it is no forecast.
 constexpr double least_of_sensible = 0.95;
 
 // Returns whether two corners are the ends of an edge.
@@ -128,7 +128,7 @@ class Forecaster {
     say("each marking of the closed valve measures " +
         shown(static_cast<double>(distances.n_in_box) * static_cast<double>(n_triangles)) + " distances, from " +
         counted(distances.n_in_box, "node") + " of its box to every triangle");
-    say("the valve opens when the pressure before it exceeds the pressure behind it");
+    say("the valve opens when the upstream pressure exceeds the downstream pressure");
     say("  before: " + text_of(before));
     say("  behind: " + text_of(behind));
   }
@@ -138,7 +138,7 @@ class Forecaster {
     if (before.n_nodes == 0)
       refuse_motion("close", "no node of the solver's box is before the open leaflets at a distance of " +
                                  in_mesh(half_thickness_) + " or more, where the solver takes the mean flow");
-    say("the valve closes when the mean flow before the open leaflets reverses");
+    say("the valve closes when the mean flow upstream of the open leaflets reverses");
     say("  before: " + text_of(before));
   }
 
@@ -169,7 +169,7 @@ class Forecaster {
                                                   band_end * most_thickness * half_thickness_ + 4 * median_edge_);
     const Expected expected = expected_at(half_thickness_, distances, wide, near);
     if (!expected.is_separated) {
-      say("expected drop: none, because the closed leaflets do not separate two sides of this mesh");
+      say("expected drop: none, because the closed leaflets do not divide this mesh into two sides");
       warn("svMultiPhysics will not hold the pressure: the closed leaflets do not separate two sides of " +
            options_.mesh);
       return;
@@ -181,10 +181,12 @@ class Forecaster {
       return;
     }
     if (!is_sensible(expected.drop)) {
-      say("expected drop: not found, because the solver's equations give none between 0 and 1/" +
+      say("expected drop: not found, because the solver's equations have no solution between 0 and 1/" +
           shown(least_of_sensible) + " of (R/eps) u");
-      warn("the drop across the closed valve was not found, because the solver's equations give none between 0 and 1/" +
-           shown(least_of_sensible) + " of (R/eps) u; its stabilisation needs a density of about 1 g/cm3");
+      warn(
+          "the drop across the closed valve was not found, because the solver's equations have no solution between 0 "
+          "and 1/" +
+          shown(least_of_sensible) + " of (R/eps) u; its stabilisation needs a density of about 1 g/cm3");
       return;
     }
     say("expected drop of the closed valve: " + printed("%.4f", expected.drop) + " of (R/eps) u, with eps = " +

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: an export and the mesh of the solver's run. Out: a forecast of what svMultiPhysics will do with the export in this mesh.
-// The forecast consists of lines for the solver's input and a table of frames.
+// The inputs are an export and the mesh of the solver's run. The result is a forecast of what svMultiPhysics will do with the
+// export in this mesh. The forecast consists of lines for the solver's input and a table of frames.
 #pragma once
 
 #include <string>
@@ -23,7 +23,7 @@ UrisForecast forecast_of(const ExportOptions &options, const UrisMotion &motion,
 
 // Finds the drop across a closed valve as svMultiPhysics computes it (docs/export.md). uris_flow.py solves the equations in a
 // Python with NumPy and SciPy. The program contains the text of uris_flow.py.
-// In: the solver's delta in a mesh. Out: the ratio of the drop to (R / eps) u.
+// The input is the solver's delta in a mesh. The result is the ratio of the drop to (R / eps) u.
 //
 // The numbers of the solver's input on which the drop depends, in the solver's units.
 struct SolverFluid {

@@ -123,7 +123,7 @@ void UrisLeaflets::find_forward(double opening) {
   const double length = hypotenuse(forward_[0], forward_[1], forward_[2]);
   if (!(length > 0))
     refuse_data((subject_.empty() ? "" : subject_ + ": ") +
-                "the leaflets' normals cancel, so they tell no direction of forward flow");
+                "the normals of the leaflets cancel, so the direction of forward flow is not known");
   for (double &x : forward_) x /= length;
 }
 
@@ -143,8 +143,8 @@ void UrisLeaflets::part(const ExportOptions &options) {
   }
 }
 
-// Turns the triangles of the ring so that their normals point against the flow. To the solver, upstream nodes inside the ring are
-// then before the valve.
+// Turns the triangles of the ring so that their normals point against the flow. In the solver, upstream nodes inside the ring are
+// then upstream of the valve.
 void UrisLeaflets::turn_ring(double opening) {
   const std::vector<double> xyz = vertices_at(opening);
   const auto middle_of = [&](const Corners &corners) {
@@ -170,8 +170,8 @@ void UrisLeaflets::turn_ring(double opening) {
   }
 }
 
-// Adds the triangles that widen the box. The face "box" is the last face, because of several equally near triangles the solver
-// takes the first.
+// Adds the triangles that widen the box. The face "box" is the last face, because the solver takes the first of several equally
+// near triangles.
 void UrisLeaflets::add_box(const UrisMotion &motion) {
   std::vector<Corners> triangles;
   for (const auto &[corners, leaflet] : net_.triangles()) triangles.push_back(corners);

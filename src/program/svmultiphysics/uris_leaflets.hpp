@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a valve, and the openings of its frames. Out: leaflets whose nodes and triangles are the same in all frames, and a face
-// that enlarges the solver's box.
+// The inputs are a valve and the openings of its frames. The results are leaflets whose nodes and triangles are the same in all
+// frames, and a face that enlarges the solver's box.
 #pragma once
 
 #include <array>
@@ -80,13 +80,13 @@ class FinerTriangles {
 
 // svMultiPhysics searches a mesh only in the box of the valve's nodes, widened by a tenth. The box of a flat valve is too thin.
 // The flat box leaves out nodes that should be marked, and parts of the bands in which the solver measures pressures.
-// In: the triangles. Out: three additional triangles, which enlarge the box.
+// The inputs are the triangles. The results are three additional triangles, which enlarge the box.
 
 // Returns a power of two, to whose multiples coordinates are rounded. `largest` is the largest coordinate. The sum of three
 // rounded coordinates is then exact, even in a box that is about ten times as large.
 double uris_grid(double largest);
 
-// Three triangles, one along each axis. The middle of each added triangle is also the middle of a triangle of the valve. To the
+// Three triangles, one along each axis. The middle of each added triangle is also the middle of a triangle of the valve. In the
 // solver, an added triangle is therefore never nearer than the triangle of the valve. Two corners of each triangle lie outside
 // the valve's box, at both ends.
 class UrisBox {

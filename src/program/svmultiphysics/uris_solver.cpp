@@ -22,7 +22,8 @@ constexpr double widening = 0.1, far_in_half_thicknesses = 1e6;
 
 // ---- The nearest middle of a triangle ----
 
-// A tree over points. The tree finds the point nearest to a place. Of several equally near points, the tree finds the first.
+// A tree over points. The tree finds the point nearest to a place. If several points are equally near, the tree finds the first
+// of them.
 class PointTree {
  public:
   explicit PointTree(std::vector<Point> points) : points_(std::move(points)), order_(points_.size()) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes the numbers that svMultiPhysics would compute from exported leaflets in a mesh. The rules are those of the solver's
-// sources (docs/export.md). In: a mesh, and the leaflets of a frame. Out: the solver's distances at nodes, the solver's delta at
-// Gauss points, and the solver's bands.
+// sources (docs/export.md). The inputs are a mesh and the leaflets of a frame. The results are the solver's distances at nodes,
+// the solver's delta at Gauss points, and the solver's bands.
 #pragma once
 
 #include <riis/riis_vtk.h>
@@ -18,7 +18,7 @@
 namespace riis::program {
 
 // The volume elements of svMultiPhysics, with their shape functions and the Gauss points that the solver uses.
-// In: VTK's type of a cell. Out: numbers at the points of the reference element.
+// The input is VTK's type of a cell. The results are numbers at the points of the reference element.
 
 // The values of all shape functions at a point, and their derivatives at this point.
 struct ShapeFunctions {
@@ -87,7 +87,7 @@ SolverDistances solver_distances(const SolverMesh &mesh, const UrisLeaflets &lea
 
 // Returns the solver's distance at a point of element e, interpolated between the absolute distances at the element's nodes.
 // Quadratic shape functions have negative values at some points. At the border of the box, some nodes have the solver's large
-// number, and some interpolated distances become negative. To the solver, points with negative distances are in the band.
+// number, and some interpolated distances become negative. In the solver, points with negative distances are in the band.
 double interpolated_distance(const SolverMesh &mesh, std::int64_t e, const ShapeFunctions &at,
                              const std::vector<double> &distances);
 // Returns the solver's delta at a point of element e: K / R.
@@ -105,7 +105,7 @@ struct SolverBand {
 SolverBand solver_band(const SolverMesh &mesh, const SolverDistances &distances, double from, double to,
                        const std::array<double, 3> &forward);
 
-// The largest speeds in a frame, from the vertices of this frame and of the frame before it.
+// The largest speeds in a frame, from the vertices of this frame and of the previous frame.
 struct SolverSpeeds {
   double of_leaflets = 0;  // of the leaflets' vertices
   // The largest velocity that the solver gives to a node within the half thickness. The solver extrapolates the velocity in the

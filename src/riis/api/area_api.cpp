@@ -41,7 +41,7 @@ Sought sought_by(const std::string &name) {
   return name == "opening" ? Sought::opening : name == "scale" ? Sought::scale : Sought::parameter;
 }
 
-// The range to search, and the value to which a found value shall be near.
+// The range to search, and a value. If several values fit, the one nearest to this value is wanted.
 struct Values {
   double from, to, near;
 };
@@ -77,8 +77,8 @@ class AreaTrials {
   // constant factor.
   bool grows(const Values &values) const { return !seeks_opening() && values.from > 0; }
 
-  // Returns the area at a value, or nothing for a value that makes no valve or no orifice. After the samples, such a value
-  // is an error.
+  // Returns the area at a value, or nothing for a value that makes no valve or no orifice. After the samples were taken, such a
+  // value is an error.
   std::optional<double> area_at(double value) {
     ++n_surfaces;
     try {
@@ -112,8 +112,8 @@ class AreaTrials {
  private:
   const char *words() const { return search_.area == RIIS_AREA_EFFECTIVE ? "effective area" : "area"; }
 
-  // Returns the caller's range. If the caller left out an end of the range, the usual end is taken, limited to the possible
-  // values.
+  // Returns the caller's range. If the caller left out an end of the range, the usual end is used, moved into the range of
+  // possible values.
   Values checked(const Values &usual, const std::array<double, 2> &range) const {
     const double from = std::isnan(search_.from) ? std::clamp(usual.from, range[0], range[1]) : search_.from;
     const double to = std::isnan(search_.to) ? std::clamp(usual.to, range[0], range[1]) : search_.to;
@@ -129,7 +129,7 @@ class AreaTrials {
       options_.scale = value;
     else
       valve_.set(name_, 1, &value);
-    // A fixed triangulation is planned for one shape and one scale.
+    // A fixed triangulation is made for one shape and one scale.
     const bool is_planned_anew = options_.triangulation == RIIS_TRIANGULATION_FIXED && !seeks_opening();
     if (!surface_ || is_planned_anew) {
       surface_ = std::make_unique<riis_surface>();

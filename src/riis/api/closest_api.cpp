@@ -40,7 +40,7 @@ void write_closest(const riis_closest_arrays &to, std::int64_t i, const riis::Pa
   if (to.normal) riis::put_vector(to.normal, i, patch.normal_at(found.u, found.v));
 }
 
-// Refuses arrays that only triangles can fill. A caller who passes such an array expects values in it.
+// Refuses arrays that have values only for distances to triangles. A caller who passes an array expects values in it.
 void refuse_what_is_of_triangles(const riis_closest_arrays &to, const riis::PatchDistance &method) {
   for (const char *name : {to.barycentric ? "barycentric" : nullptr, to.side ? "side" : nullptr})
     if (name)
@@ -51,7 +51,7 @@ void refuse_what_is_of_triangles(const riis_closest_arrays &to, const riis::Patc
 double checked_limit(const riis_closest_options &options) {
   if (!(options.distance_limit >= 0))
     riis::fail(RIIS_INVALID_ARGUMENT, "options.distance_limit is ", options.distance_limit, "; it must be at least 0");
-  // Without a limit no point is far, so far_distance does not matter.
+  // Without a limit no point is beyond it, so far_distance does not matter.
   if (std::isfinite(options.distance_limit))
     riis::check_far_distance("options.far_distance", options.far_distance, options.distance_limit);
   return options.distance_limit;
@@ -89,7 +89,7 @@ riis::WantedPoints checked_points(const riis_closest_options &options, const Poi
   return listed;
 }
 
-// Writes the wanted entries of the arrays, with closest points on the patches.
+// Writes the wanted entries of the arrays, for closest points on the patches.
 template <class Points>
 void find_on_patches(const riis::PatchDistance &method, const riis::ClosestPointsRequest &request, const Points &points,
                      const riis_closest_arrays &to) {

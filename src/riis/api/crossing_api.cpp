@@ -26,7 +26,7 @@ riis_crossing_options checked(const riis_crossing_options *options) {
   return whole;
 }
 
-// Returns the list of the pairs. The caller of this function sets the list's field `seconds`, which is 0 until then.
+// Returns the list of the pairs. The field `seconds` of the list is 0 until the caller of this function sets it.
 riis_crossing_list list_of(const riis::TriangleSet &set, const riis::Crossings &pairs) {
   const auto n = riis::view(pairs.depth).size();
   riis_crossing_list list{n, nullptr, nullptr, nullptr, nullptr, 0, 0, {0, 0, 0}, {-1, -1}, {-1, -1}, 0};

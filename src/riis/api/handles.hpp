@@ -61,8 +61,8 @@ riis_status create_handle(AnyHandle **handle, const char *argument) noexcept {
   });
 }
 
-// The body of a destroy function. A handle of another kind is not destroyed: losing its memory is better than freeing it as the
-// wrong type.
+// The body of a destroy function. A handle of another kind is not destroyed, because a leak of memory is better than freeing it
+// as the wrong type.
 template <class AnyHandle>
 void destroy_handle(AnyHandle **handle, const char *argument) noexcept {
   if (!handle || !*handle) return;

@@ -63,8 +63,8 @@ riis::InstructionSet instructions_asked_for(std::int32_t instructions) {
   return set;
 }
 
-// Returns the arrays of a list, with NULL for an empty array. The array of a field stays NULL if the marking needed the field
-// only to compute K.
+// Returns the arrays of a list, with NULL for an empty array. The array of a field stays NULL if the field was computed only for
+// K.
 riis_mark_list arrays_of(const riis::ListedNodes &list, const riis::WantedData &data) {
   const auto array = [](const auto &values) { return values.empty() ? nullptr : values.data(); };
   const auto field = [&](std::int32_t which, const auto &values) {
@@ -114,7 +114,7 @@ void check_stride(const char *name, std::int64_t stride, std::int64_t n_nodes) {
                " entries at this stride exceed what memory can hold");
 }
 
-// Checks that all three components of a vector are given. If may_lack is true, all three may also be NULL.
+// Checks that all three components of a vector are given. If may_lack is true, all three components may also be NULL.
 template <class Real>
 void check_components(const char *name, Real *const (&components)[3], bool may_lack) {
   if (may_lack && !components[0] && !components[1] && !components[2]) return;
@@ -136,7 +136,7 @@ riis_flow_arrays checked_flow(const riis_flow_arrays *flow, const riis::Marks &m
   return whole;
 }
 
-// Checks the numbers of a reaction. The reaction's leaflets and edges are compared with the marks later.
+// Checks the fields of a reaction. The leaflets and edges of the reaction are compared with the marks later.
 riis_reaction checked_reaction(const riis_reaction *reaction) {
   const riis_reaction whole = riis::completed(require(reaction, "reaction"), "reaction", default_reaction);
   for (int c = 0; c < 3; ++c)
@@ -149,8 +149,9 @@ riis_reaction checked_reaction(const riis_reaction *reaction) {
     riis::fail(RIIS_INVALID_ARGUMENT, "reaction.n_edges is ", whole.n_edges, "; it must be from 0 to 2^40");
   if (!whole.force && !whole.moment && !whole.leaflet_force && !whole.leaflet_moment && !whole.edge_force &&
       !whole.edge_moment)
-    riis::fail(RIIS_INVALID_ARGUMENT,
-               "reaction has no sum to add to: force, moment and the sums of leaflets and edges are NULL");
+    riis::fail(
+        RIIS_INVALID_ARGUMENT,
+        "reaction has no sum to add to, because the fields force, moment and those of leaflets and edges are NULL");
   return whole;
 }
 
@@ -197,7 +198,8 @@ void require_edges(const riis::Mesh &mesh, const char *purpose) {
 // Refuses marks of a mesh with another number of nodes. A mesh with the same number of nodes passes, even if it is a different
 // mesh.
 void check_are_of_mesh(const riis::Mesh &mesh, const riis::Marks &marks) {
-  if (!marks.was_marked) riis::fail(RIIS_INVALID_ARGUMENT, "marks are empty: call riis_mark_nodes with them first");
+  if (!marks.was_marked)
+    riis::fail(RIIS_INVALID_ARGUMENT, "marks are empty: first call riis_mark_nodes with these marks");
   if (marks.stats.n_nodes != mesh.nodes().n)
     riis::fail(RIIS_INVALID_ARGUMENT, "marks are of a mesh with ", marks.stats.n_nodes, " nodes, mesh has ",
                mesh.nodes().n);
@@ -217,7 +219,7 @@ void check_are_of_marking(const riis::SearchRequest &request, const riis::Marks 
                now.offset, ": mark the nodes again");
 }
 
-// Checks the nodes of one end of a passage. `name` is the end's name, "from" or "to".
+// Checks the nodes of one end of a passage. `name` is the name of this end, "from" or "to".
 riis::ArrayView<const std::int64_t> checked_end(const riis::SearchRequest &request, const char *name, std::int64_t n,
                                                 const std::int64_t *ids) {
   const std::int64_t n_nodes = request.mesh.nodes().n;

@@ -113,7 +113,7 @@ riis_status riis_mesh_update(riis_mesh *mesh, int64_t n_nodes, const double *x, 
                              int64_t stride) {
   return guarded([&] {
     riis::Mesh &content = require_handle(mesh, "mesh")->mesh;
-    // The nodes have moved, so their old places are wrong even if the new coordinates are refused.
+    // The nodes have moved, so their stored places are wrong even if the new coordinates are refused.
     content.forget_places();
     const riis::StridedPoints nodes{n_nodes, x, y, z, stride};
     content.borrow_nodes(nodes, check_nodes(nodes));

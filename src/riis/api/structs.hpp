@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every struct crosses the interface with its size, so that callers compiled against an older header keep working. If
-// the caller's header lacks a field, the library reads the field's default. The library does not write such a
-// field.
+// Every struct is passed with its size, so that callers compiled against an older header keep working. If the caller's header
+// lacks a field, the library reads the field's default. The library does not write such a field.
 #pragma once
 
 #include <cstdint>
@@ -84,7 +83,7 @@ void check_struct_size(std::int64_t size, const char *name) {
          " knows ", first_size, " to ", size_here, ": use its init function, and a header no newer than the library");
 }
 
-// Copies the first `size` bytes of a struct. Call check_struct_size before, which must accept the size.
+// Copies the first `size` bytes of a struct. First call check_struct_size, which must accept the size.
 inline void copy_bytes(void *to, const void *from, std::int64_t size) {
   std::memcpy(to, from, static_cast<std::size_t>(size));
 }
@@ -118,7 +117,7 @@ Struct completed(const Struct *in, const char *name, const Struct &defaults) {
   return whole;
 }
 
-// Writes as many fields of the value as the caller's struct has.
+// Writes those fields of the value that the caller's struct has.
 template <class Struct>
 void write_struct(Struct *out, std::int64_t size, const char *name, const Struct &value) {
   require(out, name);

@@ -55,7 +55,7 @@ void check_precision(const riis_surface_options &options, const char *name, doub
                ", where coordinates round by more than a thousandth of ", name, " * half_thickness, ", wanted);
 }
 
-// Returns the request. The request keeps an n_threads of 0, because the surface then chooses the number of threads itself.
+// Returns the request. The request keeps an n_threads of 0, and the surface chooses the number of threads.
 riis::SurfaceRequest request_of(const riis_surface_options &options) {
   return {riis::band_of(options), riis::placement_of(options), options.flip_normals != 0, options.n_threads};
 }
@@ -68,7 +68,7 @@ struct EarlierArguments {
 };
 
 riis::EarlierValve earlier_of(const EarlierArguments &given, const riis_surface_options &options_now) {
-  // A dt outside of these limits is a mistake of the caller. Within the limits no velocity comes near overflow.
+  // A dt outside of the limits is a mistake of the caller. Within the limits no velocity comes near overflow.
   if (!(std::abs(given.dt) >= 1e-30 && std::abs(given.dt) <= 1e30))
     riis::fail(RIIS_INVALID_ARGUMENT, "dt is ", given.dt,
                "; it must be the time from valve_before to valve, from 1e-30 to 1e+30 in magnitude");
@@ -114,7 +114,8 @@ void check_can_add_direction(const riis_surface &surface) {
   const riis::Surface &content = surface.updatable.surface();
   if (!content.patches())
     riis::fail(RIIS_INVALID_ARGUMENT,
-               "surface was made from arrays, which have no parameters: a direction needs the surface of a valve");
+               "surface was made from arrays, which have no parameters: a direction needs a surface that was made from "
+               "a valve");
   if (content.n_directions() == max_directions)
     riis::fail(RIIS_LIMIT_EXCEEDED, "surface has ", max_directions, " directions, the largest number");
 }

@@ -14,7 +14,7 @@
 
 namespace riis {
 
-// The skirt of the caller's faces, as the caller gave it, and the edges at which it begins.
+// The skirt of the caller's faces as the caller described it, and the edges at which it begins.
 struct UserSkirt {
   double length = 0;                   // before placement; 0: no skirt
   std::vector<std::uint8_t> attached;  // (n_vertices), or empty
@@ -32,12 +32,13 @@ struct UserFaces {
   UserSkirt skirt;
 };
 
-// Copies the faces. `memory` is an object whose memory is reused. The next two functions fail with RIIS_INVALID_ARGUMENT,
-// RIIS_INVALID_SURFACE or RIIS_LIMIT_EXCEEDED. The message names the field, the face or vertex, and the value.
+// Copies the faces. `memory` is an object whose memory the function reuses. The next two functions fail with
+// RIIS_INVALID_ARGUMENT, RIIS_INVALID_SURFACE or RIIS_LIMIT_EXCEEDED. The message names the field, the face or vertex, and the
+// value.
 UserFaces faces_from_arrays(const riis_surface_arrays &arrays, UserFaces memory = {});
 
 // Makes triangles from `faces` and from the vertices and velocities in `arrays`. Ignores the faces in `arrays`. `memory` is a set
-// whose memory is reused.
+// whose memory the function reuses.
 TriangleSet triangles_from_arrays(const UserFaces &faces, const riis_surface_arrays &arrays, const Placement &placement,
                                   bool skip_zero_area, bool flip_normals, TriangleSet memory = {});
 
@@ -51,13 +52,14 @@ class Keyframes {
   Keyframes(const riis_surface_arrays &arrays, const riis_keyframe_arrays &frames);
   Keyframes(Keyframes &&) = default;  // moving a vector leaves its elements, such as the times, at their address
 
-  // Writes positions and velocities (3, n_vertices). For dt == 0 the velocity is the derivative of the interpolation. At a linear
-  // key the velocity is the derivative after the key. For another dt the velocity is the mean from time - dt to time.
+  // Writes positions and velocities (3, n_vertices). For dt == 0 the velocity is the derivative of the interpolation. At a key of
+  // linear interpolation, the velocity is the derivative after the key. For another dt the velocity is the mean from time - dt to
+  // time.
   void at(double time, double dt, std::vector<double> &xyz, std::vector<double> &velocity) const;
 
   const UserFaces &faces() const { return faces_; }
-  // Returns the faces, so that the edges of the skirt can be found in the first frame. The vertices of this frame are returned by
-  // first_frame.
+  // Returns the faces, so that the edges of the skirt can be found in the first frame. The function first_frame returns the
+  // vertices of this frame.
   UserFaces &faces() { return faces_; }
   riis_surface_arrays first_frame() const;
 

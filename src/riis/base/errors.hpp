@@ -48,8 +48,8 @@ T *require(T *pointer, const char *argument) {
   return pointer;
 }
 
-// Refuses NaN and numbers outside of [least, most]. If the number is a field of an argument, `owner` is this argument. If the
-// number itself is an argument, `owner` is "".
+// Refuses NaN and numbers outside of [least, most]. `owner` is the argument that has the number as a field. If the number is
+// itself an argument, `owner` is "".
 inline void check_range(const char *owner, const char *name, double value, double least, double most) {
   if (!(value >= least && value <= most))
     fail(RIIS_INVALID_ARGUMENT, owner, *owner ? "." : "", name, " is ", value, "; it must be from ", least, " to ",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keeps a mutex free in each child of fork().
+// Keeps a mutex free in each child process of fork().
 #pragma once
 
 #include <pthread.h>
@@ -9,9 +9,9 @@
 namespace riis {
 
 // A process may be forked while another thread holds a mutex. The child lacks that thread, so its copy of the mutex would stay
-// locked. Therefore the forking thread locks the mutex before the fork, and unlocks it in both processes. The mutex must protect
-// a few instructions only, and no other lock may be taken under it. Returns false if there was no memory for the handlers of
-// fork().
+// locked. Therefore the forking thread locks the mutex before the fork, and unlocks it in both processes. The mutex may protect
+// only a few instructions, and no other lock may be taken while it is held. Returns false if there was no memory for the handlers
+// of fork().
 template <std::mutex &mutex>
 bool is_free_in_children() noexcept {
   return pthread_atfork([] { mutex.lock(); }, [] { mutex.unlock(); }, [] { mutex.unlock(); }) == 0;

@@ -13,8 +13,8 @@ struct Sink {
   void *user_data = nullptr;
 };
 
-// The log function and its lock are constant-initialised and never destroyed. The log can therefore be used during the whole
-// life of the process.
+// The log function and its lock are initialised at compile time and never destroyed. The log can therefore be used during the
+// whole life of the process.
 std::mutex sink_mutex;
 Sink sink;
 [[maybe_unused]] const bool sink_is_free_in_children = is_free_in_children<sink_mutex>();

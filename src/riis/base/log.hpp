@@ -21,7 +21,7 @@ void log_message(std::int32_t level, const Parts &...parts) noexcept {
   if (is_logging()) log_message(level, Message(parts...));
 }
 
-// Sets the log function; NULL means silence. Any thread may call the functions of this file.
+// Sets the log function; NULL stands for no log. Any thread may call the functions of this file.
 void set_log_function(riis_log_function function, void *user_data) noexcept;
 
 }  // namespace riis

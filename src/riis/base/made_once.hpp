@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A value that is made when it is first needed. Several threads may need the value at once.
+// A value that is made when it is first needed. Several threads may ask for the value at the same time.
 #pragma once
 
 #include <atomic>
@@ -10,8 +10,8 @@ namespace riis {
 template <class T>
 class MadeOnce {
  public:
-  // Returns the value. If the value does not exist yet, one thread calls make(value) first. After a failure the next call tries
-  // again.
+  // Returns the value. If the value does not exist yet, one thread calls make(value) first. If making the value fails, the next
+  // call tries again.
   template <class Make>
   T &get(const Make &make) {
     if (is_made_.load(std::memory_order_acquire)) return value_;
@@ -22,7 +22,7 @@ class MadeOnce {
     }
     return value_;
   }
-  // The next get() makes the value again, from the old value. No other thread may use the value meanwhile.
+  // After this call, the next get() makes the value again, from the old value. No other thread may use the value meanwhile.
   T &forget() {
     is_made_.store(false, std::memory_order_relaxed);
     return value_;

@@ -44,8 +44,8 @@ constexpr std::size_t largest_block = std::size_t{1} << largest_class;
 // another thread took. A thread with an empty pool therefore looks into the other pools before the system is asked.
 constexpr unsigned n_pools = 16;
 
-// A lock for a few instructions, which two threads seldom need at once. A mutex would take half of the time that an array's
-// memory costs.
+// A lock that a thread holds for a few instructions. Two threads seldom need it at the same time. A mutex would take half of the
+// time that an array's memory costs.
 class ShortLock {
  public:
   void lock() noexcept {
@@ -70,7 +70,7 @@ struct alignas(64) Pool {
   }
 };
 
-// The pools are constant-initialised and never destroyed, so arrays in static objects may use them until the process ends.
+// The pools are initialised at compile time and never destroyed, so arrays in static objects may use them until the process ends.
 std::array<Pool, n_pools> pools;
 std::atomic<int> n_keepers{0};
 
@@ -80,8 +80,8 @@ unsigned own_pool() {
   return own;
 }
 
-// A process may be forked while another thread holds a pool's lock. The child lacks that thread, so the lock would stay held.
-// Therefore the forking thread takes all locks first.
+// A process may be forked while another thread holds a pool's lock. In the child the other thread does not exist, so its lock
+// would stay held. Therefore the forking thread takes all locks first.
 bool prepare_for_forks() noexcept {
   const auto unlock = [] {
     for (Pool &pool : pools) pool.in_use.unlock();

@@ -12,10 +12,9 @@
 
 namespace riis {
 
-// Arrays whose resize() leaves new elements without a value. A large array is therefore written only once, when its owner
-// fills it.
+// Arrays whose resize() does not initialise new elements. A large array is therefore written only once, when its owner fills it.
 
-// An allocator that takes its memory from the allocator `Memory`, and leaves new elements without a value.
+// An allocator that takes its memory from the allocator `Memory`, and does not initialise new elements.
 template <class T, template <class> class Memory>
 struct UnfilledAllocator : Memory<T> {
   static_assert(std::is_trivially_default_constructible_v<T>);
@@ -44,7 +43,7 @@ void give_memory_back(void *memory, std::size_t n_bytes) noexcept;
 // Frees the memory that is kept now. Call this function after work that took much more memory than a time step takes.
 void free_kept_memory() noexcept;
 
-// Memory is kept while at least one object of this type exists. The last object's destructor frees the memory.
+// Memory is kept while at least one object of this type exists. When the last such object is destroyed, the memory is freed.
 class KeepsMemory {
  public:
   KeepsMemory() noexcept;

@@ -23,7 +23,7 @@ double distance_to_segment(Vec3 p, Vec3 a, Vec3 b) {
   return distance(p, a + t * ab);
 }
 
-// Two numbers in one register. Every processor of the baseline instruction set has such registers.
+// Two numbers in one register. Every processor that the library supports has registers of this width.
 typedef double Two __attribute__((vector_size(16)));
 
 Two root(Two a) {
@@ -90,8 +90,8 @@ double length_tolerance(const Bezier &curve) {
     largest = std::max({largest, std::abs(q.x), std::abs(q.y), std::abs(q.z)});
   }
   // The second term of the tolerance covers rounding, which matters for a curve that is short compared with its coordinates. The
-  // third term is for a curve shorter than the edges of any triangle (triangulate/triangle_set.hpp), because its squares
-  // underflow.
+  // third term is for a curve that is shorter than the edges of any triangle (triangulate/triangle_set.hpp), because the squares
+  // of its coordinates underflow.
   return 1e-13 * control_length + 1e-14 * largest + 1e-74;
 }
 
@@ -161,7 +161,7 @@ bool find_in_one_pass(const SpeedOnPart &part, const double *behind, std::size_t
                                              : stepwise_quadrature(speed, next, closer);
       next = closer;
     }
-    // Near a cusp, Newton's method may not have converged yet. The fast method then gives up.
+    // Near a cusp, Newton's method may not have converged yet, and the fast method gives up.
     if (!(std::abs(made - wanted) <= 1e-13 * part.whole_length)) return false;
     at = t[k] = next;
     at_length += made;
@@ -203,7 +203,8 @@ double arc_length(const Bezier &curve, double t0, double t1) {
   return length_between(Speed(curve), length_tolerance(curve), t0, t1);
 }
 
-// Every point has its own variable. With an array, the compiler would store the points and load them again immediately.
+// Every point has its own variable, and no place in an array. With an array, the compiler would store the points and load them
+// again immediately.
 std::pair<Bezier, Bezier> split(const Bezier &curve, double t) {
   const auto &q = curve.control;
   const Vec3 a = mix(q[0], q[1], t), b = mix(q[1], q[2], t), ab = mix(a, b, t);
@@ -261,8 +262,8 @@ double rough_curvature(const Bezier &curve, double t0, double t1) {
 }
 
 double largest_curvature(const Bezier &curve) {
-  // Bounds each quarter of the curve separately. The bound from control points is loose if the control points vary much, but the
-  // control points of a quarter vary little.
+  // Bounds each quarter of the curve separately. The bound from control points is loose if they vary much. The control points of
+  // a quarter vary little.
   const auto [left, right] = split(curve, 0.5);
   const auto [first, second] = split(left, 0.5);
   const auto [third, fourth] = split(right, 0.5);
@@ -273,7 +274,7 @@ double parameter_at_length(const Bezier &curve, double curve_length, double behi
   if (!(curve_length > 0)) return 0;
   const Speed speed(curve);
   const double tolerance = length_tolerance(curve), close_enough = 1e-14 * curve_length;
-  // Applies Newton's method to the length from 0 to t, inside a bracket that shrinks.
+  // Applies Newton's method to the length from 0 to t, within an interval that shrinks.
   double below = 0, above = 1, t = first_guess(speed, behind / curve_length);
   double excess = length_between(speed, tolerance, 0, t) - behind;
   for (int i = 0; i < 60 && !(std::abs(excess) <= close_enough); ++i) {

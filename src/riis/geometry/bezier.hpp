@@ -57,8 +57,8 @@ std::pair<Bezier, Bezier> split(const Bezier &curve, double t);
 // `curve_length` is the length of the whole curve. For a curve of length 0, t is 0.
 double parameter_at_length(const Bezier &curve, double curve_length, double behind);
 
-// Writes to t the results of parameter_at_length for ascending lengths `behind`. The function goes over the curve once, which
-// takes a fraction of the time of separate calls.
+// Writes to t the results of parameter_at_length for ascending lengths `behind`. One pass over the curve takes a fraction of the
+// time of separate calls.
 void parameters_at_lengths(const Bezier &curve, double curve_length, const Vector<double> &behind, double *t);
 
 // Divides the part of the curve between two parameters into eight parts of equal length, and writes their ends to t. `length`

@@ -20,7 +20,7 @@ namespace {
 // Ball arithmetic: bounds a vector or a number on a range by a middle value and the largest distance from it. Each operation
 // gives a range that holds every possible value. Rounding of the bounds is ignored, because it is far smaller than the bounds.
 
-// All numbers within `radius` of `middle`.
+// A ball of numbers: all numbers within `radius` of `middle`.
 struct Interval {
   double middle, radius;
 
@@ -35,7 +35,7 @@ inline Interval operator*(Interval a, Interval b) {
   return {a.middle * b.middle, std::abs(a.middle) * b.radius + a.radius * b.magnitude()};
 }
 
-// All vectors within `radius` of `middle`.
+// A ball of vectors: all vectors within `radius` of `middle`.
 struct Ball {
   Vec3 middle;
   double radius;
@@ -50,7 +50,7 @@ inline Ball operator*(double a, const Ball &b) { return {a * b.middle, std::abs(
 inline Ball operator*(Interval a, const Ball &b) {
   return {a.middle * b.middle, std::abs(a.middle) * b.radius + a.radius * b.largest_length()};
 }
-// The radius of a product of two balls, which are vectors or numbers.
+// The radius of the dot or cross products of the vectors of two balls.
 inline double radius_of_product(const Ball &a, const Ball &b) {
   return length(a.middle) * b.radius + a.radius * b.largest_length();
 }
@@ -64,7 +64,7 @@ inline Interval square(const Ball &a) {
 // Inverts positive numbers.
 inline Interval inverse(double least, double largest) { return Interval::between(1 / largest, 1 / least); }
 
-// Returns the part of a that is perpendicular to the unit vectors of a ball. For two unit vectors, the projections differ by the
+// Returns the part of a that is perpendicular to the unit vectors of a ball. The projections by two unit vectors differ by the
 // sine of the angle between these vectors, which is at most their distance.
 inline Ball across(const Ball &a, const Ball &unit) {
   return {a.middle - dot(a.middle, unit.middle) * unit.middle, a.radius + length(a.middle) * unit.radius};
@@ -111,8 +111,8 @@ struct Derivatives {
 };
 
 // Returns the tangent from B'' and B''', the derivatives of a Bézier span by its own parameter t. The size of B' is between
-// `least` and `largest`. Parts across T are marked by _. With dt/du = speed / |B'|, the derivatives of T by u are
-//   T' = speed / |B'|^2 B''_  and  T'' = speed^2 / |B'|^3 (B'''_ - 3 (T.B'') / |B'| B''_ - |B''_|^2 / |B'| T).
+// `least` and `largest`. An underscore marks a part at right angles to T. With dt/du = speed / |B'|, the derivatives of T by u
+//   are T' = speed / |B'|^2 B''_ and T'' = speed^2 / |B'|^3 (B'''_ - 3 (T.B'') / |B'| B''_ - |B''_|^2 / |B'| T).
 Along along(const Ball &tangent, double least, double largest, const Ball &second, Vec3 third, double speed) {
   const Interval inverse_size = inverse(least, largest);
   const Interval inverse_size_sq = Interval::between(1 / (largest * largest), 1 / (least * least));
@@ -183,8 +183,8 @@ class OffsetDerivatives {
   // O is factor |W| N with N = M / |M|, and N' is the part of M' across N, divided by |M|.
   Ball first() const { return factor_ * (size1_ * normal_ + (w_size_ * m_inverse_) * across1_); }
 
-  // Bounds |O''|. The part along N and the part across N are bounded separately:
-  //   O'' / factor = (|W|'' - |W| |N'|^2) N + (2 (|W|' - |W| (N.M') / |M|) M'_across + |W| M''_across) / |M|.
+  // Bounds |O''|. The part along N and the part across N are bounded separately: O'' / factor = (|W|'' - |W| |N'|^2) N + (2 (|W|'
+  // - |W| (N.M') / |M|) M'_across + |W| M''_across) / |M|.
   double largest_second() const {
     const Ball w2 = edge_.speed * edge_.first - base_.speed * base_.first;
     const Ball m2 = edge_.speed * (cross(edge_.first, base_.tangent) + 2 * cross(edge_.tangent, base_.first)) -

@@ -41,7 +41,7 @@ class Bulge {
   // Keeps copies of both curves. The edge may be a point.
   Bulge(Curve base, Curve edge, double factor);
 
-  // A place u on both curves, and O there.
+  // A place u on both curves of a patch of arcs, and the offset O there.
   struct Place {
     double u;
     PointOnSpan on_base, on_edge;
@@ -54,7 +54,7 @@ class Bulge {
 
   // Bounds the distance of O(u) from its linear interpolation between two places, for all u from one place to a later place. The
   // bound falls with the square of the distance. If W becomes parallel to T, O has no direction, and the bound stays at 2
-  // |factor| |W|. The bound is not refined further once it is at most `enough`.
+  // |factor| |W|. The function refines the bound only until it is at most `enough`.
   double linear_error(const Place &from, const Place &to, double enough) const;
 
   // Returns the u of the curves' joints, ascending. O may have kinks there.

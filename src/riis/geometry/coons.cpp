@@ -73,7 +73,7 @@ class ArcRefinement {
 
  private:
   // Returns the place at which a range is cut. A cut at a joint removes a kink, so the cut is at a joint that is not too near an
-  // end, if there is one. If there is none, the cut is in the middle.
+  // end, if there is one. If there is no such joint, the cut is in the middle.
   double cut(double from, double to) const {
     for (const double joint : bulge_.joints())
       if (joint > 0.875 * from + 0.125 * to && joint < 0.125 * from + 0.875 * to) return joint;
@@ -106,13 +106,13 @@ Vector<double> middles(const Vector<GridLine> &lines) {
 
 Vector<GridLine> merge_parameters(const Polyline &side0, const Polyline &side1, double merge_tolerance) {
   const Vector<double> t0 = own_parameters(side0), t1 = own_parameters(side1);
-  // The tolerance is so small that no two vertices of one side can match the same vertex of the other side.
+  // The tolerance is so small that two vertices of one side never match the same vertex of the other side.
   const double tolerance = std::min(merge_tolerance, 0.49 * std::min(smallest_step(t0), smallest_step(t1)));
   Vector<GridLine> lines;
   lines.reserve(t0.size() + t1.size());
   lines.push_back({0.0, 0.0, 0.0, true, true});
   for (std::size_t i = 1, j = 1; i + 1 < t0.size() || j + 1 < t1.size();) {
-    // If a side has no further inner vertex, its next parameter counts as infinite.
+    // If a side has no further inner vertex, infinity takes the place of its next parameter.
     const double a = i + 1 < t0.size() ? t0[i] : std::numeric_limits<double>::infinity();
     const double b = j + 1 < t1.size() ? t1[j] : std::numeric_limits<double>::infinity();
     if (std::abs(a - b) <= tolerance) {

@@ -18,7 +18,7 @@ struct PatchSides {
 };
 
 // A line of the grid. Two vertices on opposite sides whose parameters nearly agree share a line, so no sliver quads arise. Both
-// vertices keep their places. Neighbouring patches therefore fit without cracks.
+// vertices keep their places. Neighbouring patches therefore meet without cracks.
 struct GridLine {
   double t0, t1;                                // the line's parameters on the first and the second of its two sides
   double middle;                                // the mean of both, which is the line's u (or v) in the grid
@@ -102,7 +102,7 @@ Vector<double> middles(const Vector<GridLine> &lines);
 GridLines lines_of_arc_grid(const ArcLines &lines, const QuadGrid &grid);
 
 // Returns the index of the interval that holds x, between ascending values. An x that equals a value belongs to the interval
-// after that value. An x at the upper end belongs to the last interval.
+// after that value. An x at the upper end of the range belongs to the last interval.
 std::size_t interval_of(const Vector<double> &values, double x);
 
 // Returns S(u,v) by bilinear interpolation inside the quad that holds (u,v) in [0,1]^2. (The paper prints u - u_o as the

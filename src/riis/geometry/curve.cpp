@@ -21,7 +21,7 @@ constexpr double narrowest_for_velocity = 1.0 / 32;
 // Collects the chords of parts. Each part is within max_error of its chord.
 class Flattening {
  public:
-  // Begins with the curve's first point. `bend` is null if the velocity does not matter.
+  // The list begins with the curve's first point. `bend` is null if the velocity does not matter.
   Flattening(Vec3 first, double max_error, const VelocityBend *bend, double max_bend)
       : max_error_(max_error), bend_(bend), max_bend_(max_bend) {
     constexpr std::size_t usual = 16;  // most curves of a valve have fewer points
@@ -73,8 +73,8 @@ class Flattening {
   }
 
   // Compares the point of the part with the point of the chord at each share of their lengths. The distance of two such points is
-  // at most length^2 / 8 times the largest curvature, as for linear interpolation. Joints do not matter, because the direction is
-  // continuous there. If the curve's derivative may be 0, the distance is at most the length.
+  // at most length^2 / 8 times the largest curvature, as for linear interpolation. Joints do not change this bound, because the
+  // direction is continuous there. If the curve's derivative may be 0, the distance is at most the length.
   template <class LargestCurvature>
   bool accept(Vec3 last, double distance_to_chord, double part_length, const LargestCurvature &largest_curvature,
               double t1) {
@@ -239,8 +239,8 @@ VelocityBend::VelocityBend(const Curve &curve, const Vector<Bezier> &velocity) {
     const double speed_rate = dot(at.tangent, first_rate), inverse = 1 / at.speed;
     const Vec3 tangent_rate = inverse * (first_rate - speed_rate * at.tangent);
     const double along = dot(at.tangent, at.second);
-    // The curvature vector and its rate of change. The curvature vector times the squared length of the curve is the second
-    // derivative of the point by the share.
+    // The curvature vector and its rate of change with the opening. The curvature vector times the squared length of the curve is
+    // the second derivative of the point by the share.
     const Vec3 curvature = inverse * inverse * (at.second - along * at.tangent);
     const Vec3 curvature_rate = inverse * inverse *
                                     (second_rate - along * tangent_rate -
@@ -363,7 +363,7 @@ Polyline make_polyline(const Vector<Vec3> &points) {
   Polyline polyline{{points.front()}, {0.0}, {}, 0.0};
   for (const Vec3 &point : points) {
     const double step = distance(polyline.points.back(), point);
-    // A step too short to change the sum is left out, because it would give two points the same t.
+    // A step that is too short to change the sum is left out, because it would give two points the same t.
     if (!(polyline.length + step > polyline.length)) continue;
     polyline.length += step;
     polyline.points.push_back(point);

@@ -38,7 +38,7 @@ class Curve {
   // Returns the shares of the length at which one span ends and the next begins, in ascending order.
   Vector<double> joints() const;
 
-  // The point at a share of the length, and the unit tangent there. The tangent is 0 if the curve has no direction.
+  // The point at a share of a curve's length, and the unit tangent there. The tangent is 0 if the curve has no direction.
   struct PointAndTangent {
     Vec3 point, tangent;
   };
@@ -67,7 +67,7 @@ class Curve {
 
   Curve reversed() const;
 
-  // Returns the same curve with its ends moved onto the ends of neighbouring curves. The ends may move by rounding errors only.
+  // Returns the same curve with its ends moved onto the ends of neighbouring curves. The ends may move only by rounding errors.
   Curve through(Vec3 first, Vec3 last) const;
 
  private:
@@ -92,7 +92,8 @@ class VelocityBend {
   double off_linear(double u0, double u1) const;
 
  private:
-  // A part of a span. The bend, which is the velocity's second derivative by the share, counts as linear there.
+  // A part of a span. Between the two shares, the bend (the second derivative of the velocity by the share) is approximated by a
+  // linear function.
   struct Cell {
     double u0, u1, bend0, bend1;
 
@@ -116,10 +117,10 @@ struct Flattened {
 // Halves the curve until two conditions hold for every part. First, its flatness shows that it lies within max_error (> 0) of its
 // chord. The distance of a Bézier span from its chord is at most 3/4 (cubic) or 1/2 (quadratic) of the span's flatness. Second,
 // the part and its chord are at most max_error apart at equal shares of their lengths. With `bend`, a part is also halved if its
-// velocity is estimated to deviate from linear by more than max_bend. Parts are halved by length, whereas the paper (algorithm
-// "Recursive de Casteljau subdivision") halves the parameter. The shares of two curves therefore agree to the last bit or differ
-// by at least a part, so no slivers arise. A common point of two parts appears once. Fails with RIIS_LIMIT_EXCEEDED for more than
-// 2^20 parts.
+// velocity is estimated to differ from a linear function by more than max_bend. Parts are halved by length, whereas the paper
+// (algorithm "Recursive de Casteljau subdivision") halves the parameter. The shares of two curves therefore agree to the last bit
+// or differ by at least a part, so no slivers arise. A common point of two parts appears once. Fails with RIIS_LIMIT_EXCEEDED for
+// more than 2^20 parts.
 Flattened flatten(const Curve &curve, double max_error, const VelocityBend *bend = nullptr, double max_bend = 0);
 
 // Points of a curve at many shares of its length, found in one pass.
@@ -142,8 +143,8 @@ class CurvePoints {
   // next call.
   const Vector<Bezier> &between(std::size_t i, std::size_t j);
 
-  // Bounds the distance between the chord from share i to share j and the curve, at equal shares of their lengths
-  // (docs/theory/curves.md, "Chord error"). The bound is not refined further once it is at most `enough`.
+  // Bounds the distance between a curve and its chord from share i to share j, at equal shares of their lengths
+  // (docs/theory/curves.md, "Chord error"). The function refines the bound only until it is at most `enough`.
   double chord_error(std::size_t i, std::size_t j, double enough);
 
  private:

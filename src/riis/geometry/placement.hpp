@@ -26,7 +26,7 @@ inline Rotation transposed(const Rotation &a) {
 // axis points. The result is exact for multiples of 90 degrees about a coordinate axis.
 Rotation rotation_about(Vec3 axis, double degrees);
 
-// Rotates by degrees about x, then about y, then about z. The paper's rotation [x, y, z] of a cusp has this meaning.
+// Rotates by degrees about x, then about y, then about z. The rotation [x, y, z] of a cusp in the paper has this meaning.
 Rotation rotation_xyz(Vec3 degrees);
 
 struct Placement {

@@ -18,8 +18,8 @@ struct PointOnTriangle {
 };
 
 // The triangle must have an area (has_zero_area in triangulate/triangle_set.hpp). The result is the best of four candidates: the
-// clamped points of the three edges, and the foot of the perpendicular if it is inside. Up to rounding, each candidate lies on
-// the triangle. A wrong decision about "inside" therefore adds only a rounding error, and never makes the distance too small.
+// closest points of the three edges, and the foot of the perpendicular if it is inside. Up to rounding, each candidate lies on
+// the triangle. A wrong decision about "inside" therefore adds only a rounding error, and the distance never becomes too small.
 PointOnTriangle closest_point_on_triangle(Vec3 p, Vec3 a, Vec3 b, Vec3 c);
 
 // The closest of several triangles has the smallest square. Among triangles with equal squares, it has the lowest position.

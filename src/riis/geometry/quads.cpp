@@ -14,8 +14,8 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Bounds the distance between a quad and its triangles at a level of subdivision. The bound is refined no further than `enough`
-// requires.
+// Bounds the distance between a quad and its triangles at a level of subdivision. The function refines the bound only as far as
+// `enough` requires.
 double split_error_at(const Quad &quad, int level, double enough) {
   // Below the level `few`, all parts of the quad are checked, because their number is small. From the level `few` on, the bound
   // only uses that each level divides the twist by exactly 4.
@@ -63,8 +63,8 @@ Quad without_shortest_edge(const Quad &quad, double &shortest) {
   return {corner[0], corner[1], corner[2], corner[3]};
 }
 
-// Returns a planned level with its error. At a collapsed side, rounding may fold a quad at one opening and not at the next. A
-// bound for the quad without the collapsed edge ignores the fold.
+// Returns a level that was planned for the quad, with its error. At a collapsed side, rounding may fold a quad at one opening and
+// not at the next. A bound for the quad without the collapsed edge ignores the fold.
 Level planned_level(const QuadGrid &grid, std::size_t i, std::size_t j, double max_error, int level) {
   const Quad quad = quad_of(grid, i, j);
   const double left = max_error - grid.error(i, j);

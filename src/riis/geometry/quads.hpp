@@ -16,7 +16,8 @@ namespace riis {
 struct Quad {
   Vec3 p00, p10, p11, p01;
 
-  // On an edge, the result depends only on the two ends of the edge. Neighbouring quads therefore agree to the last bit.
+  // On an edge, the result depends only on the two ends of the edge. Neighbouring quads therefore agree to the last bit on their
+  // common edge.
   Vec3 at(double s, double t) const { return mix(mix(p00, p10, s), mix(p01, p11, s), t); }
 };
 
@@ -39,7 +40,7 @@ void for_each_quad(const QuadGrid &grid, const Visit &visit) {
     for (std::size_t i = 0; i + 1 < grid.u.size(); ++i) visit(i, j);
 }
 
-// A limit on the number of halvings. No quad that the library accepts needs so many halvings.
+// A limit on the number of halvings. Every quad that the library accepts needs fewer halvings.
 inline constexpr int most_halvings = 13;
 
 // The quads of a patch, and their levels of subdivision in the order of for_each_quad.
@@ -57,7 +58,7 @@ LevelledGrid with_levels(QuadGrid grid, double max_error);
 // Gives the quads the levels of a plan. The bounds of errors are only refined as far as max_error requires.
 LevelledGrid with_planned_levels(QuadGrid grid, double max_error, const Vector<int> &planned);
 
-// Raises the levels where the quads of a grid need higher ones for max_error. An empty list stands for levels of 0.
+// Raises the levels of quads that need higher levels to keep max_error. An empty list stands for levels of 0.
 void raise_levels(const QuadGrid &grid, double max_error, Vector<int> &levels);
 
 }  // namespace riis

@@ -9,7 +9,8 @@
 namespace riis {
 namespace {
 
-// Two doubles in one register. Comparing one double at a time would take longer than reading the memory.
+// Two doubles in one register. This file uses registers, because comparing one double at a time would take longer than reading
+// the memory.
 typedef double Two __attribute__((vector_size(16)));
 
 struct Spread {
@@ -64,7 +65,7 @@ Bounds bounds_of(const StridedPoints &points, double &sum) {
   return bounds;
 }
 
-// Single precision is rare, so one point at a time is fast enough.
+// Coordinates in single precision are rare, so one point at a time is fast enough.
 Bounds bounds_of(const StridedReals<float> &points, double &sum) {
   Bounds bounds;
   for (std::int64_t i = 0; i < points.n; ++i) {

@@ -102,7 +102,7 @@ RIIS_INLINE Doubles segment_parameter(Doubles3 r, Doubles3 edge) {
   return least(greatest(dot(r, edge) / dot(edge, edge), Doubles::all(0)), Doubles::all(1));
 }
 
-// The closest points on eight triangles. If a caller reads only `distance_sq`, the compiler drops the other members.
+// The closest points on eight triangles. If a caller reads only `distance_sq`, the compiler leaves out the other members.
 struct ClosestPoints {
   Doubles distance_sq;
   Doubles3 point, weights;
@@ -313,7 +313,7 @@ void measure_triangles(const double *vertices, const int64_t *vertex_id, int32_t
 
 void frame_group(const PlainFrame &frame, const double *corners, const int32_t *triangle, int32_t n,
                  GroupCorners &framed) {
-  // Takes only as many triangles at a time as fit in one register, so that their addresses also stay in registers.
+  // Processes only as many triangles at a time as fit in one register, so that their addresses also stay in registers.
   constexpr int at_once = Doubles::per_register;
   const DoubleRegister scale = frame.scale - DoubleRegister{};
   for (int from = 0; from < triangles_per_group; from += at_once) {
@@ -354,8 +354,8 @@ RIIS_INLINE void put(Doubles3 v, float (*to)[triangles_per_group], int from) {
   put(v.z, to[2] + from);
 }
 
-// Stores an axis in single precision, with the origin that gives `middle` the coordinate zero. The origin is computed for the
-// rounded axis, so the effect of the rounding is proportional to the distance from `middle`.
+// Stores an axis in single precision. The origin is chosen so that `middle` has the coordinate 0. The origin is computed for the
+// rounded axis, so the error by rounding is proportional to the distance from `middle`.
 RIIS_INLINE void put_axis(Doubles3 axis, Doubles3 middle, float (*to)[triangles_per_group], float *origin, int from) {
   put(axis, to, from);
   const auto rounded = [](Doubles x) RIIS_LAMBDA {
@@ -381,8 +381,8 @@ RIIS_INLINE Direction direction(Doubles3 v, Doubles3 otherwise) {
 
 constexpr int halves = triangles_per_group / Doubles::n;
 
-// Lowers a lower bound by a little more than the largest error of rounding to single precision. The result is therefore also a
-// lower bound of rounded numbers.
+// Lowers a lower bound by slightly more than the largest rounding error of single precision. The result is therefore also a lower
+// bound of rounded numbers.
 RIIS_INLINE float round_down(double x) {
   const double unit = (x < 0 ? -x : x) * 0x1p-22 + 0x1p-120;
   return static_cast<float>(x - unit);
@@ -440,7 +440,7 @@ RIIS_INLINE double sum_of(Doubles x) {
   return sum;
 }
 
-// Scales vectors to length 1. Vectors without a length do not change. Returns the lanes that have a length.
+// Scales vectors to length 1. Vectors of length 0 stay unchanged. Returns the lanes that have a length.
 RIIS_INLINE Doubles::Mask normalize(Doubles3 &a) {
   const Doubles square = dot(a, a);
   const Doubles::Mask has_one = square > Doubles::all(1e-24);
@@ -548,10 +548,11 @@ RIIS_INLINE void make_frames(const GroupCorners &corners, TriangleGroup &group,
     const Doubles3 middle = one_half * (a + b);
     put_axis(e.unit, middle, group.e, group.e_origin, from);
     put(half_ab, group.half_ab + from);
-    // Returns the part of v at right angles to e. A second call removes the part along e that rounding leaves in a needle-shaped
-    // triangle.
+    // Returns the part of v at right angles to e. If the triangle is needle-shaped, rounding leaves a part along e, which a
+    // second call removes.
     const auto across = [&](Doubles3 v) RIIS_LAMBDA { return v - dot(v, e.unit) * e.unit; };
-    // If rounding left nothing of the triangle's height, the part at right angles to e is noise and may again run along e.
+    // If rounding left nothing of the triangle's height, the part at right angles to e is only rounding error, and may again run
+    // along e.
     Doubles3 over = across(ac);
     const Doubles over_sq = dot(over, over);
     const Doubles::Mask has_height = both(over_sq > Doubles::all(0x1p-88) * dot(ac, ac), over_sq > Doubles::all(1e-59));
@@ -565,8 +566,8 @@ RIIS_INLINE void make_frames(const GroupCorners &corners, TriangleGroup &group,
     put_axis(f, middle, group.f, group.f_origin, from);
     put_axis(g, middle, group.g, group.g_origin, from);
     sum = sum + (e.length * c_f) * g;
-    // Stores the edge with the direction `along`, from the place `start` on ab to the third corner. Places on ab are counted
-    // from its middle.
+    // Stores the edge with the direction `along`. The edge leads from the place `start` on ab to the third corner. Places on ab
+    // are counted from its middle.
     const auto put_edge = [&](Doubles start, Doubles3 along, float *unit_e, float *unit_f, float *to_middle,
                               float *side, float *half_length) RIIS_LAMBDA {
       const Direction edge = direction(along, {one, zero, zero});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The filter dismisses pairs of nodes and triangles that cannot matter. The filter computes in single precision and is compiled
+// The filter rules out pairs of nodes and triangles that cannot matter. The filter computes in single precision and is compiled
 // for each instruction set.
 #include "kernels/lanes.hpp"
 #include "kernels/table.hpp"
@@ -28,7 +28,7 @@ struct ToGroup {
 };
 
 // Measures a point. Up to rounding, every result is the distance to some point of the triangle. A point counts as inside the
-// triangle only if all edges are farther than a margin. A point closer to an edge gets its distance to this edge, which is wrong
+// triangle only if all edges are farther than a margin. A point nearer to an edge gets its distance to this edge, which is wrong
 // by at most the margin.
 RIIS_INLINE ToGroup measure_to_group(const TriangleGroup &group, Floats3 p, Floats margin) {
   const auto along = [&](const float(*axis)[16], const float *origin) RIIS_LAMBDA {
@@ -52,7 +52,7 @@ RIIS_INLINE ToGroup measure_to_group(const TriangleGroup &group, Floats3 p, Floa
     inside = least(inside, inside_edge);
   };
   offer_edge(e, f, group.ac_e, group.ac_f, group.ac_middle, group.ac_side, group.half_ac);
-  // The triangle is on the other side of bc, so the two axes are exchanged.
+  // The triangle is on the other side of bc, so two axes are exchanged.
   offer_edge(f, e, group.bc_f, group.bc_e, group.bc_middle, group.bc_side, group.half_bc);
   return {multiply_add(g, g, zero_where_at_least(inside, margin, in_plane)), g};
 }
@@ -282,8 +282,8 @@ RIIS_INLINE void begin_leaf(const FilterTask &task, LeafTask &leaf, ClusterTask 
   leaf.may_be_near = cluster.n_listed > n_before;
 }
 
-// Lists nodes of a leaf. Each node is listed with every group, except its first group, that may be as near as the best triangle
-// so far. The list begins with the group cluster.next_group. Returns false if the list is full before the last group.
+// Lists nodes of a leaf. Except with its first group, each node is listed with every group that may be as near as the best
+// triangle so far. The list begins with the group cluster.next_group. Returns false if the list is full before the last group.
 RIIS_INLINE bool list_others(const LeafTask &leaf, ClusterTask &cluster, const float *lower_bounds) {
   const int32_t first_node = first_node_of(leaf);
   Floats limit[halves], first_group[halves];
@@ -384,8 +384,8 @@ void begin_cluster(const FilterTask &task, ClusterTask &cluster) {
   task.one_side.end_of_band ? begin_leaves<true>(task, cluster) : begin_leaves<false>(task, cluster);
 }
 
-// Leaves a node out if all its possible closest triangles leave the node out of the band. All groups near the node must be in the
-// list, so only the first n_leaves leaves are judged.
+// Leaves a node out if each triangle that may be the closest one leaves the node out of the band. All groups near the node must
+// be in the list, so only the first n_leaves leaves are judged.
 RIIS_INLINE void leave_out(ClusterTask &cluster, int32_t n_leaves) {
   uint32_t stays[leaves_per_cluster] = {};
   for (int32_t i = 0; i < cluster.n_listed; ++i) {
@@ -405,8 +405,8 @@ RIIS_INLINE void leave_out(ClusterTask &cluster, int32_t n_leaves) {
   }
 }
 
-// Compares the nodes with their first groups if no earlier call has done so. After that, lists other groups for as many nodes as
-// there is room for, and compares the nodes with these groups.
+// Compares the nodes with their first groups if no earlier call has done so. Then lists other groups for as many nodes as there
+// is room for, and compares the nodes with these groups.
 template <bool is_one_sided>
 RIIS_INLINE void compare_all(const FilterTask &task, ClusterTask &cluster) {
   const bool is_first = cluster.next_leaf < 0;
@@ -448,8 +448,8 @@ int32_t filter_nodes(const FilterTask &task, ClusterTask &cluster, const PairArr
     compare_all<is_one_sided>(task, cluster);
     cluster.next_listed = 0;
   }
-  // Writes the listed nodes whose group is still near after the whole list was compared. The position advances only after such a
-  // node. Writing every node avoids a branch that the processor could not predict.
+  // Writes those listed nodes whose group is still near after the whole list was compared. The position to write advances only
+  // after a node whose group is near. Writing every node avoids a branch that the processor could not predict.
   const GroupBounds *const bounds = task.bounds;
   int32_t *const node_of_pair = pairs.node, *const triangle_of_pair = pairs.triangle;
   const int32_t n_listed = cluster.n_listed;

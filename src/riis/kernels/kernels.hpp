@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Kernels compute sixteen floats or eight doubles at a time. Kernels are compiled once for each instruction set, and one set is
-// chosen at run time. This header has only plain data and declarations, because the compiler would compile a function body here
-// for several instruction sets under one name.
+// chosen at run time. This header has only plain data and declarations. The compiler would compile a function body for several
+// instruction sets under one name.
 //
-// FilterKernels compute in single precision, only to dismiss pairs that cannot matter. Results are accurate to filter_error
+// FilterKernels compute in single precision, and only rule out pairs that cannot matter. Results are accurate to filter_error
 // (docs/theory/clusters.md). Coordinates are in the surface's frame: relative to the surface's middle, and scaled by a power of
 // two that makes the surface's half extent 1/2 to 1.
 // DecisionKernels compute in double precision, with exactly the bits of the decision kernel (geometry/point_triangle.hpp).
@@ -81,7 +81,7 @@ struct OneSide {
   float least_depth;  // a node with less depth may be in front of the triangle
   float least_sum;    // a node is out of the band if the square of its distance + twice_shift * depth exceeds this
   // For each group, a place along the group's first axis, multiplied by `behind`. Beyond this place the whole group leaves a node
-  // out. The place is infinite if the group leaves no node out. The pointer is null if nodes on both sides are wanted.
+  // out. The place is infinite if the group never leaves a node out. The pointer is null if nodes on both sides are wanted.
   const float *end_of_band = nullptr;
 };
 
@@ -113,8 +113,8 @@ struct LeafTask {
   uint32_t found;    // after the last call of filter_cluster, a bit for each node that had pairs in any call
 };
 
-// Cache lines that the decision will read. The filter prefetches some of these lines after every few distances. Prefetching all
-// lines at once would fill the processor's queue, and other loads would wait.
+// Cache lines that the decision will read later. After every few distances, the filter prefetches some of these lines.
+// If all lines were prefetched at once, they would fill the processor's queue, and other loads would wait.
 struct LinesAhead {
   int32_t n;
   const char *line[256];
@@ -183,8 +183,8 @@ struct alignas(64) PlacedBy {
   double of_image[3][4], offset_of_image[4], rotation[3][4], translation[4], scale;
 };
 
-// The sources of functions |r|^3, stored coordinate by coordinate, and the functions' weights. Their number n is a multiple of 8.
-// Lanes without a source have the weight 0.
+// The points at which functions |r|^3 are centred, stored coordinate by coordinate, and the weights of these functions. Their
+// number n is a multiple of 8. Lanes without a source have the weight 0.
 struct CubeSources {
   const double *source[3], *weight[3];
   int64_t n;
@@ -194,7 +194,7 @@ struct CubeSums {
   double value[3], third_along[3][3];
 };
 
-// The most keys that are ranked in one call: the number of nodes in two leaves.
+// The largest number of keys that one call ranks: the number of nodes in two leaves.
 constexpr int32_t keys_at_once = 2 * nodes_per_leaf;
 
 struct FilterKernels {
@@ -206,7 +206,7 @@ struct FilterKernels {
   // near_boxes, so lanes without a box have no bits.
   bool (*near_own_boxes)(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
                          uint16_t *near);
-  // Copies, without gaps, each of n numbers whose entry in `marks` has the given bit. Returns the number of copied numbers. `to`
+  // Copies, without gaps, those of n numbers whose entry in `marks` has the given bit. Returns the number of copied numbers. `to`
   // must have room for n numbers.
   int32_t (*select)(const int32_t *numbers, const uint16_t *marks, int32_t n, int32_t bit, int32_t *to);
   // For each of 16 boxes, finds the candidate group whose corner is nearest to the middle of the box, and writes the group's
@@ -219,13 +219,13 @@ struct FilterKernels {
   // Compares the nodes of a cluster with the boxes of groups.
   void (*begin_cluster)(const FilterTask &task, ClusterTask &cluster);
   // Compares the nodes with the triangles of groups that may be near. Writes at most `room` pairs of a node and a triangle, and
-  // returns their number. The pairs include the closest triangles of every node within the limit. Each call goes on where the
-  // previous call stopped, until is_done is true. Room for triangles_per_group pairs is enough for a call to make progress.
+  // returns their number. The pairs include the closest triangles of every node within the limit. Each call continues where the
+  // previous call stopped, until is_done is true. For progress, a call needs room for triangles_per_group pairs.
   int32_t (*filter_cluster)(const FilterTask &task, ClusterTask &cluster, const PairArrays &pairs, int32_t room);
   // Computes the squares of the distances of a point to the triangles of a group, in single precision. The point is in the
   // surface's frame.
   void (*group_distances)(const TriangleGroup &group, const float *point, float margin, float *distance_sq);
-  // For each key, counts the lesser keys among the first n keys, where n is at most keys_at_once. If no two keys are equal, the
+  // For each key, counts the smaller keys among the first n keys, where n is at most keys_at_once. If no two keys are equal, the
   // count is the key's position in ascending order. The arrays `key` and `n_less` are aligned to 64 bytes and have room for
   // keys_at_once.
   void (*rank)(const int32_t *key, int32_t n, int32_t *n_less);
@@ -236,9 +236,9 @@ struct DecisionKernels {
   // are given by the ids of their vertices, and n is above 0.
   void (*take_corners)(const double *vertices, const int64_t *vertex_id, int64_t n, double *corners, double *lower,
                        double *upper);
-  // Checks up to eight triangles, given by the ids of their vertices. Returns false if a triangle may have no area, now or after
-  // its corners move by up to an eighth of `shift`. The square of twice the area must exceed 4e-23 (|ab|^2 + |ac|^2)^2 + shift^2
-  // (|ab|^2 + |ac|^2).
+  // Checks up to eight triangles, given by the ids of their vertices. Returns false if a triangle may have no area now, or after
+  // its corners have moved by up to an eighth of `shift`. The square of twice the area must exceed 4e-23 (|ab|^2 + |ac|^2)^2 +
+  // shift^2 (|ab|^2 + |ac|^2).
   bool (*have_area)(const double *vertices, const int64_t *vertex_id, int32_t n, double shift);
   // Places n points (3, n). The results have the same bits as place(placement, place(image, p)).
   void (*place_points)(const PlacedBy &by, const double *points, int64_t n, double *placed);
@@ -264,9 +264,9 @@ struct DecisionKernels {
   void (*mix_at_vertices)(const VertexNumbers *numbers, const int64_t *const *vertex, const PointsOnTriangles &located,
                           VertexNumbers *mixed);
   // Computes how fast the distances of the first n_points points change when the triangles' vertices move. The number n_points is
-  // above 0. The search passes the distances that it has computed, so that no root is computed again. `vertex` has the ids of
-  // each pair's three vertices, and rates[i] has the rates of all vertices in direction i. The derivatives of a point follow each
-  // other. A derivative at distance 0 is 0.
+  // above 0. The search passes the distances that it has already computed, so that the kernel need not take roots again. `vertex`
+  // has the ids of each pair's three vertices, and rates[i] has the rates of all vertices in direction i. The derivatives of a
+  // point follow each other. A derivative at distance 0 is 0.
   void (*differentiate)(const PointsAndTriangles &pairs, const PointsOnTriangles &located,
                         const double (&distance)[pairs_at_once], const int64_t *const *vertex,
                         const double *const *rates, int64_t n_directions, int32_t n_points, double *derivatives);
@@ -281,7 +281,7 @@ struct DecisionKernels {
 
 struct Kernels : FilterKernels, DecisionKernels {};
 
-// Instruction sets, the least preferred one first.
+// Instruction sets, in ascending order of preference.
 enum class InstructionSet : int32_t { baseline = 0, avx2 = 1, avx512 = 2 };
 constexpr int n_instruction_sets = 3;
 

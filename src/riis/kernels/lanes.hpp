@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // This file computes with sixteen floats or eight doubles at once. The code uses the registers of the instruction set for which
 // the including file is compiled. Everything has internal linkage. Files for different instruction sets must not share a
-// function, because the linker could take it from the wrong file. This file also includes no header whose inline functions the
-// compiler may emit as separate functions.
+// function, because the linker could take the function from the wrong file. This file also includes no header whose inline
+// functions the compiler may emit as separate functions.
 #pragma once
 
 // RIIS_PORTABLE_LANES selects the code for processors without SSE2 or NEON. Tests also run this code on processors with SSE2 or
@@ -63,7 +63,7 @@ struct ComparisonOf<DoubleRegister> {
 };
 
 // Returns a < b ? a : b. If `a` is NaN, the result is therefore b. NEON differs for a NaN in b alone, and for two zeros of
-// different signs. No result depends on this difference: where b is NaN, a is NaN too, and nothing reads the sign of a zero.
+// different signs. No result depends on this difference: if b is NaN, a is also NaN, and nothing reads the sign of a zero.
 RIIS_INLINE FloatRegister least(FloatRegister a, FloatRegister b) {
 #if defined(__AVX512F__)
   return (FloatRegister)_mm512_min_ps((__m512)a, (__m512)b);
@@ -205,7 +205,8 @@ struct Lanes {
     for (int i = 0; i < n_registers; ++i) reinterpret_cast<InMemory *>(to)[i] = part[i];
   }
 
-// The body of a function that works register by register: register i of the result comes from the registers i of the arguments.
+// The body of a function that works register by register: register i of the result depends only on the registers i of the
+// arguments.
 #define RIIS_LANEWISE(Result, expression)                       \
   Result r;                                                     \
   for (int i = 0; i < n_registers; ++i) r.part[i] = expression; \
@@ -265,8 +266,8 @@ template <int n, class Address>
 RIIS_INLINE void gather_points(const Address &address, Doubles (&xyz)[n][3]) {
 #if defined(__AVX2__)
   // A load takes four numbers: the three numbers of a point and the next number. The array ends after the last point, so the last
-  // load begins with the number before that point. A single point has no number before it, so a mask leaves out the fourth number
-  // of the load.
+  // load begins with the number before that point. The first point of the array has no number before it, so a mask leaves out the
+  // fourth number of its load.
   constexpr int last = n - 1;
   const auto load = [](const double *from, int k) __attribute__((always_inline)) {
     if constexpr (n == 1) return _mm256_maskload_pd(from, _mm256_setr_epi64x(-1, -1, -1, 0));
@@ -274,7 +275,7 @@ RIIS_INLINE void gather_points(const Address &address, Doubles (&xyz)[n][3]) {
   };
   for (int part = 0; part < Doubles::n_registers; ++part) {
     Row rows[n][4];
-    // Uses each address at once, because a processor has too few registers to keep all of them.
+    // Uses each address at once, because a processor has too few registers to keep all addresses.
     for (int i = 0; i < 4; ++i) {
 #if defined(__AVX512F__)
       const double *const from = address(i), *const later = address(i + 4);
@@ -383,7 +384,7 @@ RIIS_INLINE uint32_t bits_at_most(Floats a, Floats b) {
 #endif
 }
 
-// Returns one bit for each lane. The bit is set if a and b differ there.
+// Returns one bit for each lane. A bit is set if a and b differ in its lane.
 RIIS_INLINE uint32_t bits_different(Floats a, Floats b) {
 #if defined(__AVX512F__)
   return _mm512_cmp_ps_mask((__m512)a.part[0], (__m512)b.part[0], _CMP_NEQ_UQ);
@@ -428,10 +429,10 @@ RIIS_INLINE Floats zero_where_at_least(Floats a, Floats b, Floats x) {
 #endif
 }
 
-// Takes 16 integers, and returns one bit for each: the integer's bit number `bit`.
+// Returns bit number `bit` of each of 16 integers.
 RIIS_INLINE uint32_t lanes_with_bit(const uint16_t *from, int32_t bit) {
 #if defined(RIIS_SSE2)
-  // The bit becomes the sign, which survives the packing to bytes.
+  // The bit becomes the sign, which is kept when integers are packed to bytes.
   const __m128i shift = _mm_cvtsi32_si128(15 - bit);
   const __m128i first = _mm_sll_epi16(_mm_loadu_si128(reinterpret_cast<const __m128i *>(from)), shift);
   const __m128i last = _mm_sll_epi16(_mm_loadu_si128(reinterpret_cast<const __m128i *>(from + 8)), shift);

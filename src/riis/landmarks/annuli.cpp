@@ -298,7 +298,7 @@ std::string cause_of(const LandmarkFit &fit, const Landmarks &landmarks, Vec3 no
 void check_depth(const LandmarkModel &fitted, const Landmarks &landmarks, const ShownDepth &shown,
                  const std::string &advice) {
   const FittedSize &ap = fitted.sizes[MitralModel::ap];
-  // Noise alone moves the horns, and thus changes the horns' distance.
+  // Noise alone moves the horns, and therefore changes the distance between them.
   const double most_apart = std::max(shown.depth / 12, 5 * landmarks.noise);
   if (ap.held || std::abs(ap.value - shown.depth) <= most_apart) return;
   fail(RIIS_INVALID_ARGUMENT, "AP_diameter of the fitted valve is ", rounded(landmarks.scale * ap.value, 3),
@@ -405,7 +405,7 @@ KindOfLandmarks mitral_landmarks(const Valve &valve, const Landmarks &landmarks)
         made.models[0]->sizes[horn_size].value *= -1;
     }
   }
-  // A few noisy points can hold the fit at a wrong inclination.
+  // A few noisy points can keep the fit in a wrong inclination.
   const Pose upright = made.starts[0];
   for (const double lean : {-10.0, 10.0})
     made.starts.push_back({upright.rotation * rotation_about({1, 0, 0}, lean), upright.translation});
@@ -442,8 +442,8 @@ constexpr SaddleKind tricuspid{"tricuspid",    "AP_diameter",    "SL_diameter",
 constexpr SaddleKind mitral_coapting{"mitral_coapting", "ALPM_diameter", "AP_diameter",
                                      "anterior_ratio",  nullptr,         FlatSide::at_positive_y};
 
-// The place of each landmark on the annulus, in laps from the middle of the flat side. A landmark without a value may be
-// anywhere.
+// The place of each landmark on the annulus, in laps from the middle of the flat side. A landmark without such a place may be
+// anywhere on the annulus.
 using Laps = std::vector<std::optional<LinearValue>>;
 
 class SaddleModel : public LandmarkModel {
@@ -518,10 +518,10 @@ KindOfLandmarks tricuspid_landmarks(const Valve &valve, const Landmarks &landmar
   check_count(landmarks, tricuspid.kind, RIIS_LANDMARK_COMMISSURE, 3, 3);
   const Outline outline = outline_of(landmarks);
   check_spread(landmarks, landmarks.with_role(RIIS_LANDMARK_COMMISSURE), 0.02);
-  const LeafletsAround leaflets{{"anterior", "septal", "posterior"},
-                                "counter-clockwise",
-                                "between which of the anterior, septal and posterior leaflets each commissure is: name "
-                                "the leaflets of two commissures"};
+  const LeafletsAround leaflets{
+      {"anterior", "septal", "posterior"},
+      "counter-clockwise",
+      "between which two leaflets each commissure lies: name the leaflets of two commissures"};
   check_leaflet_ids(landmarks, leaflets);
   // Without the flow, the names show the side of the atrium.
   Vec3 up = outline.normal;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// These checks serve landmarks along an annulus and landmarks along a housing.
+// These checks are used for landmarks along an annulus and along a housing.
 #pragma once
 
 #include "geometry/vec3.hpp"

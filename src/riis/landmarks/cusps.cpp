@@ -18,7 +18,7 @@ namespace {
 
 // The limit of 900 leaves room for other landmarks, because a warp has at most 1000 landmarks.
 constexpr std::size_t most_along_attachment = 900;
-// Three cusps are in the order of leaflet ids, which is counter-clockwise about the valve's axis z.
+// Three cusps have the order of leaflet ids, which is counter-clockwise about the valve's axis z.
 constexpr std::size_t n_of_three = 3;
 const char *const names_of_three[n_of_three] = {"right", "left", "non_coronary"};
 
@@ -120,8 +120,8 @@ class CuspModel : public LandmarkModel {
   void add(std::size_t landmark, const std::vector<Vec3> &local, Vec3 place, std::vector<Offset> &out) const {
     out.push_back({landmark, local[landmark] - shift_ - place});
   }
-  // The closed cusps meet at x on the x axis. Only in valves with two cusps does x differ from 0. The height of the meeting point
-  // varies so much between people that it says little about the sizes.
+  // The closed cusps meet at a place x on the x axis. Only in valves with two cusps does x differ from 0. The height of the
+  // meeting point differs so much between people that it says little about the sizes.
   void add_coaptation(const std::vector<Vec3> &local, double x, std::vector<Offset> &out) const {
     for (const std::size_t i : coaptation_) {
       const Vec3 p = local[i] - shift_;
@@ -207,7 +207,7 @@ FittedSize length_size(const std::string &name, double start, double grown, doub
 
 // `at` has the directions of the cusps' middles.
 Pose start_of(const Landmarks &landmarks, const CuspAxes &axes, Vec3 shift, const std::vector<double> &at) {
-  // The mean of the nadirs' directions, after each direction was turned back to cusp 0.
+  // The mean direction of the nadirs, after each nadir was turned back to cusp 0.
   const Rotation to = rotation_to(landmarks.at(axes.order.nadir[0]) - axes.middle, axes.axis), back = transposed(to);
   double x = 0, y = 0;
   for (std::size_t cusp = 0; cusp < at.size(); ++cusp) {
@@ -252,8 +252,8 @@ class CircleSizes {
     for (double &sector : own_) sector *= 360 / sum;
   }
 
-  // If all sectors are held, they stay as in the template. If some sectors are held, sectors take part in the fit. If no sector
-  // is held, the landmarks decide.
+  // If the caller holds all sectors, they stay as in the template. If the caller holds some sectors, the other sectors take part
+  // in the fit. If the caller holds no sector, the landmarks decide.
   std::vector<bool> fits_sectors() const {
     if (!has_sectors()) return {false};
     const std::size_t n_held = count_held([](std::size_t cusp) { return of_cusp(cusp, "sector"); });
@@ -390,7 +390,7 @@ void finish_aortic(const Valve &own, Valve &valve) {
     set_proportion(own, valve, of + "bending_radius_out", middle_radius(own), middle_radius(valve));
     valve.set(of + "rotation", 3, std::array{0.0, 0.0, turns[cusp]}.data());
     valve.set(of + "translation", 3, shift.data());
-    // Lowers a power with which the free edge would bulge beyond the plane of its commissure into the next cusp.
+    // Lowers a power with which the free edge would bulge into the next cusp, beyond the plane of its commissure.
     const double x = value_of(valve, of + "leaflet_radius_out") * sine_cosine_degrees(angle).cosine;
     const double radius_in = value_of(valve, of + "leaflet_radius_in");
     if (x > radius_in && value_of(valve, of + "leaflet_power") > x / (x - radius_in))

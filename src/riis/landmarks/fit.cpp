@@ -188,8 +188,8 @@ double LinearValue::at(const std::vector<double> &values) const {
 
 LandmarkFit fit(LandmarkModel &model, const Landmarks &landmarks, const std::vector<Pose> &starts) {
   const std::size_t n_landmarks = landmarks.list.size();
-  // In the first fit, every size is drawn to its expected value. The first fit thus ends near a real valve even if the landmarks
-  // say little.
+  // In the first fit, every size has an additional residual that draws it to its expected value. The first fit thus ends near a
+  // real valve even if the landmarks say little.
   Pose best{};
   std::vector<FittedSize> best_sizes;
   double least = std::numeric_limits<double>::infinity();
@@ -238,7 +238,7 @@ LandmarkFit fit(LandmarkModel &model, const Landmarks &landmarks, const std::vec
   }
   std::vector<double> r(problem.n_residuals());
   problem.residuals(x, r);
-  // Exact landmarks show less noise than was stated. With less noise, the expected values count for less.
+  // Exact landmarks show less noise than was stated. With less noise, the expected values have less weight.
   for (int i = 0; i < 12 && minimum.converged && model.n_equations() > n; ++i) {
     std::vector<double> unused(n_landmarks), before = x;
     const double seen = std::sqrt(sum_of_squares(problem, unused) / static_cast<double>(model.n_equations() - n));

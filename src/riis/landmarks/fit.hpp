@@ -96,7 +96,8 @@ class LandmarkModel {
   virtual ~LandmarkModel() = default;
   std::vector<FittedSize> sizes;
   std::vector<DerivedSize> derived;
-  // Two sizes whose difference the fit always draws to its expected value, because landmarks hardly show the difference.
+  // Two sizes whose difference the fit always draws to its expected value, because the landmarks say little about this
+  // difference.
   struct Difference {
     std::size_t first, second;
     double spread;
@@ -161,12 +162,13 @@ Vec3 vector_of(const Valve &valve, const char *name);
 using IsHeld = std::function<bool(const std::string &name)>;
 
 struct KindOfLandmarks {
-  // Models with more and more sizes. The first model that agrees with the landmarks counts, or the last model if no model agrees.
+  // Models in the order of their numbers of sizes. The first model that agrees with the landmarks counts, or the last model if no
+  // model agrees.
   std::vector<std::unique_ptr<LandmarkModel>> models;
   std::vector<Pose> starts;
   const char *size_name;  // the parameter that stands for the valve's size
-  // Sets parameters that are not lengths, and lengths that do not grow with the valve's size. All other lengths and the model's
-  // sizes have already been set. `own` is the template valve. The pointer is NULL if there is nothing to set.
+  // Sets the parameters that are not lengths, and the lengths that do not grow with the valve's size. All other lengths and the
+  // model's sizes have already been set. `own` is the template valve. The pointer is NULL if there is nothing to set.
   void (*finish)(const Valve &own, Valve &valve) = nullptr;
   // Refuses a fit that leaves something undetermined or that contradicts the landmarks. If the function is empty, no fit is
   // refused.

@@ -19,8 +19,8 @@ struct Landmark {
   Vec3 point;                               // in centimetres, relative to the mean of all landmarks
   std::int32_t role;                        // RIIS_LANDMARK_*
   std::array<std::int32_t, 2> leaflet_ids;  // -1: not given
-  // A landmark in the same place that already demands all that this landmark demands. For example, a horn demands all that a
-  // point of the annulus demands.
+  // Another landmark in the same place that already has all conditions of this landmark. For example, a horn has all conditions
+  // of a point of the annulus.
   std::optional<std::size_t> repeated = std::nullopt;
 };
 
@@ -56,7 +56,7 @@ std::string words_for(const Landmarks &landmarks, std::size_t i);
 void check_unit(const Landmarks &landmarks);
 // Refuses a landmark whose role is not one of `roles`. `roles` contains the roles that this kind of valve uses.
 void check_roles(const Landmarks &landmarks, const char *kind, const std::vector<std::int32_t> &roles);
-// Refuses a number of landmarks with this role that is out of range. `most` is 0 without an upper limit.
+// Checks that the number of landmarks with this role is in range. If there is no upper limit, `most` is 0.
 void check_count(const Landmarks &landmarks, const char *kind, std::int32_t role, std::size_t least, std::size_t most);
 // Refuses two landmarks of the list whose distance is less than a share of their spread.
 void check_apart(const Landmarks &landmarks, const std::vector<std::size_t> &numbers, double share);

@@ -15,8 +15,8 @@ namespace riis {
 struct LeafletsAround {
   std::vector<std::string> names;  // in the order of leaflet ids
   const char *seen_along_flow;     // the direction from leaflet to leaflet: "clockwise" if blood flows along +z
-  // The end of a message that refuses landmarks without names, or null if the leaflets need no names. Without names, leaflet 0 is
-  // at the first nadir.
+  // The end of the message if landmarks lack names, or null if the leaflets need no names. Without names, leaflet 0 is at the
+  // first nadir.
   const char *why_names;
 
   std::size_t n() const { return names.size(); }

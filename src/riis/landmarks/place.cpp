@@ -90,7 +90,7 @@ std::pair<Vec3, double> axis_and_angle(const Rotation &r) {
   const double angle = arc_tangent(sine, trace - 1) * (180 / pi);
   if (sine > 1e-6) return {unit(twice), angle};
   if (trace > 1) return {{0, 0, 1}, 0};
-  // Here the angle is 180 degrees. For this angle, each column of R + 1 that is not 0 has the direction of the axis.
+  // For an angle of 180 degrees, each column of R + 1 that is not 0 has the direction of the axis.
   const Vec3 columns[3] = {{r.row_x.x + 1, r.row_y.x, r.row_z.x},
                            {r.row_x.y, r.row_y.y + 1, r.row_z.y},
                            {r.row_x.z, r.row_y.z, r.row_z.z + 1}};
@@ -165,7 +165,7 @@ std::optional<OnAttachment> nearest_on(const Vector<AttachmentPart> &parts, cons
 // Two landmarks are in one place if their distance is at most `one_place_share` of the valve's radius.
 constexpr double one_place_share = 0.02;
 
-// Landmarks in separate places, as a warp needs them.
+// The landmarks that are left when landmarks in one place are merged, as a warp needs them.
 struct WarpPairs {
   WarpPairs(const Landmarks &landmarks, const std::vector<Vec3> &local, double radius, bool with_attachment,
             const std::vector<Vec3> &places) {
@@ -214,8 +214,8 @@ void slide_along_attachment(const Vector<AttachmentPart> &parts, const Landmarks
       const auto here = nearest_on(parts, {}, pairs.sources[i], landmark.leaflet_ids[0]);
       if (here) sliding.push_back({i, here->tangent, map.at(pairs.sources[i]).along(here->tangent)});
     }
-    // A place that moves changes the displacement of its landmark. The bending is least where no such change lowers the bending
-    // further.
+    // A place that moves changes the displacement of its landmark. At the minimum of the bending, no such change lowers the
+    // bending further.
     const std::size_t n = sliding.size();
     std::vector<double> matrix(n * n), steps(n);
     for (std::size_t i = 0; i < n; ++i) {
@@ -301,7 +301,7 @@ void place_on_attachment(const Valve &valve, const Landmarks &landmarks, const s
 }
 
 // Refuses sizes that do not fit together. The message begins with the sizes that come from the landmarks, because the other sizes
-// follow from the sizes of the landmarks.
+// follow from these.
 void check_sizes(const Valve &valve, const LandmarkModel &model) {
   try {
     valve.make_patches();

@@ -17,24 +17,24 @@ struct ValueAndRate {
 
 class KeyTimes {
  public:
-  // Borrows the keys' times and checks the fields. `name` is the name of the struct with these fields. Fails with
-  // RIIS_INVALID_ARGUMENT. The message names the field or key, and its value.
+  // Borrows the keys' times and checks the fields. `name` is the name of the struct that has these fields. Fails with
+  // RIIS_INVALID_ARGUMENT. A message names the field or the key, and its value.
   KeyTimes(const char *name, std::int64_t n_keys, const double *time, double period, std::int32_t interpolation);
 
-  // Returns whether the last key is exactly one period after the first key. The values of these two keys must be equal if the
-  // keys are one period apart.
+  // Returns whether the last key is exactly one period after the first key. If the last key is one period after the first key,
+  // the values of both keys must be equal.
   bool is_closed() const { return is_closed_; }
 
   // The keys around a time and the times between these keys. The value at the time follows from these keys and these times
-  // between keys. A key is a position in the arrays, so a time one period later has the same keys.
+  // between keys. A key is given by its position in the arrays, so a time one period later has the same keys.
   struct KeysAround {
     std::array<std::int64_t, 4> key;  // before the interval, at its two ends, after it
     std::array<double, 3> width;      // the time from each of these keys to the next key; infinite without a next key
     double since;                     // time since the interval's first end
     bool is_at_rest;                  // true before the first key and after the last; key[1] then gives the value
   };
-  // A time counts as a key if it differs from the key by at most 8 units of rounding, apart from whole periods. The key then
-  // becomes the first end of the interval. The unit is 2^-52 times the largest of time, key and period. Fails with
+  // A time counts as a key if it differs from the key by at most 8 units of rounding, apart from whole periods. A key that counts
+  // as the time becomes the first end of the interval. The unit is 2^-52 times the largest of time, key and period. Fails with
   // RIIS_INVALID_ARGUMENT for a time that is not finite. `name` is the time's name in the message.
   KeysAround around(double time, const char *name = "time") const;
 

@@ -19,7 +19,7 @@ constexpr double degree = pi / 180;
 
 void check_time(double time) { check_range("", "time", time, -largest_number, largest_number); }
 
-// Rises from 0 at x = 0 to 1 at x = 1. The ramp's first two derivatives are 0 at both ends, so the valve's velocity and
+// Rises smoothly from 0 at x = 0 to 1 at x = 1. The ramp's first two derivatives are 0 at both ends, so the valve's velocity and
 // acceleration do not jump. Just below x = 1 the polynomial may round to more than 1. The result is limited to 1, because no
 // valve accepts an opening above 1.
 double ramp(double x) { return x <= 0 ? 0 : x >= 1 ? 1 : std::min(1.0, x * x * x * (10 + x * (-15 + 6 * x))); }
@@ -116,8 +116,8 @@ riis_opening_switch_state advance(const riis_opening_switch &law, const riis_ope
     now.pressure_difference = filtered(before.pressure_difference, pressure_difference, step, law.filter_time);
     now.flow = filtered(before.flow, flow, step, law.filter_time);
   }
-  // A valve that has just changed its phase does not change back within dwell_time. Noise in the solver's pressure and flow
-  // therefore does not make the valve flutter.
+  // A valve that has just changed its phase does not change back within dwell_time. Noise in the pressure and the flow of the
+  // solver therefore does not make the valve flutter.
   const bool may_turn = std::isnan(before.turn_time) || time - before.turn_time >= law.dwell_time;
   const bool opens = before.phase == RIIS_PHASE_CLOSING && now.pressure_difference > law.open_above;
   const bool closes = before.phase == RIIS_PHASE_OPENING && now.flow < law.close_below;
@@ -164,7 +164,7 @@ class AngleLaw {
                          law_.vortex_gain * std::max(flow, 0.0) * (2 * sine * cosine)};
   }
 
-  // Bounds the rate at which the motion changes. The number of steps follows from this bound.
+  // Bounds the rate at which the motion changes. The number of Runge-Kutta steps follows from this bound.
   double fastest() const {
     const double pressure = std::max(std::abs(from_.pressure_difference), std::abs(to_.pressure_difference));
     const double flow = std::max(std::abs(from_.flow), std::abs(to_.flow));
@@ -185,7 +185,7 @@ AngleState runge_kutta(const AngleLaw &law, AngleState at, double from, double t
   return at + (seconds / 6) * (k1 + 2 * k2 + 2 * k3 + k4);
 }
 
-// Keeps the angle between its stops. At a stop, the leaflet has no speed towards this stop.
+// Keeps the angle between its stops. At a stop, the leaflet has no speed in the direction of this stop.
 AngleState stopped(AngleState at, double least, double most) {
   if (at.angle <= least) return {least, std::max(at.rate, 0.0)};
   if (at.angle >= most) return {most, std::min(at.rate, 0.0)};
@@ -205,7 +205,7 @@ riis_opening_angle_state advance(const riis_opening_angle &law, const riis_openi
   if (!(law.angle_max > law.angle_min))
     fail(RIIS_INVALID_ARGUMENT, "law.angle_max is ", law.angle_max, "; it must be above law.angle_min, ",
          law.angle_min);
-  // An initial state lacks a pressure difference and a flow, so the values at the end of the step are used. The angle 0 of an
+  // An initial state has no pressure difference and no flow, so the values at the end of the step are used. The angle 0 of an
   // initial state stands for angle_min, where the valve is closed.
   const bool has_drive = !std::isnan(before.pressure_difference) && !std::isnan(before.flow);
   const double angle = has_drive || before.angle != 0 ? before.angle : law.angle_min;
@@ -215,8 +215,8 @@ riis_opening_angle_state advance(const riis_opening_angle &law, const riis_openi
 
   const AngleLaw::Drive to{pressure_difference, flow};
   const AngleLaw angle_law(law, has_drive ? AngleLaw::Drive{before.pressure_difference, before.flow} : to, to);
-  // The error of the method falls with the fourth power of the step. With steps of this size, the error is far below the error of
-  // a linear drive.
+  // The error of the method falls with the fourth power of the step. With steps of this size, the error of the method is far
+  // below the error from taking pressure and flow as linear.
   constexpr double largest_step = 0.05;
   const double n_wanted = std::ceil(step * angle_law.fastest() / largest_step);
   constexpr double max_steps = 1e6;

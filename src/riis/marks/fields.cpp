@@ -78,7 +78,7 @@ class MeanOfLeaflets {
   std::int32_t closest_leaflet_, leaflet_ = -1;
 };
 
-// Writes the fields of nodes whose closest point lies on a triangle.
+// Writes the fields of nodes whose closest points lie on triangles.
 class TriangleFields {
  public:
   TriangleFields(const SearchRequest &request, std::int32_t fields, const NodeList &list, const FieldScratch &scratch,

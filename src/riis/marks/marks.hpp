@@ -21,8 +21,8 @@ namespace riis {
 
 // The arrays that a caller gets from a marking. The arrays have one entry for each node, in ascending order.
 
-// Makes room for n elements. If new memory is needed, reserves 1.5 times as much. Without this reserve, a moving valve would need
-// new memory at each new maximum of its number of nodes.
+// Makes room for n elements. If new memory is needed, reserves 1.5 times the needed size. Without this reserve, a moving valve
+// would need new memory each time that it has more nodes than ever before.
 template <class Array>
 void reserve_amply(Array &array, std::int64_t n) {
   const auto needed = static_cast<std::size_t>(n);
@@ -67,8 +67,8 @@ struct NodeList {
   }
 };
 
-// Fields. A field is a number or vector at a node's closest point. An example of a field is the velocity, which a solver needs
-// for its force.
+// Fields. A field is a number or vector at a node's closest point. An example is the velocity, which a solver needs for its
+// force.
 // Each requested field becomes an array over the nodes within the limit, for the closest triangles that the search found.
 
 // The field NodeFields::height, which every marking with an offset has, and which no caller can request.
@@ -130,8 +130,8 @@ void select_fields(const FieldSet &fields, const NodeList &all, const NodeFields
 // One list has the nodes within the limit. If the limit is wider than the half thickness, the marked nodes have a list of their
 // own.
 
-// A bin is a range of node numbers. The set holds nodes of one bin, with a bit for each number of the bin. The set gives each
-// node a rank: the number of nodes with lower numbers in the set. A stretch is 64 words of bits. Only stretches with nodes are
+// A bin is a range of node numbers. The set has a bit for each number of one bin, and contains nodes of this bin. The set gives
+// each node a rank: the number of nodes with lower numbers in the set. A block of bits is 64 words. Only blocks with nodes are
 // written and read.
 class NodeRanks {
  public:

@@ -13,7 +13,7 @@ namespace {
 constexpr std::int64_t bits_per_word = 64, words_per_stretch = 64;
 
 // All bins have equally many numbers, a power of two. A bin's part of the result is written by one thread, so two threads seldom
-// write to one cache line. Many more bins would slow down the gathering.
+// write to one cache line. With many more bins, gathering the nodes would take longer.
 class Bins {
  public:
   explicit Bins(std::int64_t n_nodes) {

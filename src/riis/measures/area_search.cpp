@@ -10,7 +10,7 @@
 namespace riis {
 namespace {
 
-// An interval is not cut further if its length is at most `shortest_interval` times the magnitude of its ends.
+// An interval is not divided further if its length is at most `shortest_interval` times the magnitude of its ends.
 constexpr double shortest_interval = 1e-13;
 // The golden-section search shortens an interval to `extreme_interval` times its length. The area is flat at an extreme, so the
 // relative error of the area is about the square of `extreme_interval`.
@@ -22,8 +22,8 @@ AreaSearch::AreaSearch(Area area, double from, double to, std::int32_t n_samples
   sample(from, to, n_samples, grows);
   if (points_.empty()) return;
   part();
-  // Extremes are added, because the samples miss the exact extremes, and an area near an extreme would be out of reach. The
-  // places are noted first, because the points move while extremes are added.
+  // Extremes are added to the samples, because areas between a sample and a nearby extreme would otherwise be out of reach. The
+  // places are noted before extremes are added, because the points move then.
   std::vector<double> places;
   for (const Part &one : parts_) places.push_back(points_[one.last].value);
   for (const double place : {least().value, most().value}) places.push_back(place);
@@ -124,7 +124,7 @@ void AreaSearch::part() {
     } else if (direction == 0) {
       direction = has_grown ? 1 : has_fallen ? -1 : 0;
     }
-    // The extreme in the opposite direction is sought anew from the extreme in the present direction on.
+    // From the extreme in the present direction on, the extreme in the opposite direction is sought anew.
     if (direction > 0) low = high;
     if (direction < 0) high = low;
   }

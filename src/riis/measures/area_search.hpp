@@ -23,8 +23,8 @@ class AreaSearch {
     double value, area;
   };
 
-  // Tries n_samples values from `from` to `to`. The distances between these values are equal, or grow with the value if `grows`.
-  // After that, the search looks for the exact places at which the area stops growing or falling.
+  // Tries n_samples values from `from` to `to`. The differences between neighbouring values are equal, or grow with the value if
+  // `grows` is true. After that, the search looks for the exact places at which the area stops growing or falling.
   AreaSearch(Area area, double from, double to, std::int32_t n_samples, bool grows);
 
   bool has_area() const { return !points_.empty(); }
@@ -37,14 +37,14 @@ class AreaSearch {
   const std::vector<double> &turns() const { return turns_; }
   std::int64_t n_refused() const { return n_refused_; }
 
-  // Returns a value with this area, up to the tolerance as a share of the area. Of several such values, the value nearest to
-  // `near` is returned. If the area jumps over the wanted area, the nearer end of the jump is returned. Returns nothing if the
-  // area is out of reach.
+  // Returns a value with this area, up to the tolerance as a share of the area. If several values have the area, the value
+  // nearest to `near` is returned. If the area jumps past the wanted area, the nearer end of the jump is returned. Returns
+  // nothing if the area is out of reach.
   std::optional<Point> find(double area, double near, double tolerance) const;
 
  private:
-  // The points from `first` to `last`, over which the area only grows or only falls, apart from jumps. No value between these two
-  // points was refused.
+  // The points from `first` to `last`, over which the area only grows or only falls, apart from jumps. No value between `first`
+  // and `last` was refused.
   struct Part {
     std::size_t first, last;
   };

@@ -35,7 +35,7 @@ class Overlap {
 
   double least() const { return least_; }
 
-  // Takes one more direction into account. Returns whether the least overlap is still above the limit.
+  // Also takes the overlap along w into account. Returns whether the least overlap is still above the limit.
   bool along(Vec3 w) {
     const auto [a_low, a_high] = extent(w, a_);
     const auto [b_low, b_high] = extent(w, b_);
@@ -64,16 +64,16 @@ bool cuts_plane(const Triangle &t, Vec3 w, double limit) {
   return std::max({x, y, z}) > least && -std::min({x, y, z}) > least;
 }
 
-// Returns whether e and f are nearly parallel: their parallelogram is narrower than 1e-8 of an edge. The vector w is their cross
-// product.
+// Returns whether e and f are nearly parallel: their parallelogram is narrower than 1e-8 of an edge. The vector w is the cross
+// product of e and f.
 bool are_parallel(Vec3 w, Vec3 e, Vec3 f) { return dot(w, w) <= 1e-16 * dot(e, e) * dot(f, f); }
 
 // Returns the length of the shortest translation of one triangle after which the two triangles only touch, or 0 if the length is
 // at most `limit`. Triangles that only touch, or that lie in one plane, have depth 0. The error is at most 2^-24 of the longest
 // edge plus 2^-48 of the largest coordinate.
 double penetration_depth(const Triangle &a, const Triangle &b, double limit) {
-  // Most pairs of triangles are dismissed here, because one triangle does not cut the plane of the other. The corners of each
-  // triangle are taken relative to a corner of the other triangle, so that the plane of the other triangle passes exactly through
+  // The function dismisses most pairs of triangles here, because one triangle does not cut the plane of the other. The corners of
+  // each triangle are relative to a corner of the other triangle, so that the plane of the other triangle passes exactly through
   // the origin.
   const Vec3 normal_a = cross(a[1] - a[0], a[2] - a[0]), normal_b = cross(b[1] - b[0], b[2] - b[0]);
   const Triangle b_from_a = moved(b, a[0]);
@@ -95,7 +95,7 @@ CommonSegment common_segment(const Triangle &a, const Triangle &b) {
   const Triangle from_b = moved(a, b[0]);
   std::array<double, 3> height{};
   for (std::size_t k = 0; k < 3; ++k) height[k] = dot(normal, from_b[k]);
-  // One corner of the triangle a is alone on its side of b's plane.
+  // One corner of the triangle a is on one side of b's plane, and the other two corners are on the other side.
   const auto is_below = [&](std::size_t k) { return height[k % 3] < 0; };
   std::size_t lone = 0;
   while (lone < 2 && (is_below(lone) == is_below(lone + 1) || is_below(lone) == is_below(lone + 2))) ++lone;
@@ -115,8 +115,8 @@ CommonSegment common_segment(const Triangle &a, const Triangle &b) {
 
 constexpr float nowhere = std::numeric_limits<float>::infinity();
 
-// A box in the groups' frame, in single precision. Rounding is monotone, so boxes with a common point still have a common point
-// after rounding.
+// A box in the groups' frame, in single precision. Rounding keeps the order of numbers, so boxes with a common point still have a
+// common point after rounding.
 struct Box {
   float lower[3]{nowhere, nowhere, nowhere}, upper[3]{-nowhere, -nowhere, -nowhere};
 
@@ -159,8 +159,8 @@ void for_each_bit(std::uint32_t bits, const Visit &visit) {
   for (; bits != 0; bits &= bits - 1) visit(__builtin_ctz(bits));
 }
 
-// A tree of boxes. The lowest level has the boxes of groups, and each level above has the boxes of runs of boxes below it. The
-// order of groups follows the surface, so runs are compact.
+// A tree of boxes. The lowest level has the boxes of groups, and each higher level has boxes around several boxes of the level
+// below. The order of groups follows the surface, so these boxes are small.
 class BoxTree {
  public:
   explicit BoxTree(Vector<Box> groups) {

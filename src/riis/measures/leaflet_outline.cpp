@@ -131,8 +131,8 @@ namespace {
 
 // ---- Farthest edges ----
 
-// A part of an edge that is farther from the centre than all other edges in its directions. The ends are the shares `from` and
-// `to` of the edge. The part runs counter-clockwise.
+// A part of an edge of the outline that is farther from the centre than all other edges in its directions. The ends are the
+// shares `from` and `to` of the edge. The part runs counter-clockwise.
 struct FarPart {
   std::size_t edge;
   double from, to;
@@ -218,7 +218,8 @@ class FarthestEdges {
     return std::clamp(of_a / (of_a - of_b), 0.0, 1.0);
   }
 
-  // An edge turns by less than half a turn. The edge's distance from the centre is therefore unique in each direction.
+  // An edge covers less than half a turn of directions. The edge's distance from the centre is therefore unique in each
+  // direction.
   void add(const Turn &turn) {
     const auto place = [&](double angle) {
       return static_cast<std::size_t>(std::lower_bound(angles_.begin(), angles_.end(), angle) - angles_.begin());
@@ -378,9 +379,9 @@ std::optional<FoundView> view_of_arrays(const LeafletBoundary &boundary, const B
   return best;
 }
 
-// Returns the factor by which the pieces grow about their centroids until the first two neighbours meet. If the factor is above
-// 1.05, the pieces are probably apart on purpose, so the factor falls back until it is 1 at 1.1. A part of the outline at less
-// than 45 degrees to a ray from the centre is the end of a piece, and is not attached.
+// Returns the factor by which the pieces must grow about their centroids until the first two neighbours meet. If the factor is
+// above 1.05, the pieces are probably apart on purpose, so the factor falls back until it is 1 at 1.1. A part of the outline at
+// less than 45 degrees to a ray from the centre is the end of a piece, and is not attached.
 double growth_of(const LeafletBoundary &boundary, const SeenParts &from) {
   struct Held {
     std::int64_t piece;

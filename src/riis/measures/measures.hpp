@@ -68,7 +68,7 @@ struct Contact {
 };
 
 // Returns the contact of each leaflet. A point of a leaflet is in contact if another leaflet is within `reach` of it. `parts` has
-// the free edges. The leaflets in `omitted` count as touching nothing. `wanted` is a leaflet, or RIIS_ALL_LEAFLETS.
+// the free edges. The leaflets in `omitted` have no contact. `wanted` is a leaflet, or RIIS_ALL_LEAFLETS.
 std::map<std::int32_t, Contact> contacts_of(const TriangleSet &set, const std::vector<EdgePart> &parts, double reach,
                                             std::int32_t wanted, const std::vector<std::int32_t> &omitted,
                                             int n_threads);

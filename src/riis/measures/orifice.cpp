@@ -37,7 +37,7 @@ Orifice measured(const TriangleSet &set, const SeenOutline &from, std::int32_t k
   const Cover cover = cover_of(vertices, set.skirt < 0 ? set.vertex_id : without_leaflet(set, set.skirt));
   const double whole = area_of(from.outline);
   const UncoveredAreas open = uncovered_areas(from.outline, cover, limits.reach);
-  // In a closed valve, only rounding errors remain between the triangles and the outline.
+  // In a closed valve, the only gaps between the triangles and the outline come from rounding.
   const auto above_rounding = [&](double area) { return area > 1e-12 * whole ? area : 0; };
   return {above_rounding(open.outside),
           whole,
@@ -88,7 +88,7 @@ Orifice measure_orifice(const TriangleSet &set, const SourceValve *source, const
 Orifice measure_orifice_in_wall(const TriangleSet &set, const SourceValve *source, const TriangleSet &wall,
                                 const OrificeLimits &limits) {
   LeafletBoundary boundary = boundary_of_wall(wall);
-  // The wall's normals say nothing about the side of the valve.
+  // The wall's normals do not show on which side the valve is.
   boundary.normal = source ? source->placement.rotation * source->disc.axis : boundary_of_leaflets(set).normal;
   const std::optional<SeenOutline> seen = outline_of_leaflets(boundary, std::nullopt);
   if (!seen) return {0, 0, 0, 0, {0, 0, 0}, RIIS_OUTLINE_NONE};

@@ -238,10 +238,10 @@ double length_without(const Spans &spans, const Spans &covers) {
   return length;
 }
 
-// In disjoint spans, measures the edges of the covers at the ends of the uncovered part.
+// Measures the edges of the covers that end the uncovered part of disjoint spans.
 double edge_without(const Spans &spans, std::vector<Interval<End>> covers) {
-  // Covers of folded leaflets may begin or end in the same point. The order of these covers decides which edge counts, so covers
-  // are compared by all their members.
+  // Covers of folded leaflets may begin or end in the same point. The order of these covers decides which edge counts, so the
+  // comparison of covers includes all their members.
   std::sort(covers.begin(), covers.end(), [](const Interval<End> &a, const Interval<End> &b) {
     return std::tie(a.begin.x, a.end.x, a.begin.along, a.end.along) <
            std::tie(b.begin.x, b.end.x, b.begin.along, b.end.along);

@@ -42,7 +42,7 @@ Vector<Vec3> points_on(const PatchSet &set, const Side &side, const Vector<doubl
   return made;
 }
 
-// Returns the points of a patch at all pairs (u, v) of the shares, in the order of QuadGrid::points.
+// Returns the points of a patch at all pairs (u, v) of the given shares, in the order of QuadGrid::points.
 Vector<Vec3> points_of(const PatchSet &set, const Patch &patch, const Vector<double> &shares) {
   SideVectors sides{points_on(set, patch.v0, shares), points_on(set, patch.v1, shares), {}, {}};
   if (patch.bulge == 0) {
@@ -86,8 +86,8 @@ void add_swept(const PatchSet &from, const PatchSet &to, const Vector<double> &s
       const PatchImage &image = before.images[i];
       const double volume =
           swept_by_grid(placed(image, points_before), placed(now.images[i], points_now), shares.size());
-      // The triangles of a mirror image are turned over, so their normals also point downstream. The volume that these triangles
-      // sweep therefore gets the opposite sign.
+      // The triangles of a mirror image are turned over, so their normals also point downstream. The volume that triangles of a
+      // mirror image sweep therefore gets the opposite sign.
       sums[image.leaflet_id] += points_upstream(image) ? -volume : volume;
     }
   }

@@ -39,7 +39,7 @@ std::vector<std::optional<double>> distances_along(const Wall &wall, const std::
   return made;
 }
 
-// Two sides that meet get the same length in their common point, because rounding could make the lengths differ.
+// If two sides meet in a point, both get the same length there, because rounding could make the lengths differ.
 void make_common(const std::vector<Vec3> &points, double tolerance, const std::vector<double *> &lengths) {
   std::vector<std::size_t> order(points.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

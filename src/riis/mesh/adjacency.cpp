@@ -46,7 +46,7 @@ class PlainMemory {
 };
 
 // Makes the rows. An entry says that a node is in an item. The entries of a block of nodes are stored together, node by node.
-// Later the rows overwrite the entries. Lists is a type with these members:
+// Later the rows of the block overwrite the entries. Lists is a type with these members:
 //   `n_nodes`, `n_items`: the numbers of nodes and items.
 //   `most_neighbors`: the most different nodes that for_each_neighbor visits.
 //   `for_each_entry(range, visit)`: calls visit(node, entry) for every node of every item in a range.
@@ -137,7 +137,7 @@ class RowMaker {
     UnfilledVector<Column> columns;     // columns of one block
   };
 
-  // Makes the rows of each block in the memory of its entries. Writes the rows' lengths where the offsets will be.
+  // Makes the rows of each block in the memory of its entries. Writes the lengths of the rows into `offsets`.
   void make_rows(UnfilledVector<std::int64_t> &offsets) {
     resize(offsets, lists_.n_nodes + 1);
     view(offsets)[0] = 0;
@@ -385,7 +385,7 @@ OwnAdjacency adjacency_from_faces(const riis_mesh_faces &faces, int n_threads) {
   }
   const IntegerArray owner{faces.owner, faces.id_bits == 64}, neighbor{faces.neighbor, faces.id_bits == 64};
   const std::int64_t base = faces.index_base;
-  // Compares the numbers before it subtracts the base, because the difference of an unchecked number may overflow.
+  // Compares the numbers before it subtracts the base, because a difference of unchecked numbers may overflow.
   const auto check = [&](const char *which, std::int64_t face, const IntegerArray &ends, std::int64_t least) {
     const std::int64_t given = ends[face * faces.stride];
     if (given < least || given >= faces.n_cells + base)

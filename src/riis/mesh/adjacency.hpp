@@ -52,8 +52,8 @@ struct OwnAdjacency {
   riis_csr csr() const;
 };
 
-// Within these limits, 32-bit numbers can count the entries and hold the columns. Each node of each cell is one entry. A test
-// sets lower limits, to run the code for large meshes.
+// Within these limits, 32-bit numbers can count the entries and hold the columns. Each node of each cell counts as one entry. A
+// test sets lower limits to run the code for large meshes.
 struct NarrowLimits {
   std::int64_t n_entries = std::numeric_limits<std::uint32_t>::max();
   std::int64_t n_nodes = std::numeric_limits<std::int32_t>::max();

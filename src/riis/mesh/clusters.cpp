@@ -39,8 +39,8 @@ Bounds bounds_of(const StridedPoints &nodes) {
   return bounds;
 }
 
-// Asks the system for large pages. A search reads leaves in random order, and the processor looks up the page of each leaf. The
-// request concerns only whole large pages within the memory, so the process takes no more memory.
+// Asks the system for large pages for the memory of leaves. A search reads leaves in random order, and the processor looks up the
+// page of each leaf. The request concerns only whole large pages within the memory, so the process takes no more memory.
 void ask_for_large_pages(void *memory, std::size_t n_bytes) {
 #if defined(MADV_HUGEPAGE)
   constexpr std::uintptr_t size = std::uintptr_t{1} << 21;

@@ -45,10 +45,10 @@ struct Clusters {
   int n_nodes_of(std::int64_t leaf) const;
 };
 
-// The limit exists because a leaf stores node numbers in 32 bits.
+// The limit exists because a leaf stores the numbers of its nodes in 32 bits.
 inline constexpr std::int64_t max_clustered_nodes = INT64_C(0xffffffff);
 
-// The next two functions fail with RIIS_INVALID_MESH for an unusable coordinate. In clusters that were never made, n_nodes is 0.
+// The next two functions fail with RIIS_INVALID_MESH for an unusable coordinate. If clusters were never made, n_nodes is 0.
 //   `bounds`: the box of the nodes at the time when the caller gave them.
 void sort_into_clusters(const StridedPoints &nodes, const Bounds &bounds, int n_threads, Clusters &clusters);
 // Keeps the order, and updates coordinates and boxes to the nodes' new positions.
@@ -93,8 +93,8 @@ inline Boxes no_boxes() {
 // as made.
 void make_room_for(std::int64_t n_nodes, Clusters &clusters);
 
-// Fills clusters, whose frame must be set. The function node_at(i) returns the i-th node in order, and prefetch(i) requests the
-// memory that node_at(i) reads. With an unusable coordinate (strided.hpp), some boxes are not within the frame.
+// Fills clusters, whose frame must be set. The function node_at(i) returns the i-th node in the order, and prefetch(i) requests
+// the memory that node_at(i) reads. With an unusable coordinate (strided.hpp), some boxes are not within the frame.
 template <class NodeAt, class Prefetch>
 void fill_clusters(std::int64_t n_nodes, int n_threads, const NodeAt &node_at, const Prefetch &prefetch,
                    Clusters &clusters) {

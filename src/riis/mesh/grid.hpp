@@ -51,7 +51,7 @@ class Grid {
   std::int64_t number(const GridIndex &index) const {
     return first_ + index[0] * stride_[0] + index[1] * stride_[1] + index[2] * stride_[2];
   }
-  // Finds the node with a number. If the number has no node, returns false, and the first node's index.
+  // Finds the node with a number. If the number has no node, returns false and the index of the first node.
   bool find(std::int64_t number, GridIndex &index) const {
     std::int64_t rest = number - first_;
     index = {0, 0, 0};

@@ -71,7 +71,7 @@ void Mesh::set_nodes(const MeshNodes &nodes, const Bounds &bounds) {
 
 const NodeBalls &Mesh::balls(int n_threads) const {
   return balls_.get([&](NodeBalls &balls) {
-    // Nodes that moved keep their order. The order stays good while near nodes stay together.
+    // Nodes that moved keep their order. The order stays useful as long as near nodes stay together.
     if (balls.order.empty()) sort_into_balls(points(), bounds_, n_threads, balls);
     enclose(points(), n_threads, balls);
   });

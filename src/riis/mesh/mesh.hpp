@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The caller's nodes and adjacency, which are checked and normally borrowed. The mesh also owns data about its nodes that
-// searches need: balls, clusters and blocks of edges. Each structure is made when it is first needed.
+// The caller's nodes and adjacency, which are checked and normally borrowed. A mesh also owns data that searches need: balls,
+// clusters and blocks of edges. Each structure is made when it is first needed.
 #pragma once
 
 #include <array>
@@ -63,7 +63,7 @@ struct EdgeBlocks {
 // The surfaces that were reported as misfits for a mesh. Several threads may call both functions at once.
 class WarnedSurfaces {
  public:
-  // Records the number, which must not be 0. Returns true if the number is new. Once the list is full, new numbers also give
+  // Records the number, which must not be 0. Returns true if the number is new. When the list is full, new numbers also give
   // false.
   bool is_first(std::uint64_t surface_number);
   bool has(std::uint64_t surface_number) const;

@@ -34,7 +34,7 @@ struct NodeFrame {
   Vec3 centre{0, 0, 0};
   double scale = 1;
 
-  // Takes a point that is known to be within the nodes' box.
+  // Takes a point that lies within the nodes' box.
   void place_inner(Vec3 p, float *x) const {
     const Vec3 q = scale * (p - centre);
     x[0] = static_cast<float>(q.x), x[1] = static_cast<float>(q.y), x[2] = static_cast<float>(q.z);
@@ -132,7 +132,7 @@ class NodeSorter {
   static constexpr int n_small_bins = 64, n_small_bins_per_part = 16;
   typedef std::array<Node, n_bins> Counts;
   // Items are counted and moved four at a time, one from each quarter of a block. Neighbouring items often belong to the same
-  // count, and each update of a count waits for the previous update. Each quarter therefore has its own counts.
+  // count, and each update of a count waits for the previous update. Each quarter of the items therefore has its own counts.
   static constexpr int n_quarters = 4;
   typedef std::array<Node, n_quarters> OfQuarters;
   typedef std::array<OfQuarters, n_bins> QuarterCounts;
@@ -162,7 +162,7 @@ class NodeSorter {
   };
 
   // A stream is a run of bins whose items are written to consecutive places, one item after another. A bin that contains a cut is
-  // a stream by itself. All bins between two such bins are one stream. There are fewer streams than bins, so the writes are
+  // a stream by itself. All bins between two bins with a cut are one stream. There are fewer streams than bins, so the writes are
   // faster.
   struct Streams {
     static constexpr int most = 2 * most_parts - 1;
@@ -192,7 +192,7 @@ class NodeSorter {
   };
 
   // A part that is divided into blocks, which threads share. Each block has its box, its counts and the positions of its streams.
-  // OneBlock is such a part for one thread and one block.
+  // OneBlock is a part for one thread and one block.
   struct ManyBlocks {
     const Part &part;
     std::int64_t per_block;
@@ -268,7 +268,7 @@ class NodeSorter {
   }
 
   // Returns the box of some items. Compares four numbers at once, because comparing them one by one would take longer than
-  // reading the memory. The fourth number is arbitrary and is not used.
+  // reading the memory. The fourth number has any value and is not used.
   static NodeBox box_of(const Item *items, const Part &part) {
     typedef float Four __attribute__((vector_size(16)));
     static_assert(sizeof(Item) >= sizeof(Four));
@@ -295,7 +295,7 @@ class NodeSorter {
     return box;
   }
 
-  // Calls visit(item, quarter) for all items of a part. The items of each quarter are visited in their order.
+  // Calls visit(item, quarter) for all items of a part, in four quarters. The items of each quarter are visited in their order.
   template <class Visit>
   static void for_each_by_quarters(const Item *items, const Part &part, const Visit &visit) {
     const std::int64_t size = part.size() / n_quarters;

@@ -90,8 +90,8 @@ bool has_points_inside(const MovedPatch &moved) {
   return moved.patch < moved.now.mapped_inside.size() && moved.patch < moved.before.mapped_inside.size();
 }
 
-// The position of a point relative to another point, in steps of u and v, by least squares. The position is 0 if the steps of u
-// and v are nearly parallel.
+// The position of a point relative to another point, measured in steps of u and v by least squares. The position is 0 if the
+// steps of u and v are nearly parallel.
 struct StepsBeside {
   double u = 0, v = 0;
 
@@ -131,8 +131,8 @@ struct MaterialArcs {
 
 using OfSides = std::array<std::array<Vec3, n_material>, 4>;  // vectors on the sides v0, v1, u0, u1.
 
-// The vectors at evenly spaced points of a patch's warped sides. The vectors lie on the polynomials that pass through the vectors
-// at the shares `nodes` of each side.
+// The vectors at evenly spaced points on the sides of a warped patch. These vectors lie on the polynomials through the vectors at
+// the shares `nodes` of each side.
 class AtShares {
  public:
   AtShares(const std::array<std::array<double, n_material>, 4> &nodes, const OfSides &values) {
@@ -247,8 +247,8 @@ class MovedSide {
 
   bool is_at_rest() const { return is_at_rest_; }
 
-  // Returns the displacements at the given shares of the length, which ascend from 0 to 1. `points` has the current points, if
-  // they are already known. `unknown` lists the indices of the unknown points in ascending order. If the list is not empty, it
+  // Returns the displacements at the given shares of the length. The shares ascend from 0 to 1. `points` has the current points,
+  // if they are already known. `unknown` lists the indices of the unknown points in ascending order. If the list is not empty, it
   // also contains the first and the last index.
   Vector<Vec3> displacements(const Vector<double> &shares, Vector<Vec3> points,
                              const Vector<std::size_t> &unknown) const {
@@ -514,7 +514,8 @@ PatchSet with_own_patches(const PatchSet &state, const PatchSet &like) {
 
 void check_same_build(const PatchSet &now, const PatchSet &before) {
   if (!have_same_build(now, before))
-    fail(RIIS_INVALID_PARAMETER, "the patches of two states have different images: both states must be of one valve");
+    fail(RIIS_INVALID_PARAMETER,
+         "the patches of the two states differ in their images: both states must belong to one valve");
 }
 
 void check_same_ids(const PatchSet &now, const PatchSet &before, const StateNames &names) {

@@ -53,7 +53,7 @@ class Through {
 
 // Tells which points of a side are the same material in both states. Without a warp, these are the points at equal shares of the
 // length. A warp stretches curves unevenly, so a point may have had another share before. A warped curve also differs a little
-// from the curve that the map makes of the points. `rest` compensates for the change of this difference.
+// from the mapped points of the original curve. `rest` compensates for changes of this difference.
 class SideMaterial {
  public:
   SideMaterial() = default;  // of a side that is not warped
@@ -83,7 +83,7 @@ struct PatchMaterial {
   SideMaterial v0, v1, u0, u1;
 };
 
-// For the offsets of a patch of arcs, returns the motion by the map minus the motion of the offsets of the warped curves. The
+// For the offsets of a patch of arcs, returns the motion by the map, minus the motion of the offsets of the warped curves. The
 // polynomial is 0 for a patch without a warp.
 Through<Vec3> rest_of_offsets(const MovedPatch &moved, const SideMaterial &base, const SideMaterial &edge);
 
@@ -112,7 +112,7 @@ class RestInside {
 };
 
 // The displacement S_now(u,v) - S_before(u,v) of a patch at the vertices of its grid and of its subdivided quads. The two states
-// are evaluated on the smooth patches: on the sides directly, and inside as the same combination of the sides. Only (u,v)
+// are evaluated on the smooth patches: directly on the sides, and inside as the same combination of the sides. Only (u,v)
 // identifies a point in both states, so the two states may have different triangles. SideMaterial matches the points of a warped
 // side. If the sides and the bulge did not change, the result is exactly 0.
 class PatchDisplacement {
@@ -180,13 +180,13 @@ Vector<double> moved_with_joints(const Vector<double> &lines, const Vector<doubl
 
 // Returns whether each patch has the same images in both states.
 bool have_same_build(const PatchSet &now, const PatchSet &before);
-// Gives each image of a state a patch of its own, in the order of the images of `like`, which has the same ids. Two states of
-// one valve may differ in their build: equal cusps are images of one half, and unequal cusps have patches of their own.
+// Gives each image of a state a patch of its own, in the order of the images of `like`, which has the same ids. Two states of one
+// valve may differ in how they are built: equal cusps are images of one half, and unequal cusps have separate patches.
 PatchSet with_own_patches(const PatchSet &state, const PatchSet &like);
-// Fails with RIIS_INVALID_PARAMETER if the two states have different builds.
+// Fails with RIIS_INVALID_PARAMETER if the two states are built differently.
 void check_same_build(const PatchSet &now, const PatchSet &before);
 // Fails with RIIS_INVALID_PARAMETER if the images of the two states have different ids. If the ids are the same, with_own_patches
-// can give both states one build. The message names the states.
+// can bring both states to the same form. The message names the states.
 void check_same_ids(const PatchSet &now, const PatchSet &before, const StateNames &names = {"valve_before", "valve"});
 
 }  // namespace riis

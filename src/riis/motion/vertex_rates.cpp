@@ -96,8 +96,8 @@ Vector<GridLine> lines_in(const PatchSet &at, const PatchSet &state, std::size_t
   return made;
 }
 
-// Returns the points of a side at the ends of lines. At the side's vertices the points lie on the curve, and elsewhere on the
-// chords.
+// Returns the points of a side at the ends of lines. At the vertices of the side the points lie on the curve, and elsewhere on
+// the chords.
 Vector<Vec3> points_along(const PatchSet &state, const Side &side, const Vector<GridLine> &lines, double GridLine::*t,
                           bool GridLine::*is_vertex) {
   Vector<double> shares;

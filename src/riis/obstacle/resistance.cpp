@@ -24,7 +24,7 @@ double coefficient_at(const Resistance &resistance, double distance) {
 }
 
 // Returns the derivative of K with respect to the distance from the middle of the band. K is flat in the middle and at the edge
-// of the band. The sine is computed from the nearer of these two places, so that few digits are lost near both places.
+// of the band. The sine is computed from the nearer of these two places, where it loses fewer digits.
 double slope_at(const Resistance &resistance, double distance) {
   const double eps = resistance.band.half_thickness;
   if (!(distance < eps)) return 0;
@@ -152,7 +152,7 @@ Edges edges_of(const riis_reaction &reaction) {
   return checked_edges("reaction", reaction.n_edges, reaction.edges, reaction.edge_leaflet_id);
 }
 
-// A thread takes blocks of nodes_per_block nodes. A list of fewer than few_nodes nodes uses one thread.
+// A thread takes blocks of nodes_per_block nodes. For a list of fewer than few_nodes nodes, one thread does the work.
 constexpr std::int64_t nodes_per_block = 4096, few_nodes = 16384;
 // The search for nearest edges has smaller limits, because each node takes ten times as long.
 constexpr std::int64_t edge_nodes_per_block = 512, few_edge_nodes = 2048;
@@ -201,7 +201,7 @@ Resistance checked_resistance(const riis_resistance &resistance, const char *nam
 }
 
 Resistance checked_resistance(const riis_resistance &resistance, const Marks &marks) {
-  if (!marks.was_marked) fail(RIIS_INVALID_ARGUMENT, "marks are empty: call riis_mark_nodes with them first");
+  if (!marks.was_marked) fail(RIIS_INVALID_ARGUMENT, "marks are empty: first call riis_mark_nodes with these marks");
   const Resistance checked = checked_resistance(resistance, "resistance", marks.band, marks.distance_limit);
   if (checked.cuts_rim) require_field(marks, RIIS_FIELD_RIM, "RIIS_FIELD_RIM", "RIIS_RIM_CUT");
   return checked;
@@ -253,7 +253,7 @@ void add_reaction(const Marks &marks, const Resistance &resistance, const riis_f
   const bool wants_edges = to.edge_force || to.edge_moment, wants_leaflets = to.leaflet_force || to.leaflet_moment;
   const bool wants_points = wants_edges || to.moment || to.leaflet_moment;
   if (wants_points)
-    require_field(marks, RIIS_FIELD_POINT, "RIIS_FIELD_POINT", "a moment or a force by edge in reaction");
+    require_field(marks, RIIS_FIELD_POINT, "RIIS_FIELD_POINT", "a moment or the force on an edge in reaction");
   if (wants_leaflets) check_leaflets(marks, to);
   const Edges edges = wants_edges ? edges_of(to) : Edges{};
   const Vector<std::int64_t> nearest = wants_edges ? nearest_edges(marks, resistance, edges) : Vector<std::int64_t>();

@@ -38,7 +38,7 @@ SampleCounts samples_within(const QuadGrid &grid, double radius) {
   const double h_u = std::min(1.0, radius / speeds.u), h_v = std::min(1.0, radius / speeds.v);
   const double of_squares = covering_radius(grid, h_u, h_v);
   // The covering radius is proportional to the two steps, so both steps are multiplied by the factor that makes it equal to
-  // `radius`. A step above 1 counts as 1.
+  // `radius`. A step above 1 counts as a step of 1.
   const double factor = of_squares > 0 ? radius / of_squares : 1;
   return {n_steps(factor * h_u), n_steps(factor * h_v)};
 }

@@ -28,8 +28,8 @@ struct PooledArena {
 };
 
 // Returns an arena of n_threads threads, which the caller must give back. The arena comes from the pool, or is new if no idle
-// arena has this number of threads. The number of arenas of one size is therefore never larger than the number that was borrowed
-// at once.
+// arena has this number of threads. The number of arenas of one size is therefore at most the largest number that was borrowed at
+// the same time.
 PooledArena *borrow_arena(int n_threads);
 void give_back(PooledArena *arena) noexcept;
 
@@ -38,8 +38,8 @@ std::size_t n_arenas() noexcept;
 
 // Borrows an arena of up to n_threads threads, including the calling thread, during the life of this object. TBB has a limit on
 // the threads of the process. If the limit is below n_threads and the caller did not set it, this object raises the limit during
-// its life. The arena stays within the limit, because TBB would print a message on stderr about a larger arena. An arena of one
-// thread uses only the calling thread.
+// its life. An arena never exceeds the limit, because TBB would then print a message on stderr. An arena of one thread uses only
+// the calling thread.
 class Arena {
  public:
   explicit Arena(int n_threads) {

@@ -17,13 +17,13 @@
 #include "common/float_environment.hpp"
 #include "parallel/threads.hpp"
 
-// Implements concurrent_walk with standard threads for the thread sanitizer, which does not understand TBB. The version with
-// standard threads guarantees no more order than TBB does. A range runs after the call of add() that added the range, and the
-// walk ends after all its ranges. Relaxed atomics do all other counting, because they impose no order. A lock around a common
-// queue would put the bodies in order, and thus hide their races.
+// Implements concurrent_walk with standard threads for the thread sanitizer, which does not understand TBB. This version
+// guarantees no more order than TBB does. A range runs after the call of add() that added it, and the walk ends after all its
+// ranges. All other counting uses relaxed atomics, because they impose no order. A lock around a common queue would impose an
+// order on the bodies, and thus hide their races.
 namespace riis {
 
-// Slots for any number of ranges. A slot keeps its address.
+// An array of slots for any number of ranges. A slot keeps its address.
 class RangeSlots {
  public:
   struct Slot {

@@ -20,8 +20,8 @@ namespace {
 // The blocks of a loop. Each thread begins with its own share of the blocks, and then helps with the other shares. If the last
 // loop used the same data, each thread finds most of its data in its own cache. The blocks of a share are handed out in
 // ascending order. If a body throws, no higher block begins, and the exception of the lowest block is rethrown after the loop.
-// A single thread would meet the same exception, because all lower blocks run to their end. All blocks are handed out,
-// because the calling thread goes through the shares in ascending order.
+// A single thread would meet the same exception, because all lower blocks are completed. Every block is run, because the calling
+// thread goes through all shares in ascending order.
 class Blocks {
  public:
   Blocks(std::int64_t n_blocks, int n_threads, LoopBody body)
@@ -80,7 +80,7 @@ class Blocks {
   std::exception_ptr exception_;
 };
 
-// Runs body(block, thread) once for every block in [0, n_blocks) on the calling thread.
+// Runs body(block, thread) on the calling thread, once for every block in [0, n_blocks).
 int run_alone(std::int64_t n_blocks, LoopBody body) {
   for (std::int64_t block = 0; block < n_blocks; ++block) body(block, 0);
   return 1;
@@ -152,7 +152,7 @@ int parallel_for(std::int64_t n_blocks, int n_threads, LoopBody body) {
   if (n_blocks <= 1 || n_threads == 1) return run_alone(n_blocks, body);
   if (omp_in_parallel() || omp_get_proc_bind() != omp_proc_bind_false) return openmp_for(n_blocks, n_threads, body);
 #if defined(RIIS_STD_THREADS)
-  // Under the thread sanitizer, the loops of a time step always run on a team, so that the sanitizer sees them there.
+  // Under the thread sanitizer, a team always runs the loops of a time step, so that the sanitizer examines teams.
   return team_for(n_blocks, n_threads, body, loop_choice);
 #else
   const std::int64_t begin = nanoseconds();

@@ -11,16 +11,16 @@
 
 namespace riis {
 
-// Returns the number of processors in the affinity mask of the calling thread. The default n_threads = 0 never stands for more
-// threads than this. If OpenMP binds threads to places, the mask is the process's mask at its start.
+// Returns the number of processors in the affinity mask of the calling thread. With the default n_threads = 0, a call never uses
+// more threads than this. If OpenMP binds threads to places, the mask is the process's mask at its start.
 int default_thread_count() noexcept;
 
 // Returns the number of the machine's processors, including processors outside the calling thread's affinity mask.
 int processors_of_machine() noexcept;
 
-// By default a call uses one more thread for each of these amounts of work, which take half a millisecond or more. On a quiet
-// machine, waking a thread and waiting for it takes a hundredth of that time. On a busy machine the wait lasts as long as other
-// processes have the processor.
+// By default a call uses one more thread for each 4096 triangles, 2048 points or 16,384 nodes, which take half a millisecond or
+// more. On a quiet machine, waking a thread and waiting for it takes a hundredth of half a millisecond. On a busy machine the
+// wait may last as long as another process keeps the processor.
 constexpr std::int64_t triangles_per_thread = 4096, points_per_thread = 2048;
 constexpr std::int64_t nodes_per_thread = 16384;  // nodes of a mesh, or cells or faces
 
@@ -31,8 +31,8 @@ inline Threads threads_for(std::int32_t n_threads, std::int64_t n_items, std::in
                        : Threads::by_default(n_items, per_thread, has_lost_threads() ? 1 : default_thread_count());
 }
 
-// Refers to a function object body(block, thread) of any type. The object must live as long as the loop. Loops are therefore
-// compiled once, not once for each body, and a block costs one call through a pointer.
+// Refers to a function object body(block, thread) of any type. The object must live as long as the loop. Each loop is therefore
+// compiled once, and not once for each body, and a block costs one call through a pointer.
 class LoopBody {
  public:
   template <class Body>
@@ -62,7 +62,7 @@ struct TimesOfCaller {
 int openmp_for(std::int64_t n_blocks, int n_threads, LoopBody body, TimesOfCaller *of_caller = nullptr);
 
 // Runs the same loop on a team (team.hpp), without waiting for a thread that another process delays. The calling thread first
-// works alone for as long as `choice` says. If the loop ends within that time, the result is still n_threads.
+// works alone for as long as `choice` says. If the loop ends within this time, the function still returns n_threads.
 int team_for(std::int64_t n_blocks, int n_threads, LoopBody body, LoopChoice &choice);
 
 // Runs the same loop on the threads that loop_choice chooses. OpenMP's threads are always chosen in two cases: inside a caller's

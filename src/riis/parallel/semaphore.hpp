@@ -14,7 +14,7 @@ namespace riis {
 // A semaphore is never destroyed, because threads may wait on it until the process ends.
 class Semaphore {
  public:
-  // Returns whether the system made the semaphore. The other functions need a semaphore that was made.
+  // Returns whether the system made the semaphore. All other functions need a semaphore that was made.
   bool is_made() const noexcept { return is_made_; }
 #if defined(__APPLE__)
   void post() noexcept { dispatch_semaphore_signal(semaphore_); }

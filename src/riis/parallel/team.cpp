@@ -24,8 +24,8 @@ namespace {
 
 // A thread that waits stays awake for a while, because waking it would take some microseconds. At first the worker keeps its
 // processor, so that it can begin at once even if a caller's thread spins there. Later the worker offers the processor to other
-// threads, and finally it sleeps. Under the thread sanitizer threads do not wait awake, because its history of accesses would
-// fill up.
+// threads, and finally it sleeps. Under the thread sanitizer threads do not wait awake, because this would fill up its history of
+// accesses.
 using std::chrono::microseconds;
 #if defined(RIIS_STD_THREADS)
 constexpr microseconds longest_awake{0}, longest_alone{0};
@@ -41,7 +41,7 @@ void pause_briefly() {
 #endif
 }
 
-// Waits awake until the condition holds or the time is over, and returns whether the condition holds.
+// Waits without sleeping until the condition holds or the time is over, and returns whether the condition holds.
 template <class Condition>
 bool wait_awake(const Condition &holds) {
   const auto start = std::chrono::steady_clock::now();
@@ -116,7 +116,7 @@ class Team {
   }
 
   [[noreturn]] void work_for_ever() {
-    // This thread may start after the first loop has begun. `last_loop` is 0 at first, because no loop has the number 0.
+    // Another loop may have begun before this thread started. `last_loop` is 0 at first, because no loop has the number 0.
     for (std::uint32_t last_loop = 0;;) {
       State state{state_.load()};
       if (!state.has_place_after(last_loop)) {
@@ -142,8 +142,8 @@ class Team {
   void wait_for_place(std::uint32_t last_loop) {
     const auto has_place = [&] { return State{state_.load()}.has_place_after(last_loop); };
     if (waits_awake_.load(std::memory_order_relaxed) && wait_awake(has_place)) return;
-    // The loop may have begun before the calling thread could know that this worker sleeps. If the calling thread has taken all
-    // sleeping workers, it has also posted for this worker.
+    // The loop may have begun before the calling thread could know that this worker sleeps. If the calling thread counted this
+    // worker as sleeping, it has also posted for this worker.
     n_asleep_.fetch_add(1);
     if (has_place() && take_asleep(1) == 1) return;
     may_start_.wait();
@@ -152,7 +152,7 @@ class Team {
   void wait_for_workers() {
     const auto is_empty = [&] { return State{state_.load()}.n_inside() == 0; };
     if (waits_awake_.load(std::memory_order_relaxed) && wait_awake(is_empty)) return;
-    // A worker that left an earlier loop may post late, so the calling thread checks the loop after each post.
+    // A worker that left an earlier loop may post late, so the calling thread checks after each post whether the loop has ended.
     while (!is_empty()) {
       caller_sleeps_.store(true);
       if (is_empty() && caller_sleeps_.exchange(false)) return;
@@ -171,9 +171,9 @@ class Team {
   int n_workers_ = 0, n_processors_ = 1;
 };
 
-// The idle teams. The end of the process does not destroy idle teams, because their workers still wait. The number of teams is
-// the largest number of the caller's threads that were inside loops at once. The first few teams are static, so a call needs no
-// memory for them.
+// The idle teams. At the end of the process, idle teams are not destroyed, because their workers still wait. The number of teams
+// is the largest number of the caller's threads that were inside loops at the same time. The first few teams are static, so a
+// call needs no memory for them.
 constexpr std::size_t n_first_teams = 16;
 alignas(Team) unsigned char first_teams[n_first_teams][sizeof(Team)];
 std::mutex teams_mutex;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Threads for the loops of a time step on a busy machine. Between loops the threads wait, first awake and then asleep. The loop
-// does not wait for a thread that another process delays: the calling thread does the work of this thread.
+// does not wait for a thread that another process delays, because the calling thread does the work of this thread.
 #pragma once
 
 #include <algorithm>
@@ -10,19 +10,19 @@
 
 namespace riis {
 
-// Calls work(context, 0) on the calling thread. Calls work(context, thread), 0 < thread < n_threads, on each further thread that
-// comes before the calling thread's call has returned. Returns after all these calls have returned. Returns the number of
-// threads that took part. The number of threads is less than n_threads only if the system refuses a thread, a semaphore or
+// Calls work(context, 0) on the calling thread. Also calls work(context, thread), 0 < thread < n_threads, on each further thread
+// that arrives before the calling thread has finished. Returns after the calls of all threads have returned. Returns the number
+// of threads that took part. The number of threads is less than n_threads only if the system refuses a thread, a semaphore or
 // memory. No call may throw.
 int run_by_team(int n_threads, void (*work)(void *context, int thread), void *context);
 
 // Chooses between OpenMP's threads, a team and the calling thread. OpenMP's threads begin a loop sooner, and they also run the
-// caller's own loops. But a loop of OpenMP waits for all its threads, even if another process holds a processor for long. After a
-// long wait, teams run the loops for some time. If OpenMP then runs only a few loops until the next long wait, the machine is
-// busy, and the teams' time doubles. A team also waits if another process interrupts its thread inside a block. The calling
-// thread therefore begins a team's loop alone. The calling thread works alone for the time that recent loops lost by calling
-// their teams. If the team loses the same time again, the loop takes at most twice as long as with the better choice. All times
-// are in nanoseconds.
+// caller's own loops. However, a loop of OpenMP waits for all its threads, even if another process keeps one of the processors
+// for long. After a long wait, teams run the loops for some time. If OpenMP then runs only a few loops before the next long wait,
+// the machine is busy, and the teams get twice the time. A team also waits if another process interrupts its thread inside a
+// block. The calling thread therefore begins a team's loop alone. The calling thread works alone for the time that recent loops
+// lost by calling their teams. If the team loses the same time again, the loop takes at most twice as long as with the better
+// choice. All times are in nanoseconds.
 class LoopChoice {
  public:
   static constexpr std::int64_t long_wait = 2'000'000, first_pause = 250'000'000, longest_pause = 2'000'000'000;
@@ -34,8 +34,9 @@ class LoopChoice {
   bool has_recorded() const noexcept {
     return pause_.load(std::memory_order_relaxed) > 0 || n_served_.load(std::memory_order_relaxed) > 0;
   }
-  // Records that a loop of OpenMP ended now. Also records how long the calling thread waited for the other threads at the loop's
-  // beginning and end. On a quiet machine the calling thread waits for one block at most, which takes less than a millisecond.
+  // Records that a loop of OpenMP ended now. Also records how long the calling thread waited for the other threads at the
+  // beginning and at the end of this loop. On a quiet machine the calling thread waits for one block at most, which takes less
+  // than a millisecond.
   void record(std::int64_t waited, std::int64_t now) noexcept {
     const int n_served = n_served_.load(std::memory_order_relaxed);
     if (waited < long_wait) {
@@ -55,8 +56,8 @@ class LoopChoice {
     const double mean = mean_loss(now);
     return mean < least_loss ? 0 : static_cast<std::int64_t>(mean);
   }
-  // Records a loop that called a team and ended now. `lost` is the calling thread's wait at the end, minus the time that it
-  // would have needed for the other threads' work.
+  // Records a loop that called a team and ended now. `lost` is the time that the calling thread waited at the end, minus the time
+  // that the other threads' work would have taken it.
   void record_team(std::int64_t lost, std::int64_t now) noexcept {
     const double before = mean_loss(now), more = static_cast<double>(std::max<std::int64_t>(lost, 0)) - before;
     mean_loss_.store(before + more / loops_in_mean, std::memory_order_relaxed);
@@ -68,7 +69,7 @@ class LoopChoice {
     const double mean = mean_loss_.load(std::memory_order_relaxed);
     if (mean < 1) return 0;
     const double n_halves = static_cast<double>(now - recorded_.load(std::memory_order_relaxed)) / half_life;
-    // The loss is halved in each half life, and falls along a straight line within a half life.
+    // The recorded loss is halved in each half life, and falls linearly within a half life.
     const double whole = std::clamp(std::floor(n_halves), 0.0, 64.0), rest = std::clamp(n_halves - whole, 0.0, 1.0);
     return std::ldexp(mean * (1 - 0.5 * rest), -static_cast<int>(whole));
   }
@@ -78,8 +79,8 @@ class LoopChoice {
   std::atomic<double> mean_loss_{0};
 };
 
-// The process's choice between OpenMP and a team. If several threads record loops at once, the record of any of the threads is
-// good enough.
+// The process's choice between OpenMP and a team. If several threads record loops at the same time, it is enough that one of the
+// records is kept.
 extern LoopChoice loop_choice;
 
 }  // namespace riis

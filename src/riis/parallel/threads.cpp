@@ -20,7 +20,7 @@ void begin_child() {
 
 bool begin_threads() noexcept {
   if (!are_used.load(std::memory_order_relaxed)) {
-    // Without memory for the handler, the library could not notice a fork, so it starts no threads.
+    // Without memory for the handler, the library could not notice a fork, so it starts no threads in that case.
     static const bool is_watched = pthread_atfork(nullptr, nullptr, begin_child) == 0;
     if (!is_watched) return false;
     stay_loaded(&are_used);

@@ -16,8 +16,8 @@ class Threads {
  public:
   // A number that the caller requested.
   Threads(int n) : n_(n) {}  // NOLINT(google-explicit-constructor): most callers pass a number
-  // The library's choice for a caller without a request: one thread, and one more for each `per_thread` items of the call's work,
-  // but at most `most`.
+  // The number that the library chooses without a request: one thread, and one more for each `per_thread` items of the call's
+  // work, but at most `most`.
   static Threads by_default(std::int64_t n_items, std::int64_t per_thread, int most) {
     Threads made(static_cast<int>(std::min<std::int64_t>(1 + std::max<std::int64_t>(n_items, 0) / per_thread, most)));
     made.is_default_ = true;
@@ -44,8 +44,8 @@ bool begin_threads() noexcept;
 bool has_lost_threads() noexcept;
 
 // The pool (arena.hpp) keeps its arenas while at least one object of this type exists. Each handle that walks over a mesh or has
-// a scene of Embree owns such an object. The last object's destructor frees the arenas, because a caller may want to end TBB
-// (tbb::finalize), and TBB refuses that while there are arenas.
+// a scene of Embree owns such an object. When the last such object is destroyed, the arenas are freed, because TBB refuses to end
+// (tbb::finalize) while there are arenas.
 class KeepsArenas {
  public:
   KeepsArenas() noexcept;

@@ -80,7 +80,7 @@ SurfaceSeconds make_surface(const Valve &valve, const EarlierValve *moved, const
   if (triangles.n_triangles() == 0) fail(RIIS_INVALID_PARAMETER, "the valve has no area");
   triangles.skirt = valve.has_skirt() ? skirt_leaflet(patches) : -1;
   const double seconds_triangles = stopwatch.lap();
-  // Another method for distances is made first, because the library may refuse the method.
+  // The other method for distances is made first, because it may be refused.
   std::unique_ptr<const PatchDistance> distance;
   if (accuracy.measure != RIIS_MEASURE_TRIANGLES)
     distance = make_distance(patches, {accuracy.measure, accuracy.distance_error}, placement, request.flip_normals);
@@ -130,8 +130,8 @@ namespace {
 // The lines are chosen for `n_openings` openings, evenly spaced from 0 to 1.
 constexpr int n_openings = 33;
 // The chosen lines are then tested at `n_between` further openings between every two neighbouring openings. If the lines are too
-// coarse at some of these openings, all lines are chosen again, also for the openings where they were too coarse. The test is
-// repeated at most `n_trials` times.
+// coarse at some of these openings, the lines are chosen again, for these openings as well. The test is repeated at most
+// `n_trials` times.
 constexpr int n_between = 7, n_trials = 4;
 // A limit on the number of patches, because the choice keeps the patches of all these openings in memory.
 constexpr std::size_t max_patches = 10'000;

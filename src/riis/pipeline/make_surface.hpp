@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The whole pipeline. The pipeline turns a valve's parameters or the caller's arrays into a surface that answers queries for
 // closest points.
-// The pipeline also measures how many seconds this takes.
+// The pipeline also measures how many seconds its stages take.
 #pragma once
 
 #include <riis/riis.h>
@@ -71,9 +71,9 @@ struct SurfaceSeconds {
 
 // Both functions named make_surface replace the content of `surface` and reuse its memory. After a failure, `surface` can only be
 // made again. The first function fails as the stages of the pipeline do. The first function also fails with
-// RIIS_INVALID_PARAMETER if the valve has no area or if the valves of the two states have different builds. Without an earlier
+// RIIS_INVALID_PARAMETER if the valve has no area, or if the valves of the two states are built differently. Without an earlier
 // state the vertices have no velocity. `fixed` is null if accuracy.is_fixed is false. With an offset, both functions fail with
-// RIIS_INVALID_SURFACE if two triangles run along a shared edge in the same direction.
+// RIIS_INVALID_SURFACE if two neighbouring triangles have opposite windings.
 SurfaceSeconds make_surface(const Valve &valve, const EarlierValve *moved, const SurfaceRequest &request,
                             const ValveAccuracy &accuracy, const FixedTriangulation *fixed, Surface &surface);
 SurfaceSeconds make_surface(const UserFaces &faces, const riis_surface_arrays &arrays, bool skip_zero_area,

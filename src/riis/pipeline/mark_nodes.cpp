@@ -57,7 +57,7 @@ SearchRun run_clusters(const SearchRequest &request, Marks &marks) {
   return {RIIS_SEARCH_EXHAUSTIVE, search_exhaustively(request, marks.found)};
 }
 
-// Returns the nodes of a grid that may be within the limit. The box has a margin of several times the rounding.
+// Returns the nodes of a grid that may be within the limit. The box is enlarged by several times the rounding.
 GridBox box_near(const SearchRequest &request, const Grid &grid) {
   const TriangleScene &scene = request.surface.scene();
   Bounds bounds = scene.bounds();
@@ -101,7 +101,7 @@ SearchRun run(const SearchRequest &request, std::int32_t search, Marks &marks) {
   switch (search) {
     case RIIS_SEARCH_NEIGHBOR: {
       // A moving valve is near its last position, so the walk starts at the nodes that were found last. These nodes may belong to
-      // another mesh with as many nodes, but a wrong start does no harm.
+      // another mesh with the same number of nodes, but a wrong start does no harm.
       const bool fits = marks.stats.n_nodes == request.mesh.nodes().n;
       return {search, search_neighbors(request, fits ? marks.within.nodes.node_id : nowhere, marks.neighbor_scratch,
                                        marks.found)};
@@ -148,8 +148,8 @@ void take_marked(const Band &band, const FieldSet &fields, const ListedNodes &fr
   to.fields.resize(fields, n);
 }
 
-// Gives both lists room for their new entries. If one list lacks room, new lists replace both lists, but only after all memory
-// for the new lists was reserved.
+// Gives both lists room for their new entries. If one list lacks room, both lists are replaced by new lists, after all memory for
+// the new lists was reserved.
 void make_room(const WantedData &data, const OrderScratch::Counts &n, Marks &marks) {
   if (!marks.within.has_room(data, n.n_within) || !marks.marked.has_room(data, n.n_marked)) {
     ListedNodes within, marked;

@@ -26,7 +26,7 @@ constexpr const char *cure = ": name the attached vertices by arrays.attached";
 
 // ---- Attachment ----
 
-// Returns the corner of the edge's triangle at the place of a vertex. Corners of other triangles may lie at the same place, and
+// Returns the corner of the edge's triangle at the place of a vertex. A corner of another triangle may lie at the same place, and
 // move elsewhere later.
 std::int64_t corner_at(const TriangleSet &set, std::int64_t triangle, std::int64_t vertex) {
   for (std::int64_t k = 0; k < 3; ++k) {
@@ -133,7 +133,7 @@ Moving operator/(const Moving &a, const MovingNumber &s) {
 class SkirtLine {
  public:
   explicit SkirtLine(const TriangleSet &set) : set_(set) {
-    // The first vertex as origin keeps the rounding small if the surface is far from the origin of coordinates.
+    // Taking the first vertex as origin keeps the rounding small if the surface is far from the origin of coordinates.
     const Moving origin = vertex(set.attached.front().from);
     MovingNumber whole{0, 0};
     Moving moment{}, area{};

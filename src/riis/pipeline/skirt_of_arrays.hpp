@@ -10,9 +10,9 @@
 
 namespace riis {
 
-// Finds the edges of the attachment, with the vertices of the arrays. Does nothing without a skirt and without attached vertices.
-// If the same faces get other vertices later, the attachment keeps these edges. Fails with RIIS_INVALID_SURFACE if the faces do
-// not determine the edges.
+// Finds the edges of the attachment, with the vertices of the arrays. Does nothing if there are no skirt and no attached
+// vertices. If the same faces get other vertices later, the attachment keeps these edges. Fails with RIIS_INVALID_SURFACE if the
+// faces do not determine the edges.
 void find_attachment(UserFaces &faces, const riis_surface_arrays &arrays);
 
 // Gives the placed triangles of these faces their attachment and their skirt. The outer vertices follow the caller's vertices.

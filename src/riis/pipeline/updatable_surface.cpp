@@ -48,7 +48,7 @@ void UpdatableSurface::update_from_valve(const Valve &valve, const EarlierValve 
     newly_fixed =
         std::make_unique<FixedTriangulation>(valve, accuracy.triangle_error / request.placement.scale, whole.n_threads);
   const FixedTriangulation *fixed = newly_fixed ? newly_fixed.get() : fixed_.get();
-  // In a time loop, the earlier state is often the state of the last update. The patches of that state are then known.
+  // In a time loop, the earlier state is often the state of the last update, whose patches are known.
   std::optional<EarlierValve> moved;
   if (earlier) moved.emplace(*earlier);
   if (moved && moved->before.revision() == revision_) moved->patches_before = surface_->patches();

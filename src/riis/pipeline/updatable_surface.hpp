@@ -53,7 +53,8 @@ class UpdatableSurface {
   // chooses the fixed triangulation. An update without this option ends the fixed triangulation.
   void update_from_valve(const Valve &valve, const EarlierValve *earlier, const SurfaceRequest &request,
                          const ValveAccuracy &accuracy);
-  // Updates the surface from arrays. If the arrays contain no faces, their vertices belong to the faces of the last arrays.
+  // Updates the surface from arrays. If the arrays contain no faces, the surface keeps the faces of the last arrays, with the new
+  // vertices.
   void update_from_arrays(const riis_surface_arrays &arrays, bool skip_zero_area, const SurfaceRequest &request);
   // Takes the vertices at a time and the mean velocities since dt before that time (Keyframes::at).
   void update_from_keyframes(const Keyframes &frames, double time, double dt, bool skip_zero_area,

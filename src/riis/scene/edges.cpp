@@ -67,8 +67,8 @@ std::vector<OpenEdge> edges_of_one_triangle(const TriangleSet &set, const std::v
   return open;
 }
 
-// Cancels open edges that lie on each other. A patch of triangles may have vertices inside the edges of its neighbour. A long
-// edge and its opposite edges run between the same two vertices. The search therefore follows the edges from one end to the
+// Cancels open edges that cover each other. A patch of triangles may have vertices inside the edges of its neighbour. A long edge
+// and the short edges that cover it run between the same two vertices. The search therefore follows the edges from one end to the
 // other.
 class Cancelling {
  public:
@@ -90,7 +90,7 @@ class Cancelling {
   }
 
  private:
-  // One end of the edges, and the edges that have a vertex there.
+  // A vertex, and the edges that have one of their ends there.
   struct Ends {
     std::int64_t OpenEdge::*end;
     std::multimap<std::int64_t, std::size_t> with;
@@ -105,7 +105,8 @@ class Cancelling {
   };
 
   // Looks for an edge in the opposite direction that covers one end of a given edge. The found edge lies between the vertex at
-  // this end and a point on the given edge. The two edges cancel up to this point. Returns false if there is no such edge.
+  // this end and a point on the given edge. The given edge and the found edge cancel up to this point. Returns false if there is
+  // no such edge.
   bool shorten(std::size_t i, Ends &here, const Ends &there) {
     const OpenEdge edge = edges_[i];
     for (auto [at, last] = there.with.equal_range(edge.*here.end); at != last; ++at) {
@@ -128,7 +129,7 @@ class Cancelling {
     if (vertex == edge.from || vertex == edge.to) return true;
     const Vec3 a = set_.vertex(edge.from), ab = set_.vertex(edge.to) - a, ap = set_.vertex(vertex) - a;
     const double size_sq = dot(ab, ab), share = dot(ap, ab) / size_sq;
-    // The margin covers coordinates that the caller rounded to single precision.
+    // The margin allows for coordinates that the caller rounded to single precision.
     const double near = 1e-6 * std::sqrt(size_sq) + 0x1p-22 * (std::abs(a.x) + std::abs(a.y) + std::abs(a.z));
     return share > 0 && share < 1 && length(ap - share * ab) <= near;
   }
@@ -278,7 +279,7 @@ Vector<std::int64_t> vertices_on(const TriangleSet &set, std::int64_t begin, std
   return found;
 }
 
-// Returns for each patch the side that choose(patch, rim) returns. `rim` holds the patch's bits of PatchRim. The function
+// Returns for each patch the side that choose(patch, rim) chooses. `rim` holds the patch's bits of PatchRim. The function
 // choose() returns 0 for a patch without such a side.
 template <class Choose>
 std::vector<SideLine> sides(const TriangleSet &set, const Choose &choose) {

@@ -20,7 +20,7 @@ struct OpenEdge {
 };
 
 // Returns the edges that only one triangle has, in the order of the triangles. If by_leaflet is true, only triangles of the same
-// leaflet count. A vertex inside an edge of a neighbour opens no edge, because the edges on both sides cancel.
+// leaflet count. If a vertex lies inside an edge of a neighbour, the edges on both sides cancel and are not open.
 std::vector<OpenEdge> open_edges(const TriangleSet &set, bool by_leaflet);
 
 // Returns the closed lines of open edges, each in order. If several lines meet in one vertex, each line continues along triangles
@@ -39,8 +39,8 @@ struct SideLine {
 
 double length_of(const TriangleSet &set, const SideLine &side);
 
-// free_edges and attached_sides return the sides in the order of their patches. A surface from arrays has no sides.
-// A leaflet's free edge consists of the sides v = 1 that only one patch of the leaflet has.
+// free_edges and attached_sides return sides in the order of their patches. A surface from arrays has no sides. A leaflet's free
+// edge consists of the sides v = 1 that only one patch of the leaflet has.
 std::vector<SideLine> free_edges(const TriangleSet &set);
 // The attachment consists of the sides that Patch::attached names (valve/patches.hpp). A side that two patches share does not
 // belong to the free edge.

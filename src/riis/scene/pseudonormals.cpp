@@ -25,17 +25,18 @@ std::uint64_t hash(Vec3 p) {
   return h;
 }
 
-// Computes the third angle from the other two, because an arc tangent takes long.
+// Computes the third angle from the other two, because computing an arc tangent takes long.
 std::array<double, 3> angles_of(const TriangleMeasures &measures, int lane) {
   const double at_a = arc_tangent(measures.twice_area[lane], measures.product_at_a[lane]),
                at_b = arc_tangent(measures.twice_area[lane], measures.product_at_b[lane]);
   return {at_a, at_b, std::max(0.0, pi - at_a - at_b)};
 }
 
-// The normals of faces folded onto each other cancel up to rounding. A triangle's own normal then replaces such a sum.
+// If faces are folded onto each other, their normals cancel up to rounding. In this case the triangle's own normal replaces the
+// sum.
 bool has_direction(Vec3 sum) { return dot(sum, sum) > 1e-18; }
 
-// Sorts edges by their upper ends. Most lists are short and already in the order of their slots. Edges with equal ends keep that
+// Sorts edges by their second ends. Most lists are short and already in the order of their slots. Edges with equal ends keep that
 // order. The standard library's stable sort would allocate memory.
 template <class Edge>
 void sort_few(Edge *begin, Edge *end) {
@@ -82,7 +83,7 @@ UnfilledShortVector<std::int32_t> distinct_positions(const TriangleSet &set, std
 
 Vec3 triangle_normal(const std::array<Vec3, 3> &corners) {
   const auto &[a, b, c] = corners;
-  // Scales the edges first, so that numbers of small and large triangles stay within the range of doubles.
+  // Scales the edges first, so that the numbers stay within the range of doubles for small and for large triangles.
   const Vec3 ab = b - a, bc = c - b, ca = a - c;
   const double longest = std::sqrt(std::max({dot(ab, ab), dot(bc, bc), dot(ca, ca)}));
   const Vec3 n = cross((1.0 / longest) * (b - a), (1.0 / longest) * (c - a));
@@ -99,7 +100,7 @@ Pseudonormals::Pseudonormals(const TriangleSet &set) {
   resize(edge_is_rim_, 3 * n);
   resize(corner_, n_positions);
   resize(corner_is_rim_, n_positions);
-  // Edges are listed by their lower end. Each list is short. After sorting, equal edges are next to each other.
+  // Edges are listed by the end with the lower number. Each list is short. After sorting, equal edges follow each other.
   Vector<std::int32_t> end_of_list;
   resize(end_of_list, n_positions + 1);
   const auto ends_at = view(end_of_list);
@@ -128,8 +129,8 @@ Pseudonormals::Pseudonormals(const TriangleSet &set) {
   };
   UnfilledShortVector<Edge> edges;
   resize(edges, 3 * n);
-  // Lists are filled from their ends, so equal edges are in the order of their slots. Sums thus have the same bits for any
-  // numbering of the positions.
+  // Lists are filled from their ends, so equal edges are in the order of their slots. The sums therefore have the same bits for
+  // any numbering of the positions.
   for (std::int64_t slot = 3 * n; slot-- > 0;) {
     const auto [lower, upper] = ends_of(slot);
     view(edges)[--ends_at[lower]] = {upper, static_cast<std::int32_t>(slot)};
@@ -186,7 +187,7 @@ Pseudonormals::Ends Pseudonormals::ends_of(std::int64_t slot) const {
 }
 
 Pseudonormals::Simplex Pseudonormals::simplex_of(Vec3 barycentric) {
-  // The index is a sum over the weights that are 0: 1 for the first weight, 2 for the second, 4 for the third.
+  // The index is a sum with a term for each weight that is 0: 1 for the first weight, 2 for the second, 4 for the third.
   static constexpr Simplex simplices[8] = {{Kind::face, 0}, {Kind::edge, 1},   {Kind::edge, 2},   {Kind::vertex, 2},
                                            {Kind::edge, 0}, {Kind::vertex, 1}, {Kind::vertex, 0}, {Kind::vertex, 0}};
   return simplices[(barycentric.x == 0 ? 1 : 0) + (barycentric.y == 0 ? 2 : 0) + (barycentric.z == 0 ? 4 : 0)];

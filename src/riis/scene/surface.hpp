@@ -33,10 +33,10 @@ struct SourceValve {
 
 class Surface {
  public:
-  // Makes the surface. A further call, such as after a motion, reuses the surface's memory. After a failure the surface must not
-  // be used.
+  // Makes the surface. Another call, such as after a motion, reuses the surface's memory. After a failure the surface must not be
+  // used.
   void make(TriangleSet triangles, const Band &band, int n_threads);
-  // Moves the triangles out, so that the next surface's triangles can reuse their memory.
+  // Gives the triangles away, so that the next surface's triangles can reuse their memory.
   TriangleSet take_triangles() { return std::move(triangles_); }
   // Sets another method to measure distances. Without this call, distances are measured to the triangles.
   void measure_by(std::unique_ptr<const PatchDistance> other_distance, double triangle_error);
@@ -98,8 +98,8 @@ class Surface {
   TriangleScene scene_;
   Band band_;
   std::vector<std::int32_t> leaflet_ids_;
-  // The area is computed on demand, because marking never needs it. Threads that compute the value at the same time get the same
-  // bits.
+  // The area is computed on demand, because marking never needs it. If several threads compute the value at the same time, they
+  // get the same bits.
   mutable std::atomic<double> area_{not_known};
   std::optional<SourceValve> source_valve_;
   std::optional<PatchSet> patches_;

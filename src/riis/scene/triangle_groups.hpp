@@ -31,14 +31,14 @@ float round_down(double x);
 float round_up(double x);
 
 // Bounds the error of the filters' distances in the surface's frame (docs/theory/clusters.md). The points come from a frame
-// that is `ratio` times as large and moved by `shift`. The points are within `reach` of the triangles, whose edges have lengths
-// up to `longest_edge`.
+// that is `ratio` times as large and moved by `shift`. The points are within `reach` of the triangles, whose edges are at most
+// `longest_edge` long.
 inline float filter_error(double ratio, double shift, double reach, double longest_edge) {
   return static_cast<float>(0x1p-21 * (ratio + shift + 5 * reach + 7 * longest_edge + 3));
 }
 
-// Bounds the difference between the computed squares of two distances that are in fact equal. The two distances are at most
-// `reach`, which includes the error.
+// Bounds the difference between the computed squares of two distances that are in fact equal. Both distances are at most `reach`,
+// which includes the error.
 inline float filter_tolerance(double error, double reach) { return static_cast<float>(5 * error * (reach + error)); }
 
 struct TriangleGroups {
@@ -67,7 +67,7 @@ struct TriangleGroups {
   }
 
  private:
-  // What a thread finds out about the groups of a pack.
+  // What a thread finds out about the groups of one pack.
   struct OfPack {
     double size;    // the sum of the extents of its groups' boxes
     bool are_same;  // whether each group has the same triangles as before

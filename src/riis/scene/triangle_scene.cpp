@@ -36,8 +36,9 @@ struct Release {
 using Scene = std::unique_ptr<std::remove_pointer_t<RTCScene>, Release>;
 using Geometry = std::unique_ptr<std::remove_pointer_t<RTCGeometry>, Release>;
 
-// Returns the device that all surfaces of the process share, because a device costs more than a small scene. The device exists as
-// long as any surface exists. The device's default configuration leaves the number of threads to the caller's TBB settings.
+// Returns the device that all surfaces of the process share, because making a device takes longer than making a small scene. The
+// device exists as long as any surface exists. The device's default configuration leaves the number of threads to the caller's
+// TBB settings.
 std::shared_ptr<std::remove_pointer_t<RTCDevice>> shared_device() {
   static std::mutex mutex;
   static std::weak_ptr<std::remove_pointer_t<RTCDevice>> current;
@@ -100,8 +101,8 @@ struct Query {
   bool is_out_of_memory;
 };
 
-// Queries one triangle. Returns true if the triangle is the closest so far. The function is not inlined, because the loops
-// over groups would run out of registers.
+// Queries one triangle. Returns true if the triangle is the closest so far. The function is not inlined, because the loops over
+// groups would then need too many registers.
 template <bool keeps_ties>
 __attribute__((noinline)) bool query_triangle(Query &query, std::int64_t triangle) {
   const double *c = query.in->groups.corners.data() + 9 * triangle;
@@ -143,7 +144,7 @@ void bounds_of_group(const RTCBoundsFunctionArguments *arguments) {
   bounds->upper_z = group.upper[2];
 }
 
-// Queries the triangles of a group. The filter dismisses triangles whose distance exceeds the radius by more than the filter's
+// Queries the triangles of a group. The filter rules out triangles whose distance exceeds the radius by more than the filter's
 // error.
 template <bool keeps_ties>
 bool visit_group(RTCPointQueryFunctionArguments *arguments) {
@@ -220,8 +221,8 @@ void TriangleScene::Implementation::build(Scene &made) {
     made = std::move(of_geometry);
     geometry = std::move(of_groups);
   } else {
-    // A moving scene is built more often, and each build serves fewer queries. The tree of unchanged groups is kept and gets new
-    // boxes.
+    // A moving scene is built more often, and each build serves fewer queries. If the groups are unchanged, the tree is kept and
+    // gets new boxes.
     rtcSetSceneFlags(made.get(), RTC_SCENE_FLAG_DYNAMIC);
     rtcSetSceneBuildQuality(made.get(), RTC_BUILD_QUALITY_LOW);
     rtcSetGeometryBuildQuality(geometry.get(), tree_fits ? RTC_BUILD_QUALITY_REFIT : RTC_BUILD_QUALITY_LOW);
@@ -282,7 +283,7 @@ ClosestTriangle TriangleScene::find_closest(Vec3 p, double limit, InstructionSet
   } else {
     double reach = limit;
     if (!(reach * frame.scale < 4 * far_away)) {
-      // A limit far beyond the surface's size would exclude nothing, so the distance of the first triangle replaces such a limit.
+      // If a limit is far beyond the surface's size, it would exclude nothing, so the distance of the first triangle replaces it.
       query_triangle<keeps_ties>(query, 0);
       reach = std::sqrt(query.best.distance_sq);
     }

@@ -2,9 +2,9 @@
 // Triangles in an Embree scene, which answers queries for closest points. Only this file and its .cpp use Embree. The closest
 // triangle is the same triangle that a loop over all triangles with the same kernel would find.
 //
-// Embree works in single precision and only excludes triangles. Coordinates are recentred and scaled by a power of two to
-// the size of the surface. Boxes are rounded outwards, and radii are increased by more than Embree's rounding. Every candidate
-// is decided in double precision.
+// Embree works in single precision, and only rules out triangles. Coordinates are recentred and scaled by a power of two to the
+// size of the surface. Boxes are rounded outwards, and radii are increased by more than Embree's rounding. Every candidate is
+// decided in double precision.
 #pragma once
 
 #include <cmath>
@@ -45,16 +45,16 @@ struct Tie {
   ClosestTriangle triangle;
 };
 
-// The ties that one thread of a search finds. The ties contain the closest triangle of each tied patch, and perhaps farther
+// The ties that one thread finds during a search. The ties contain the closest triangle of each tied patch, and perhaps farther
 // triangles.
 struct Ties {
   TieRule rule;
   std::vector<Tie> candidates;  // ties of points that may still get nearer triangles
   std::vector<Tie> found;       // ties of nodes
 
-  // Compares two triangles of a point, of which `closest` is the nearest so far. Keeps `other` as a candidate if it may be a
-  // tie. A triangle on the patch of `closest` is not needed: either this patch stays the nearest, or `closest` itself becomes a
-  // candidate.
+  // Compares two triangles of a point, of which `closest` is the nearest so far. If `other` may be a tie, keeps it as a
+  // candidate. A triangle on the patch of `closest` is not needed: either this patch stays the nearest, or `closest` itself
+  // becomes a candidate.
   void compare(std::int64_t point, const ClosestTriangle &closest, const ClosestTriangle &other) {
     if (other.triangle < 0 || !rule.is_tie(closest, other)) return;
     if (!candidates.empty()) {
@@ -89,10 +89,10 @@ class TriangleScene {
   TriangleScene(const TriangleScene &) = delete;
   TriangleScene &operator=(const TriangleScene &) = delete;
 
-  // Makes the groups from a copy of the corners, so the set need not be kept. A further call, for triangles that moved, reuses
+  // Makes the groups from a copy of the corners, so the set need not be kept. Another call, for triangles that have moved, reuses
   // the memory. After a failure the scene can only be destroyed. The first query builds Embree's tree with n_threads threads. The
   // tree is not built earlier, because a search over clusters never needs it. A query fails with RIIS_INTERNAL_ERROR or
-  // RIIS_OUT_OF_MEMORY if Embree reports an error. The next query tries once more.
+  // RIIS_OUT_OF_MEMORY if Embree reports an error. After an error, the next query tries once more.
   void make(const TriangleSet &set, int n_threads);
 
   // Builds Embree's tree, as the first query does. Several threads may call this function at once.
@@ -100,7 +100,7 @@ class TriangleScene {
 
   // Returns the closest triangle to p, or the triangle -1 if no triangle is within the limit. The limit is at least 0, and may be
   // infinite. The point p must be finite, with coordinates up to max_coordinate. Several threads may call this function at once.
-  // If `ties` is not null, the candidates of p replace its earlier candidates.
+  // If `ties` is not null, its candidates become those of p.
   ClosestTriangle closest(Vec3 p, double limit, InstructionSet instructions = best_instruction_set(),
                           Ties *ties = nullptr) const;
 
@@ -112,8 +112,8 @@ class TriangleScene {
 
   const TriangleGroups &groups() const;
 
-  // Adds to `found` all groups whose bounds are within a radius of a point, and perhaps more. Point and radius are in the
-  // groups' frame. The radius and the point's coordinates must be below 4e6.
+  // Adds to `found` all groups whose bounds are within a radius of a point. It may also add other groups. Point and radius are in
+  // the groups' frame. The radius and the point's coordinates must be below 4e6.
   void collect_groups(const float *point, float radius, std::vector<std::int32_t> &found) const;
 
   // Calls visit(triangle) for all triangles that meet the segment from a to b, and perhaps for other triangles. `triangle` is a
@@ -127,8 +127,8 @@ class TriangleScene {
       for (int i = 0; i < view(in.bounds)[group].n; ++i) visit(view(in.bounds)[group].triangle[i]);
   }
 
-  // Bounds the error of a computed distance that comes from the rounding of the triangles' coordinates. Errors proportional
-  // to the distance and to |p| are not included.
+  // Bounds the error of a computed distance that comes from the rounding of the triangles' coordinates. Errors proportional to
+  // the distance and to |p| are not included in this bound.
   double rounding() const { return rounding_; }
 
   struct Implementation;  // public, because Embree's callbacks use this type

@@ -24,7 +24,7 @@ struct Edge {
 // Returns a length such that no edge of at most this length leaks. If such an edge meets the surface in a point, its nearer node
 // is at most half the length from that point. The nearer node is thus within the half thickness and marked. With an offset, only
 // nodes within a smaller distance are certainly in the band, so the length is smaller. The margins are several times the
-// rounding, so this also holds for computed distances. Returns -1 if marks may be missing, or if the marks do not follow the
+// rounding, so this also holds for computed distances. Returns -1 if marks may be missing, or if the marks do not come from the
 // distances to the triangles. If the result is -1, no edge counts as short.
 double length_that_cannot_leak(const Surface &surface, const Marks &marks) {
   if (surface.other_distance() || !marks.stats.complete) return -1;
@@ -111,7 +111,7 @@ struct alignas(64) Finder {
       const Vec3 q = checked_node(nodes, j);
       const double length = distance(p, q);
       if (length <= too_short || !is_open(j)) return;
-      // Each edge is followed from the end with the lower number, even if the edge was found in the other end's row.
+      // Each edge is handled at the end with the lower number, even if it was found in the row of the other end.
       if (crosses(i < j ? p : q, i < j ? q : p) && !only_cuts_off_fold(p, q))
         found.push_back({std::min(i, j), std::max(i, j), length});
     });
@@ -187,7 +187,7 @@ Leaks listed(const SearchRequest &request, const std::vector<Edge> &edges) {
       view(list.node_id)[2 * i] = edge.a;
       view(list.node_id)[2 * i + 1] = edge.b;
       view(list.length)[i] = edge.length;
-      // The least half thickness that marks an end, with the same bits as in the marking.
+      // The least half thickness that marks an end of the edge, with the same bits as in the marking.
       view(list.distance)[i] =
           std::min(places.of(nodes[edge.a]).half_thickness, places.of(nodes[edge.b]).half_thickness);
     }

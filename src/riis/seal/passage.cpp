@@ -42,25 +42,25 @@ double largest_thickness(const SearchRequest &request, const char *name, ArrayVi
   return *std::max_element(marking.begin(), marking.end());
 }
 
-// A node that is not open yet.
+// A node that has not been opened yet.
 struct Candidate {
   double distance;  // the half thickness that marks it
   std::int64_t node;
 
-  // Puts the farthest node first. Among equal distances, the lowest id comes first.
+  // Puts the farthest node first. If distances are equal, the node with the lowest id comes first.
   bool operator<(const Candidate &other) const {
     return distance != other.distance ? distance > other.distance : node < other.node;
   }
 };
 
-// An edge from `node` to `other` that is listed in the row of `other` only.
+// An edge from `node` to `other` that is listed only in the row of `other`.
 struct OneWayEdge {
   std::int64_t node, other;
 
   bool operator<(const OneWayEdge &edge) const { return node != edge.node ? node < edge.node : other < edge.other; }
 };
 
-// Opens nodes in the order from far to near, until open nodes join the ends of the passage.
+// Opens nodes, the farthest first, until open nodes connect the ends of the passage.
 template <class Edges>
 class Opening {
  public:

@@ -16,7 +16,7 @@
 
 namespace riis {
 
-// Leaks: edges of the mesh that cross the surface between two unmarked nodes. The marks leave open the paths along these edges.
+// Leaks: edges of the mesh that cross the surface between two unmarked nodes. Flow can pass through the valve along these edges.
 // The mesh must have an adjacency. The leaking edges are listed in ascending order.
 
 // Edges between two unmarked nodes that cross the surface, in ascending order. The members are documented in riis_leak_list.
@@ -30,7 +30,7 @@ struct Leaks {
   double seconds = 0;
 };
 
-// Coordinates of a smaller magnitude count as 0, because their products would leave the range of doubles.
+// Coordinates of a smaller magnitude count as 0, because their products would be too small for doubles.
 inline constexpr double negligible_coordinate = 1e-90;
 
 // Returns whether the closed segment from a to b and the closed triangle have a point in common. Coordinates must be at most
@@ -59,7 +59,7 @@ std::int64_t label_open_regions(const Edges &edges, const OpenNodes &open, int n
                                 ArrayView<std::int64_t> label);
 
 // Disjoint sets of nodes that several threads unite at the same time without locks. An array holds each node's parent, which is
-// a lower node. The root of a set is therefore its lowest node, in any order of the unions.
+// a lower node. For any order of the unions, the root of a set is therefore its lowest node.
 class OpenSets {
  public:
   static constexpr std::int64_t closed = -1;  // the parent of a node that is in no set
@@ -71,7 +71,7 @@ class OpenSets {
   // Puts the node into a new set of its own.
   void open(std::int64_t node) { parent_[node] = node; }
 
-  // Returns the lowest node of the set. Also halves the path to this node, which makes later calls faster.
+  // Returns the lowest node of the set. Also halves the path to the lowest node, which makes later calls faster.
   std::int64_t root(std::int64_t node) {
     for (;;) {
       std::int64_t parent = load(node);
@@ -82,7 +82,7 @@ class OpenSets {
     }
   }
 
-  // Makes the lowest node of the set the node's parent, and returns this lowest node. Must not run while other threads unite
+  // Makes the lowest node of the set the parent of the node, and returns the lowest node. Must not run while other threads unite
   // sets.
   std::int64_t flatten(std::int64_t node) {
     const std::int64_t lowest = root(node);
@@ -96,7 +96,7 @@ class OpenSets {
       b = root(b);
       if (a == b) return;
       if (replace(a < b ? b : a, a < b ? b : a, a < b ? a : b)) return;
-      // Another thread has given the higher root a parent, so the loop tries again.
+      // Another thread has already given the higher root a parent, so the loop tries again.
     }
   }
 

@@ -54,7 +54,7 @@ Exact<2> difference(double a, double b) {
   return made;
 }
 
-// Adds the doubles of b one after another. Each pass appends at most as many parts as it has read. A pass therefore overwrites
+// Adds the doubles of b one after another. Each pass appends at most as many parts as it has read. Therefore a pass overwrites
 // only parts that are no longer needed.
 template <int n, int m>
 Exact<n + m> operator+(const Exact<n> &a, const Exact<m> &b) {
@@ -133,7 +133,7 @@ int orientation_exactly(Point2 a, Point2 b, Point2 c) {
 int orientation(Point2 a, Point2 b, Point2 c) {
   const double left = (a.u - c.u) * (b.v - c.v), right = (a.v - c.v) * (b.u - c.u);
   const double determinant = left - right;
-  // Shewchuk's bound is (3 + 16 e) e with e = 2^-53. To be safe, the code uses 2^-51, which is larger.
+  // Shewchuk's bound of the error is (3 + 16 e) e with e = 2^-53. To be safe, the code uses 2^-51, which is larger.
   if (std::abs(determinant) > 0x1p-51 * (std::abs(left) + std::abs(right)) + underflow) return sign(determinant);
   return orientation_exactly(a, b, c);
 }
@@ -154,7 +154,7 @@ int orientation(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
   const double magnitude = std::abs(p.z) * (std::abs(qxry) + std::abs(qyrx)) +
                            std::abs(q.z) * (std::abs(rxpy) + std::abs(rypx)) +
                            std::abs(r.z) * (std::abs(pxqy) + std::abs(pyqx));
-  // Shewchuk's bound is (7 + 56 e) e with e = 2^-53. To be safe, the code uses 2^-50, which is larger.
+  // Shewchuk's bound of the error is (7 + 56 e) e with e = 2^-53. To be safe, the code uses 2^-50, which is larger.
   if (std::abs(determinant) > 0x1p-50 * magnitude + underflow) return sign(determinant);
   return orientation_exactly(a, b, c, d);
 }
@@ -214,7 +214,8 @@ bool segment_meets_triangle(Vec3 a, Vec3 b, const std::array<Vec3, 3> &corners) 
   const int a_side = orientation(c[0], c[1], c[2], a), b_side = orientation(c[0], c[1], c[2], b);
   if (a_side * b_side > 0) return false;
   if (a_side == 0 && b_side == 0) return meets_in_plane(a, b, c);
-  // The segment's line meets the plane in one point. The point is in the triangle if the line passes all edges on the same side.
+  // The segment's line meets the plane in one point. The point is in the triangle if all three edges are on the same side of the
+  // line.
   return agree(orientation(a, b, c[0], c[1]), orientation(a, b, c[1], c[2]), orientation(a, b, c[2], c[0]));
 }
 

@@ -18,8 +18,8 @@
 namespace riis {
 namespace {
 
-// The number of points that are sorted together. A large batch takes 2 MB. Small batches suit points that are near the points
-// before them: the leaves are then as compact as the leaves of large batches, and the points stay in the cache.
+// The number of points that are sorted together. A large batch takes 2 MB of memory. Small batches suit points that are near
+// their predecessors: their leaves are as compact as those of large batches, and the points stay in the cache.
 constexpr std::int64_t points_per_batch = 1 << 16, points_per_small_batch = 1 << 13;
 
 constexpr std::int64_t points_per_block = 2048;
@@ -41,8 +41,8 @@ class ClosestPoints {
         to_(to) {}
 
   void write() {
-    // The tree is built now, because a failure must come before anything is written. Queries need the tree if memory runs out
-    // later.
+    // The tree is built now, so that a failure comes before anything is written. The tree is needed for queries if memory runs
+    // out later.
     scene_.build_tree();
     const int n_threads = request_.n_threads;
     if (!are_enough_for_clusters(wanted_.n, surface_)) {
@@ -63,9 +63,9 @@ class ClosestPoints {
   }
 
  private:
-  // `far` and `wide` are distances from the surface's middle, in half extents of the surface. For a point beyond `far`, single
-  // precision does not separate triangles. A single point beyond `far` would make the frame of its batch useless for the other
-  // points. If no point is beyond `wide`, one frame serves all batches.
+  // `far` and `wide` are distances from the middle of the surface, as multiples of its half extent. For a point beyond `far`,
+  // single precision does not separate triangles. A single point beyond `far` would make the frame of its batch useless for the
+  // other points. If no point is beyond `wide`, one frame serves all batches.
   static constexpr double far = 0x1p10, wide = 0x1p4;
 
   double reach_of(Vec3 p) const { return largest_coordinate(scene_.groups().frame(p)); }
@@ -228,7 +228,7 @@ class ClosestPoints {
           frame.place_inner(p, items[place].x);
           items[place].node = static_cast<std::uint32_t>(k);
         });
-    // Closes the gaps between the blocks.
+    // Closes the gaps between the points of the blocks.
     std::int64_t n_items = 0;
     bool has_far = false;
     for (std::int64_t begin = 0; begin < n; begin += points_per_block) {
@@ -241,7 +241,7 @@ class ClosestPoints {
     return has_far;
   }
 
-  // Writes the points that were found. The id of a point is id_of(node).
+  // Writes the points that were found. The node `node` belongs to the point with the id id_of(node).
   template <class IdOf>
   void write_found(const UnfilledVector<FoundNode> &list, const IdOf &id_of) const {
     const TriangleSet &set = surface_.triangles();

@@ -36,9 +36,9 @@ struct Placing {
 };
 
 #if defined(__SIZEOF_INT128__)
-// A number with the order of closest triangles (is_closer), for finite squares of distances. The first 64 bits are the bits of
-// the square. Squares are not negative, so their bits have the same order. The last 64 bits are the triangle, or the largest
-// number if there is no triangle.
+// A number for each triangle, in the order of closest triangles (is_closer), for finite squares of distances. The first 64 bits
+// of the number are the bits of the square. Squares are not negative, so their bits have the same order. The last 64 bits are the
+// triangle, or the largest number if there is no triangle.
 __extension__ typedef unsigned __int128 Rank;
 Rank rank_of(const ClosestTriangle &closest) {
   std::uint64_t square;
@@ -51,7 +51,7 @@ ClosestTriangle of_rank(Rank rank) {
   std::memcpy(&closest.distance_sq, &square, sizeof square);
   return closest;
 }
-// No processor can predict which triangle is closer, so the code has no branch.
+// The processor cannot predict which triangle is closer, so the code has no branch.
 ClosestTriangle closer_of(const ClosestTriangle &a, const ClosestTriangle &b) {
   return of_rank(std::min(rank_of(a), rank_of(b)));
 }
@@ -301,8 +301,8 @@ class ClusterSearch {
     const std::int32_t *const near_groups = own.near_groups.data() + first;
     std::uint16_t *const leaf_bits = own.leaf_bits.data() + first;
     const auto n_near = static_cast<std::int32_t>(n);
-    // If groups are smaller than a cluster's leaves, many groups are near the cluster. The boxes along the groups' own axes then
-    // exclude few clusters.
+    // If groups are smaller than a cluster's leaves, many groups are near the cluster. With many near groups, the boxes along the
+    // groups' own axes exclude few clusters.
     constexpr std::size_t many = 32;
     if (kernels_.near_boxes(task_, leaves, near_groups, n_near, leaf_bits) &&
         (n > many || kernels_.near_own_boxes(task_, leaves, near_groups, n_near, leaf_bits))) {
@@ -609,7 +609,7 @@ class ClusterSearch {
     return {&cluster.leaf(position), position, wanted, near_groups, n_groups, task_.limits, true, 0};
   }
 
-  // Filters the leaves of own.task, and prepares `closest` for their nodes.
+  // Filters the leaves of own.task, and makes room in `closest` for their nodes.
   void filter(ClusterScratch::Thread &own, Pairs &pairs) {
     ClusterTask &task = own.task;
     kernels_.begin_cluster(task_, task);

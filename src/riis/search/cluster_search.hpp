@@ -76,7 +76,7 @@ bool are_enough_for_clusters(std::int64_t n_nodes, const Surface &surface);
 bool has_few_near(const NodeSearch &request);
 
 // Searches over clusters. The clusters must belong to the request's mesh, and separates_in_single_precision must hold. `kernels`
-// must use the request's instructions. Only ./run bench roofline passes other kernels, which count operations.
+// must use the instructions of the request. Only ./run bench roofline passes other kernels, which count operations.
 SearchReport search_clusters(const NodeSearch &request, const Clusters &clusters, const Kernels &kernels,
                              ClusterScratch &scratch, FoundNodes &found);
 SearchReport search_clusters(const NodeSearch &request, const GridClusters &clusters, const Kernels &kernels,

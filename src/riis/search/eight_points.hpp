@@ -73,7 +73,7 @@ struct EightPoints {
     to[2][lane] = v.z;
   }
   static Vec3 lane_of(const Lanes &from, std::int64_t lane) { return {from[0][lane], from[1][lane], from[2][lane]}; }
-  // Writes one lane as a vector. Three plain assignments would be slower when compiled by GCC.
+  // Writes the coordinates of one lane as a vector. Three plain assignments would be slower when compiled by GCC.
   static void put_lane(const Lanes &from, std::int64_t lane, double *to) {
     typedef double Two
         __attribute__((vector_size(16)));  // every processor of the baseline instruction set has such registers

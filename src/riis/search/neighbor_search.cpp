@@ -34,7 +34,7 @@ class NeighborSearch {
     walked_.prepare(nodes_.n, request.n_threads);
   }
 
-  // Adds a node at which the walk starts. A node that is added repeatedly is still queried once.
+  // Adds a node at which the walk starts. If a node is added repeatedly, it is queried only once.
   void begin_at(std::int64_t node) {
     if (!request_.is_masked_out(node) && walked_.claim(node)) view(walked_.queue)[n_queued_++] = node;
   }
@@ -122,8 +122,8 @@ class NeighborSearch {
     }
   }
 
-  // Deals with the nodes of near balls that the walk did not reach. A node that the walk did not reach is queried if the ball's
-  // centre does not prove that it is far.
+  // Deals with the nodes of near balls that the walk did not reach. If the ball's centre does not prove that such a node is far,
+  // the node is queried.
   void prove(const NodeBalls &balls) {
     const auto n = view(walked_.near_balls).size();
     const int n_ran = parallel_for_ranges(n, balls_per_block, threads_near(), [&](const Range &block, int thread) {
@@ -172,7 +172,7 @@ class NeighborSearch {
     return near.distance - from_centre > limit_ + slack(near.distance + from_centre, centre);
   }
 
-  // Bounds the rounding errors of two distances and of a ball's radius. The bound is proportional to the two distances, the
+  // Bounds the rounding errors in two distances and in a ball's radius. The bound is proportional to the two distances, the
   // radius, and the coordinates of the nodes and the triangles.
   double slack(double distances, Vec3 centre) const {
     return 1e-14 * (distances + std::abs(centre.x) + std::abs(centre.y) + std::abs(centre.z)) +

@@ -39,7 +39,7 @@ class NeighborScratch {
   std::vector<std::int64_t> near_large_balls;
   std::vector<NearBall> near_balls;
 
-  // The number of nodes that a thread passes on to other threads together.
+  // The number of nodes that a thread passes on to other threads at a time.
   static constexpr std::int64_t nodes_per_range = 128;
 
   void prepare(std::int64_t n_nodes, int n_threads);

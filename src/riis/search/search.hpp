@@ -52,7 +52,7 @@ void make_room(Threads &threads, const ListOf &list_of) {
   for (auto &thread : threads) list_of(thread).reserve(room);
 }
 
-// One list for each thread. The order within a list means nothing.
+// One list for each thread. The order within a list has no meaning.
 struct FoundNodes {
   Range numbers{0, 0};  // contains the nodes' numbers, which are counted from its beginning
   std::vector<UnfilledVector<FoundNode>> by_thread;
@@ -60,7 +60,7 @@ struct FoundNodes {
 
   // Empties the lists, and makes room for the next search.
   void prepare(int n_threads, const TieRule &ties = {}) {
-    // Checks each list by itself, because an earlier call may have run out of memory after the first list.
+    // Checks each list separately, because an earlier call may have run out of memory after the first list.
     if (view(by_thread).size() < n_threads) resize(by_thread, n_threads);
     if (view(ties_by_thread).size() < n_threads) resize(ties_by_thread, n_threads);
     make_room(
@@ -139,13 +139,13 @@ struct TriangleDistances {
   InstructionSet instructions;
 
   bool may_be_within(Vec3 p, double limit) const { return scene.may_be_within(p, limit); }
-  // Returns the triangle closest to p. The candidates of p replace the candidates in `ties`, which may be null.
+  // Returns the triangle closest to p. If `ties` is not null, its candidates become those of p.
   ClosestTriangle closest(Vec3 p, double limit, Ties *ties = nullptr) const {
     return scene.closest(p, limit, instructions, ties);
   }
 
   // Returns a number d such that every point q has a distance of at least d - |q - p| from the surface. A large d proves that all
-  // points near p are far from the surface. Returns infinity if d is above the limit.
+  // points near p are far from the surface. The result is infinity if d is above the limit.
   double lower_bound(Vec3 p, double limit) const {
     return std::sqrt(scene.closest(p, limit, instructions).distance_sq);
   }
@@ -167,9 +167,9 @@ struct OtherDistances {
     return {found.distance_sq, found.patch};
   }
 
-  // Sampling measures the distance to fixed points, so the distance itself is the bound. A minimisation may end anywhere on S, so
-  // its result at p bounds no result at other points. But each result is the distance to some point of S, so it is at least the
-  // distance to the triangles minus triangle_error.
+  // Sampling measures the distance to fixed points, so the distance itself is the bound. Minimisation may end anywhere on S, so
+  // its result at p says nothing about its results at other points. However, each result is the distance to some point of S, so
+  // it is at least the distance to the triangles minus triangle_error.
   double lower_bound(Vec3 p, double limit) const {
     if (method.is_of_fixed_points()) return std::sqrt(method.closest(p, limit).distance_sq);
     constexpr double far = std::numeric_limits<double>::infinity();
@@ -180,7 +180,7 @@ struct OtherDistances {
   double rounding() const { return scene.rounding(); }
 };
 
-// Calls visit(distances) with the surface's way to measure distances.
+// Calls visit(distances) with the method by which the surface measures distances.
 template <class Visit>
 auto with_distances(const Surface &surface, InstructionSet instructions, const Visit &visit) {
   if (const PatchDistance *method = surface.other_distance())

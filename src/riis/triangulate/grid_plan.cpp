@@ -23,7 +23,7 @@ constexpr int max_rounds = 24;
 // The largest number of parts between two lines for the bound on the offset O (geometry/bulge.hpp).
 constexpr int most_parts = 8;
 
-// Errors of a patch of arcs between two lines of its grid.
+// The errors of a patch of arcs between two lines of its grid.
 struct ColumnErrors {
   double base, edge;  // errors of the chords of both curves
   double off_line;    // the largest deviation of O from linear, at the points between
@@ -158,14 +158,14 @@ Polyline polyline_at(const Curve &curve, const Vector<double> &shares, double en
   return made;
 }
 
-// Ascending positions, and a number `need` for each step between neighbouring positions. The need times the square of a segment's
-// width bounds the error of a segment within the step, as a share of the allowed error.
+// Ascending positions, and a number `need` for each step between two neighbouring positions. The need times the square of a
+// segment's width bounds the error of a segment inside the step, as a share of the allowed error.
 struct Needs {
   Vector<double> at, need;
 };
 
-// Takes as few of these positions as possible. Each segment's error stays within the share `most` of the allowed error. The first
-// and the last position are always taken.
+// Takes as few positions as possible, always including the first and the last. Each segment's error stays within the share `most`
+// of the allowed error.
 Vector<double> segments(const Needs &needs, double most) {
   Vector<double> made{needs.at.front()};
   for (std::size_t i = 0; i < needs.need.size();) {
@@ -202,10 +202,10 @@ constexpr double most_of_allowed = 0.9;
 // number of steps stays between `least_steps` and `most_steps`.
 constexpr int steps_per_segment = 4;
 constexpr std::size_t least_steps = 64, most_steps = 4096;
-// To save time, needs are computed only at every n-th state. Later the lines are checked at every state.
+// To save time, needs are computed only at every n-th opening. Later the lines are checked at every opening.
 constexpr std::size_t states_per_need = 4;
 
-// Halves the steps of a list that are too large. `is_too_large` has an entry for each step.
+// Halves those steps of a list that are too large. `is_too_large` has an entry for each step.
 Vector<double> halved(const Vector<double> &values, const Vector<bool> &is_too_large) {
   Vector<double> made;
   for (std::size_t i = 0; i + 1 < values.size(); ++i) {
@@ -326,7 +326,7 @@ class Planner {
     return shares;
   }
 
-  // Each curve gets a first choice of its family's lines. The function `vertices` adds lines later.
+  // Each curve first gets the lines that its family needs. The function `vertices` adds lines later.
   void plan_families() {
     first_shares_.assign(set_.curves.size(), {0, 1});
     for (const Family &family : families()) {

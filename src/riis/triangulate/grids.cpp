@@ -14,8 +14,8 @@
 namespace riis {
 namespace {
 
-// Returns the largest speed per unit of opening at five points of each span. Five points are enough to notice any motion, because
-// a cubic that is 0 at all five points is 0 everywhere.
+// Returns the largest speed, per unit of opening, at five points of each span. Five points are enough to notice any motion,
+// because a cubic that is 0 at all five points is 0 everywhere.
 double largest_rate(const PatchSet &set) {
   double largest = 0;
   for (const Vector<Bezier> &rates : set.rates)
@@ -139,7 +139,7 @@ class GridMaker {
 
   ArcLines arc_lines(const Patch &patch, const PatchSides &sides) const {
     const Vec3 at_u0 = arc_offset(set_, patch.u0), at_u1 = arc_offset(set_, patch.u1);
-    // A patch with more lines than this would have too many triangles.
+    // A patch with more lines than this limit would have too many triangles.
     const double n_rows = rows_for(std::max(length(at_u0), length(at_u1)), max_error_);
     const auto max_lines = static_cast<std::size_t>(static_cast<double>(max_triangles) / n_rows) + 2;
     ArcLines lines = make_arc_lines(sides, Bulge(along(set_, patch.v0), along(set_, patch.v1), patch.bulge), at_u0,

@@ -10,9 +10,9 @@
 
 namespace riis {
 
-// The allowed error is divided as in docs/theory/triangles.md, "Shares of the bound". A point of a Coons patch has three errors:
-// of a u curve, of a v curve, and of merged grid lines. The shares below bound these errors. At least 1 - 2 * (curve_share +
-// merge_share) remains for the split of a quad into triangles.
+// The allowed error is divided among these errors as in docs/theory/triangles.md, "Shares of the bound". A point of a Coons patch
+// has three errors: of a u curve, of a v curve, and of merged grid lines. The shares below bound the three errors. At least 1 - 2
+// * (curve_share + merge_share) remains for the split of a quad into triangles.
 inline constexpr double curve_share = 0.45, merge_share = 0.01;
 // The errors of a plan's lines reach the share `planned_curve_share` nearly everywhere. With a larger share, too little would
 // remain for the quads, so many quads would be subdivided.
@@ -28,8 +28,8 @@ inline constexpr double bend_share = 0.008;
 // Returns the number of rows that keeps chords within their share of max_error, for arcs with offsets up to `offset`.
 double rows_for(double offset, double max_error);
 
-// Makes one grid for each patch, in the order of the patches, before any image is placed. Keeps each curve within its share of
-// max_error. Fails with RIIS_LIMIT_EXCEEDED if the surface would take more than max_triangles triangles.
+// Makes one grid for each patch, in the order of the patches, before any image is placed. The error of each curve stays within
+// the curve's share of max_error. Fails with RIIS_LIMIT_EXCEEDED if the surface would take more than max_triangles triangles.
 Vector<QuadGrid> make_grids(const PatchSet &set, double max_error);
 // Makes the same grids as make_grids, but keeps each grid's lines, and gives each quad its level. The share of a curve is
 // multiplied by the curve's tightness. An empty `tightness` means 1 for all curves.

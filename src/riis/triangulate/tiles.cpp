@@ -56,8 +56,8 @@ PatchVertices vertices_of(const LevelledGrid &levelled) {
   for_each_quad(grid, [&](std::size_t i, std::size_t j) {
     const int level = *level_of_next++;
     if (level == 0) return;
-    // At one level, all parts of a bilinear quad have the same flatness. Recursive halving would therefore end in equal parts,
-    // which this loop makes directly.
+    // At a given level, all parts of a bilinear quad have the same flatness. Recursive halving would therefore end in equal
+    // parts, which this loop makes directly.
     const int n_parts = 1 << level;
     const double step = 1.0 / n_parts;  // a power of two
     const Quad quad = quad_of(grid, i, j);
@@ -172,7 +172,7 @@ class TileTriangles {
   std::int64_t next_id_ = tile_.first_id;
 };
 
-// Returns the patches that miss triangles (is_missed).
+// Returns the patches with missing triangles (is_missed).
 Vector<std::size_t> vanished_patches(const Vector<Tile> &tiles) {
   Vector<std::size_t> vanished;
   for (const Tile &tile : tiles)
@@ -180,7 +180,7 @@ Vector<std::size_t> vanished_patches(const Vector<Tile> &tiles) {
   return vanished;
 }
 
-// Makes room for n triangles. Old contents may stay in the arrays, because the tiles overwrite them.
+// Makes room for n triangles. The arrays may keep old contents, because the tiles overwrite them.
 void resize_triangles(std::int64_t n, TriangleSet &triangles) {
   resize(triangles.vertex_id, 3 * n);
   resize(triangles.leaflet_id, n);
@@ -210,8 +210,8 @@ void close_gaps(const Vector<Tile> &tiles, TriangleSet &triangles) {
 }  // namespace
 
 bool is_missed(const TriangleSet &set, const LeftOut &triangle) {
-  // A triangle without area is either a point or a segment, which is its longest edge. A triangle that is a point can be dropped
-  // without loss. A triangle that is a segment can be dropped if the segment is the diagonal of a quad whose other half was kept.
+  // A triangle without area is either a point or a segment, its longest edge. A triangle that is a point can be dropped without
+  // loss. A triangle that is a segment can be dropped if the segment is the diagonal of a quad whose other half was kept.
   const Vec3 corner = set.vertex(triangle.corner), a = set.vertex(triangle.a), b = set.vertex(triangle.b);
   const double diagonal = distance(a, b), other = std::max(distance(corner, a), distance(corner, b));
   const bool is_on_diagonal = triangle.other_was_kept && other <= (1 + 1e-9) * diagonal;
@@ -229,8 +229,8 @@ Tiles::Tiles(const PatchSet &set, const Triangulation &how, const Vector<Levelle
       const Seam *seam = seam_of(set, i, k);
       const PatchImage *twin = seam ? &set.patches[seam->patch_of_twin()].images[seam->twin] : nullptr;
       tiles_.push_back({i, &images[k], twin, seam, n_vertices_, room_, n_ids});
-      // At a seam, two equal vertices may be placed with different images. Such vertices then differ by rounding, and their
-      // triangle may need room.
+      // At a seam, two equal vertices may be placed by different images. Vertices placed by different images differ by rounding,
+      // and their triangle may need room.
       room_ += grids[i].n_triangles - (seam ? 0 : grids[i].n_collapsed);
       n_ids += grids[i].n_triangles;
       n_vertices_ += grids[i].n_vertices;

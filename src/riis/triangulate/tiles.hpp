@@ -35,8 +35,8 @@ struct PatchVertices {
   Vector<Vec3> displacements;  // displacements since an earlier state of the same build; empty without such a state
 };
 
-// Two states of a moving valve, if their builds differ. Each tile has its own patch in these sets, and patch and tile have the
-// same number.
+// The two states of a moving valve, if they are built differently. In these sets each tile has its own patch, with the number of
+// the tile.
 struct OwnPatches {
   PatchSet now, before;
 };
@@ -52,7 +52,7 @@ class Tiles {
   // Bounds the distance between the triangles and the smooth surface, in mesh units.
   double error_bound() const;
 
-  // Places the vertices of every tile, and then calls work(i) for tile i. Several threads call work at once.
+  // Places the vertices of all tiles, and then calls work(i) for each tile i. Several threads call work at once.
   template <class Work>
   void place_vertices(const Work &work) {
     make_patch_vertices();
@@ -62,9 +62,9 @@ class Tiles {
     });
   }
 
-  // Makes vertices and triangles, and then calls work(i, first_of_quad) for tile i, as place_vertices does. `first_of_quad` has
-  // the position of each quad's first triangle, and then the end of the last quad's triangles. The ids also count triangles
-  // without area. Returns the patches that miss triangles. If there is no such patch, the triangles are complete.
+  // Makes vertices and triangles, and then calls work(i, first_of_quad) for each tile i, as place_vertices does. `first_of_quad`
+  // has the position of each quad's first triangle, and then the end of the last quad's triangles. The ids also count triangles
+  // without area. Returns the patches with missing triangles. If there is no such patch, the triangles are complete.
   template <class Work>
   Vector<std::size_t> make_triangles(const Work &work) {
     make_room_for_triangles();
@@ -89,11 +89,11 @@ class Tiles {
   std::int64_t n_vertices_ = 0, room_ = 0;
 };
 
-// Returns whether a triangle was left out, and nothing in the set replaces the triangle.
+// Returns whether a triangle was left out that nothing in the set replaces.
 bool is_missed(const TriangleSet &set, const LeftOut &triangle);
 
 // Returns the triangulation's request, with the allowed error reduced by the patches' own deviation. Fails if the remaining error
-// is too small, or if the earlier state has another build.
+// is too small, or if the earlier state is built differently.
 Triangulation checked(const PatchSet &set, const Triangulation &asked);
 
 // Adds the rims of the patches. Also keeps the grids, for the bound of velocity errors and for directions.
@@ -101,7 +101,7 @@ void finish(const PatchSet &set, Vector<LevelledGrid> grids, TriangleSet &triang
 
 [[noreturn]] void fail_for_vanished(const PatchSet &set, std::size_t patch, const char *where);
 
-// Calls attempt(tightness) until it returns no patch that misses triangles. A patch thinner than the tolerance loses its area if
+// Calls attempt(tightness) until it returns no patch with missing triangles. A patch thinner than the tolerance loses its area if
 // both its sides become the same chords. From attempt to attempt, the curves of the returned patches therefore become finer.
 template <class Attempt>
 void with_finer_curves(const PatchSet &set, const char *where, const Attempt &attempt) {

@@ -15,8 +15,8 @@
 
 namespace riis {
 
-// Groups of neighbouring triangles for searches. `order` has the triangles' positions in the set, group by group. `end` gives
-// the end of each group.
+// Groups of neighbouring triangles for searches. `order` has the triangles' positions in the set, group by group. `end` gives,
+// for each group, the position after its last triangle.
 struct Grouping {
   Vector<std::int32_t> order, end;
 };
@@ -97,7 +97,7 @@ class TrianglePositions {
   explicit TrianglePositions(const TriangleSet &set)
       : ids_(view(set.triangle_id)), are_ids_(ids_[ids_.size() - 1] == ids_.size() - 1) {}
 
-  // Returns any number of at least 0 for an id that the set lacks.
+  // For an id that the set lacks, the result is any number of at least 0.
   std::int64_t of(std::int64_t id) const {
     return are_ids_ ? id : std::lower_bound(ids_.begin(), ids_.end(), id) - ids_.begin();
   }

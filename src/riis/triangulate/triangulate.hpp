@@ -25,8 +25,8 @@ struct PatchPlan {
 
   GridLines lines;  // the lines of a Coons patch
 
-  // A patch of arcs has lines in u, and joints of the base with which the lines move. Lines and joints are given at one of the
-  // openings. Between two joints, a line keeps its relative position. Without joints the lines do not move.
+  // A patch of arcs has lines in u, and joints of the base with which the lines move. The lines and joints are those at one of
+  // the openings. Between two joints, a line keeps its relative position. Without joints the lines do not move.
   Vector<double> u, joints;
   Vector<int> n_parts;  // the number of parts between two lines; O is evaluated at their ends
 };
@@ -38,8 +38,8 @@ class CurveNumbering {
   explicit CurveNumbering(const PatchSet &set);
   // Returns whether the patches already use this numbering.
   bool is_of(const PatchSet &set) const;
-  // Returns the patches with this numbering of curves. Lists with an entry for each curve then fit all openings. The patches
-  // must have the same build except for shared curves (check_same_build).
+  // Returns the patches with this numbering of curves. Lists with an entry for each curve then have the same meaning at all
+  // openings. Apart from shared curves, the patches must be built alike (check_same_build).
   PatchSet renumbered(const PatchSet &set) const;
 
  private:
@@ -60,8 +60,8 @@ struct GridPlan {
 GridPlan plan_grids(const Vector<PatchSet> &states, double max_error, double of_curves,
                     const Vector<double> &tightness);
 
-// Makes one grid for each patch on the plan's lines. (The other make_grids chooses its own lines.) The bounds of errors are
-// refined no further than max_error requires.
+// Makes one grid for each patch on the plan's lines. (The other make_grids chooses its own lines.) The function refines the
+// bounds of errors only as far as max_error requires.
 Vector<QuadGrid> make_grids(const PatchSet &set, const GridPlan &plan, double max_error, int n_threads,
                             bool keeps_lines);
 
@@ -79,7 +79,7 @@ struct Connectivity {
   std::vector<std::int32_t> leaflet_id, patch_id;
   Grouping grouping;
   Vector<LeftOut> left_out;
-  // For each image of each patch: the end of its triangles, and whether the previous image has the same triangles.
+  // For each image of each patch: the position after its last triangle, and whether the previous image has the same triangles.
   struct OfImage {
     std::int64_t end;
     bool is_as_before;
@@ -113,7 +113,7 @@ struct Triangulation {
   const EarlierState *earlier = nullptr;  // null without velocities; it never changes the bits of the triangles
 };
 
-// Makes triangles on grids as coarse as the state allows. `memory` is a set whose memory is reused. Fails with
+// Makes triangles on grids as coarse as the state allows. `memory` is a set whose memory the function reuses. Fails with
 // RIIS_LIMIT_EXCEEDED for more than max_triangles, and with RIIS_INVALID_PARAMETER for a patch without area.
 TriangleSet triangulate_adapted(const PatchSet &set, const Triangulation &asked, TriangleSet memory = {});
 // Makes the triangles of a plan. A triangle keeps its id even if other triangles lose their area. Fails as triangulate_adapted

@@ -76,8 +76,7 @@ class QuadGroups {
     const bool along_u = j1 - j0 == 1 || (i1 - i0 > 1 && distance(grid_.point(i0, j), grid_.point(i1, j)) >
                                                              distance(grid_.point(i, j0), grid_.point(i, j1)));
     const auto before = [&](std::size_t cut) { return along_u ? Quads{i0, cut, j0, j1} : Quads{i0, i1, j0, cut}; };
-    // A cut near the middle makes both parts compact. Among the places near the middle, the cut takes the place that gives the
-    // fewest groups.
+    // A cut near the middle makes both parts compact. Near the middle, the cut is made where it gives the fewest groups.
     constexpr std::size_t farthest = 4;
     const std::size_t middle = along_u ? i : j, size = along_u ? i1 - i0 : j1 - j0;
     const auto n_groups = [](std::int64_t n_held) { return (n_held + triangles_per_group - 1) / triangles_per_group; };
@@ -117,7 +116,7 @@ void join(const Vector<Tile> &tiles, const Vector<Vector<std::int32_t>> &ends, G
   joined.order.resize(static_cast<std::size_t>(n));
 }
 
-// Makes the triangles of these grids. Returns the patches that miss triangles.
+// Makes the triangles of these grids. Returns the patches with missing triangles.
 Vector<std::size_t> make_triangles(const PatchSet &set, const Triangulation &how, const Vector<LevelledGrid> &grids,
                                    TriangleSet &triangles) {
   Tiles tiles(set, how, grids, triangles);

@@ -68,7 +68,7 @@ Vector<std::size_t> make_triangles(Tiles &tiles) {
 // Gives a set the triangles of a plan if the set lacks them.
 void take_connectivity(const Connectivity &from, bool flip_normals, TriangleSet &set) {
   const std::uint64_t number = 2 * from.number + (flip_normals ? 1 : 0);
-  // The number alone does not suffice, because a set whose triangles were moved away keeps its number.
+  // The number of the plan alone is not enough, because a set keeps its number after its triangles were given away.
   if (set.connectivity == number && set.triangle_id.size() == from.triangle_id.size()) return;
   set.connectivity = 0;
   set.vertex_id = from.vertex_id;
@@ -82,8 +82,8 @@ void take_connectivity(const Connectivity &from, bool flip_normals, TriangleSet 
   set.connectivity = number;
 }
 
-// Places the vertices of these grids, and gives them the triangles of a plan. Returns false if some triangles are missed, or if
-// the triangles with an area are not those of the plan.
+// Places the vertices of these grids, and gives them the triangles of a plan. Returns false if triangles are missing, or if other
+// triangles have an area than in the plan.
 bool take_planned_triangles(const PatchSet &set, const Triangulation &how, const Vector<LevelledGrid> &grids,
                             const Connectivity &planned, TriangleSet &triangles) {
   Tiles tiles(set, how, grids, triangles);
@@ -184,7 +184,7 @@ bool halve_columns(const PatchSet &set, TriangulationPlan &plan) {
   return are_any;
 }
 
-// Returns the patches that miss triangles at one of the openings.
+// Returns the patches with missing triangles at one of the openings.
 Vector<std::size_t> vanished_anywhere(const Vector<PatchSet> &states, const Triangulation &how,
                                       const TriangulationPlan &plan, TriangleSet &triangles) {
   for (const PatchSet &state : states) {
@@ -211,7 +211,7 @@ bool have_same_triangles(const Tile &a, const Tile &b) {
                                           });
 }
 
-// Makes the triangles of a plan at one of the plan's openings. No triangles may be missed at this opening.
+// Makes the triangles of a plan at one of the plan's openings. At this opening no triangle may be missing.
 Connectivity make_connectivity(const PatchSet &state, const Triangulation &how, const TriangulationPlan &plan,
                                TriangleSet triangles) {
   const Vector<LevelledGrid> grids = make_levelled_grids(state, how, plan);
@@ -241,8 +241,8 @@ TriangulationPlan plan_triangulation(const Vector<PatchSet> &given, double asked
   // The plan uses less than the whole error, because the remainder is for openings between the given openings.
   constexpr double share = 0.95;
   const double planned_error = share * max_error;
-  // A curve that is shared at only one opening has two numbers at other openings. The state with most curves therefore gives the
-  // numbering.
+  // If a curve is shared at only one opening, it has two numbers at other openings. The state with most curves therefore gives
+  // the numbering.
   const PatchSet &widest = *std::max_element(given.begin(), given.end(), [](const PatchSet &a, const PatchSet &b) {
     return a.curves.size() < b.curves.size();
   });

@@ -12,8 +12,8 @@
 namespace riis {
 namespace {
 
-// Positions in the list of specs below. First come parameters of the whole valve, then of each cusp, and last of
-// the open state.
+// The positions in the list of specs below. First come parameters of the whole valve, then of each cusp, and last of the open
+// state.
 // clang-format off
 enum General {
   root_height, root_radius, leaflet_height, bending_height, t3_leaflet, t3_bending, t0_leaflet, t0_bending, xq, zq, opening,
@@ -91,7 +91,7 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
 
 // clang-format off
 ValveKind make_kind() {
-  // The limits of lengths suit a valve in any unit from kilometres to micrometres. The ratios of lengths are checked by
+  // The limits of lengths allow a valve in any unit from kilometres to micrometres. The ratios of lengths are checked by
   // check_together.
   constexpr double shortest = 1e-9, longest = 1e9;
   const char *length = "length", *degree = "degree", *number = "1";
@@ -102,13 +102,15 @@ ValveKind make_kind() {
     {"leaflet_height", length, "height of the free edge above the root", 1, {1.02}, shortest, longest,
      {}, {"effective_height", 1}},
     {"bending_height", length, "height of the bending curve above the root", 1, {0.71}, shortest, longest},
-    {"t3_leaflet", length, "end tangent of the free edge: right, left, non-coronary", 3, {0.5, 0.5, 0.65}, 0, longest},
-    {"t3_bending", length, "end tangent of the bending curve: right, left, non-coronary", 3, {0.55, 0.23, 0.4}, 0, longest},
-    {"t0_leaflet", length, "start tangent of the free edge: right, left, non-coronary", 3, {0.025, 0.1, 0.1}, 0, longest},
-    {"t0_bending", length, "start tangent of the bending curve: right, left, non-coronary", 3, {0.1, 0.1, 0.1}, 0, longest},
+    {"t3_leaflet", length, "length of the free edge's tangent at the commissure, for each cusp", 3, {0.5, 0.5, 0.65}, 0, longest},
+    {"t3_bending", length, "length of the bending curve's tangent at the sinus, for each cusp", 3, {0.55, 0.23, 0.4}, 0, longest},
+    {"t0_leaflet", length, "length of the free edge's tangent at the symmetry plane, for each cusp",
+     3, {0.025, 0.1, 0.1}, 0, longest},
+    {"t0_bending", length, "length of the bending curve's tangent at the symmetry plane, for each cusp",
+     3, {0.1, 0.1, 0.1}, 0, longest},
     {"xq", number, "radial place of the symmetry curve's first inner control point", 1, {-0.2}, -10, 10},
     {"zq", number, "vertical place of the symmetry curve's first inner control point", 1, {-0.2}, -10, 10},
-    opening_spec("from 0 (this state) to 1 (the open state of riis_valve_set_open_state or of the last two parameters)", 0),
+    opening_spec("from 0 (closed) to 1 (open); riis_valve_set_open_state or the last two parameters give the open state", 0),
   }, opening, true, check_values, make_patches, nullptr};
   for (std::size_t cusp = 0; cusp < n_cusps; ++cusp) {
     const std::string of = std::string(cusp_names[cusp]) + ".";
@@ -128,7 +130,7 @@ ValveKind make_kind() {
       {of + "bending_angle", degree, "angle from the symmetry plane to the bending curve's end",
        1, {value[bending_angle]}, 5, 175},
       {of + "bending_power", number, "exponent of the bending curve's profile", 1, {value[bending_power]}, 1, 20},
-      {of + "rotation", degree, "turns of the cusp about x, then y, then z", 3, {0, 0, value[rotation]}, -360, 360,
+      {of + "rotation", degree, "rotation of the cusp about x, then y, then z", 3, {0, 0, value[rotation]}, -360, 360,
        rotation_rules[cusp]},
       {of + "translation", length, "shift of the cusp after its rotation", 3, {0, 0, value[translation]}, -longest, longest},
     });

@@ -47,7 +47,7 @@ constexpr double lift_of_start = 0.3;
 // Next to a commissure, bumps lift a leaflet at most `most_lift_by_commissure` * commissure_length farther than the commissure.
 // A steeper leaflet would go through its neighbour, because leaflets lie close together there.
 constexpr double most_lift_by_commissure = 0.5;
-// A leaflet that is too short moves back in steps until it lacks less than this share of its length.
+// If a leaflet is too short, its end moves back in steps until the leaflet lacks less than this share of its length.
 constexpr int most_steps = 60;
 constexpr double rounding = 1e-12, rounding_of_zone = 1e-6;
 // A leaflet has at least the share `least_ratio` of the annulus. The way from the middle of a leaflet's part of the annulus to
@@ -87,7 +87,7 @@ class Sizes {
     return saddle_annulus({of(width), of(depth), of(flatness), of(saddle_height),
                            n_leaflets_ == 2 ? FlatSide::at_positive_y : FlatSide::at_negative_y});
   }
-  // Returns the starts of the leaflets and the end of the last leaflet, in laps from the middle of the flat side.
+  // Returns where the leaflets start, and where the last leaflet ends, in laps from the middle of the flat side.
   Vector<double> commissures() const {
     const double half = 0.5 * of(flat_ratio);
     if (n_leaflets_ == 2) return {-half, half, 1 - half};
@@ -113,8 +113,8 @@ struct Hinge {
   }
 };
 
-// The annulus and the places of the leaflets. The annulus is stored twice in succession, so that each leaflet has one connected
-// part.
+// The annulus and the places of the leaflets. The annulus is stored twice, one copy after the other, so that each leaflet has one
+// connected part.
 class Annulus {
  public:
   Annulus(const std::array<Bezier, 4> &lap, const Vector<double> &commissures) : laps_(two_laps(lap)) {
@@ -128,7 +128,7 @@ class Annulus {
         leaflets_[leaflet][i] = {where, {point, 1 / hypotenuse(along.x, along.y) * Vec3{-along.y, along.x, 0}}};
       }
     }
-    // Neighbours have the same commissure, even at the end of a lap.
+    // Neighbouring leaflets have the same commissure, even at the end of a lap.
     leaflets_.back()[n_cells].hinge = leaflets_.front()[0].hinge;
   }
 
@@ -189,7 +189,7 @@ AtPlaces<Vec3> on_parts(const std::array<Bezier, n_cells> &parts) {
   return points;
 }
 
-// A moving meridian arrives at the coaptation line in the direction of the zone.
+// While it moves, a meridian arrives at the coaptation line in the direction of the zone.
 Bezier meridian(Vec3 hinge, Vec3 start, double turn, Vec3 on_line, Vec3 on_edge) {
   return Bezier::cubic(hinge, hinge + start, on_line + turn * unit(on_line - on_edge), on_line);
 }
@@ -252,7 +252,7 @@ Leaflet closed_leaflet(const Sizes &sizes, const Annulus &annulus, std::size_t k
     if (sizes.n_leaflets() == 2) return end == 0 ? Vec3{away.y, -away.x, 0} : Vec3{-away.y, away.x, 0};
     return unit(level(end_of_edge(sizes, annulus.hinge(k, end))) - meeting);
   };
-  // The leaflet stays half the gap away from these lines.
+  // The leaflet stays half the gap away from the lines along which leaflets meet.
   const double sine = std::min(length(cross(away, along(0))), length(cross(away, along(n_cells))));
   Vec3 on_line = meeting + 0.5 * sizes.of(gap) / sine * away - Vec3{0, 0, sizes.of(tenting_height)};
   const auto zone_below = [&] { return sizes.length(k) - closed_length(sizes, hinge, on_line); };
@@ -316,7 +316,7 @@ Leaflet open_leaflet(const Sizes &sizes, const Annulus &annulus, std::size_t k, 
 }
 
 // A leaflet first turns about its hinges, and then becomes straight. Lengths therefore change later than angles. If lengths and
-// angles changed at the same pace, neighbouring leaflets would meet.
+// angles changed at the same pace, neighbouring leaflets would touch during the motion.
 double behind(double share) { return share * share; }
 
 // Swings a vector about its hinge from one state to another: blends the two vectors, and gives the result the blended length.
@@ -334,8 +334,8 @@ double middle_length(const Leaflet &leaflet) {
 }
 
 // Returns the leaflet after every place has moved by a share of its way. Each control point swings about its hinge. After the
-// swing, the leaflet is stretched until its middle has the right length. The stretch decreases towards the commissures. Finally,
-// bumps lift the leaflet along z. Seen along z, lifted leaflets are thus as far apart as healthy leaflets.
+// swing, the leaflet is stretched until its middle has the right length. The stretch becomes smaller towards the commissures.
+// Finally, bumps lift the leaflet along z. Seen along z, lifted leaflets are therefore as far apart as healthy leaflets.
 Leaflet moved(const Leaflet &closed, const Leaflet &open, const AtPlaces<double> &shares) {
   Leaflet made = closed;
   for (std::size_t i = 0; i < n_places; ++i) {
@@ -555,22 +555,23 @@ const ValveKind *new_kind(const char *name, KindSizes sizes) {
   const char *length = "length", *degree = "degree", *number = "1";
   const Vector<ParameterSpec> common{
     sizes.width, sizes.depth,
-    {"flatness", number, "outline of the annulus: 0 an ellipse, 1 a D", 1, {1}, 0, 1},
+    {"flatness", number, "shape of the annulus, from 0 (an ellipse) to 1 (the letter D)", 1, {1}, 0, 1},
     {"saddle_height", length, "height of the annulus from its lowest to its highest points",
      1, {sizes.saddle_height}, 0, longest},
     sizes.flat_ratio,
-    {"commissure_length", length, "closed: distance of the free edges' ends from the annulus",
+    {"commissure_length", length, "length of the leaflets at the commissures of the closed valve",
      1, {sizes.commissure_length}, shortest, longest},
-    {"commissure_angle", degree, "closed: angle of the commissures, 0 inwards, 90 straight down", 1, {70}, 20, 90},
+    {"commissure_angle", degree, "direction of the closed commissures: 0 is inwards, 90 is straight down", 1, {70}, 20, 90},
     {"commissure_coaptation", number, "height of the coaptation zone at the commissures, as a multiple of commissure_length",
      1, {0.5}, 0.05, 0.8},
-    {"tenting_height", length, "closed: depth of the coaptation line's middle below the annulus' mean height",
+    {"tenting_height", length, "depth of the closed valve's coaptation below the mean height of the annulus",
      1, {0.4}, 0, longest},
     {"gap", length, "distance between closed leaflets in the middle of the coaptation zone", 1, {0.03}, shortest, longest},
-    {"belly", number, "closed: start tangent of a leaflet, as a multiple of the leaflet's horizontal reach", 1, {0.55}, 0.1, 0.9},
-    {"turn", number, "closed: end tangent of a leaflet above the coaptation line, as a multiple of the leaflet's drop",
+    {"belly", number, "length of a closed leaflet's tangent at the annulus, as a multiple of its horizontal reach",
+     1, {0.55}, 0.1, 0.9},
+    {"turn", number, "length of a closed leaflet's tangent at the coaptation line, as a multiple of its drop",
      1, {0.5}, 0.1, 0.9},
-    {"open_angle", degree, "angle at which open leaflets hang: 0 inwards, 90 straight down", 1, {sizes.open_angle}, 30, 90},
+    {"open_angle", degree, "direction of the open leaflets: 0 is inwards, 90 is straight down", 1, {sizes.open_angle}, 30, 90},
     {"translation", length, "shift of the valve", 3, {0, 0, 0}, -longest, longest},
     opening_spec("0 closed to 1 open", 0),
   };
@@ -606,7 +607,7 @@ std::array<Bezier, 4> saddle_annulus(const SaddleAnnulus &annulus) {
   const double sign = annulus.flat_side == FlatSide::at_positive_y ? 1 : -1, high = 0.5 * annulus.saddle_height;
   const double half = 0.5 * annulus.width, near = (0.5 - 0.12 * annulus.flatness) * annulus.depth,
                far = annulus.depth - near, reach = circle * half, flat_reach = (circle + 0.3 * annulus.flatness) * half;
-  // The outline passes these points counter-clockwise. At each point, the tangent is along x or along y.
+  // The outline passes these points counter-clockwise. At each of these points, the tangent is along x or along y.
   const std::array<Vec3, 4> at{
       {{0, sign * near, high}, {-sign * half, 0, -high}, {0, -sign * far, high}, {sign * half, 0, -high}}};
   const std::array<Vec3, 4> along{{{-sign, 0, 0}, {0, -sign, 0}, {sign, 0, 0}, {0, sign, 0}}};
@@ -628,7 +629,7 @@ const ValveKind &mitral_coapting_valve_kind() {
       {{length_spec("anterior_length", 2.5), length_spec("posterior_length", 1.6)},
        diameter_spec("ALPM_diameter", "width of the annulus, from the anterolateral to the posteromedial side", 3.6),
        diameter_spec("AP_diameter", "depth of the annulus, from the posterior to the anterior point", 2.7),
-       ratio_spec("anterior_ratio", "share of the annulus that the anterior leaflet takes", 0.41),
+       ratio_spec("anterior_ratio", "the anterior leaflet's share of the annulus", 0.41),
        0.6,
        0.8,
        79});
@@ -639,10 +640,10 @@ const ValveKind &tricuspid_valve_kind() {
   static const ValveKind &kind = *new_kind<3, tricuspid_valve_kind>(
       "tricuspid",
       {{length_spec("anterior_length", 2.5), length_spec("septal_length", 2.0), length_spec("posterior_length", 2.3),
-        ratio_spec("anterior_ratio", "share of the annulus that the anterior leaflet takes", 0.36)},
+        ratio_spec("anterior_ratio", "the anterior leaflet's share of the annulus", 0.36)},
        diameter_spec("AP_diameter", "width of the annulus, from the anterior to the posterior point", 3.8),
        diameter_spec("SL_diameter", "depth of the annulus, from the septal to the lateral point", 3.1),
-       ratio_spec("septal_ratio", "share of the annulus that the septal leaflet takes", 0.34),
+       ratio_spec("septal_ratio", "the septal leaflet's share of the annulus", 0.34),
        0.4,
        1.2,
        75});

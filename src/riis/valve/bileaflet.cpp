@@ -17,7 +17,7 @@
 namespace riis {
 namespace {
 
-// Positions in the list of specs below.
+// The positions in the list of specs below.
 enum Parameter { radius, hinge_offset, hinge_height, gap, closed_angle, open_angle, ring_height, opening };
 
 void check_values(const ParameterValues &values);
@@ -26,7 +26,7 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double a
 
 // clang-format off
 ValveKind make_kind() {
-  // The limits of lengths suit a valve in any unit from kilometres to micrometres. The ratios of lengths are checked by
+  // The limits of lengths allow a valve in any unit from kilometres to micrometres. The ratios of lengths are checked by
   // check_values.
   constexpr double shortest = 1e-9, longest = 1e9;
   const char *length = "length", *degree = "degree";
@@ -38,16 +38,16 @@ ValveKind make_kind() {
     {"gap", length, "width of the slit between the closed leaflets", 1, {0}, 0, longest},
     {"closed_angle", degree, "angle of the closed leaflets from the orifice plane", 1, {30}, 0, 80},
     {"open_angle", degree, "angle of the open leaflets from the orifice plane", 1, {85}, 0, 90},
-    {"ring_height", length, "height of the housing's wall, half of it upstream of the orifice plane; 0: no wall",
+    {"ring_height", length, "height of the housing's wall, which the orifice plane halves; 0 means no wall",
      1, {0}, 0, longest},
     opening_spec("from 0 (closed) to 1 (open); the leaflets turn from closed_angle to open_angle", 0),
   }, opening, true, check_values, make_patches, check_states};
   kind.housing = RIIS_LEAFLET_HOUSING;
   kind.absent = {
-    {"stj", "its housing has one radius, and no commissures reach a sinotubular junction"},
-    {"skirt_length", "its ring, which ring_height sets, closes the gap to the wall"},
-    {"effective_height", "only cusps have an effective height; hinge_height and closed_angle say how far the rigid leaflets "
-                         "reach"},
+    {"stj", "its housing has one radius, and it has no commissures at a sinotubular junction"},
+    {"skirt_length", "it has a ring that closes the gap to the wall; ring_height sets the ring"},
+    {"effective_height", "only cusps have an effective height; hinge_height and closed_angle determine the height "
+                         "of rigid leaflets"},
   };
   kind.is_rigid = true;
   return kind;
@@ -122,7 +122,7 @@ class Turn {
   SineCosine closed_, now_;
 };
 
-// Every arc has `n_spans` spans. A quarter of a circle is then accurate to 1e-9 of its radius.
+// Every arc has `n_spans` spans. The distance of a quarter of a circle from the true circle is then at most 1e-9 of its radius.
 constexpr int n_spans = 8;
 
 // Bounds the distance of an arc's spans from the circle, in radii. For a span of the angle a, the distance is 2/27 sin^6(a/4) /

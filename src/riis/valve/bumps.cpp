@@ -23,21 +23,21 @@ std::array<ParameterSpec, n_parameters> specs_of_one(std::size_t n_leaflets) {
   return {{
       {"leaflet", "1", "the leaflet on which the bump is, or -1 for none", 1, {none}, none, last},
       {"commissure", "1", "the commissure at which the bump is, or -1 for none", 1, {none}, none, last},
-      {"u", "1", "place on the leaflet's free edge, from 0 to 1 counter-clockwise seen from +z", 1, {0.5}, 0, 1},
-      {"width", "1", "distance from its place at which the bump ends, as a share of the free edge", 1, {0.4}, 0.2, 10},
-      {"closed", "1", "opening at the place when the valve is closed, from 0 (closed) to 1 (open)", 1, {0}, 0, 1},
-      {"open", "1", "opening at the place when the valve is open, from 0 (closed) to 1 (open)", 1, {1}, 0, 1},
-      {"lift",
-       "length",
-       "height of the place above its healthy position in the closed valve",
+      {"u", "1", "position along the leaflet's free edge, from 0 to 1, counter-clockwise seen from +z", 1, {0.5}, 0, 1},
+      {"width", "1", "half the width of the bump, as a share of the free edge", 1, {0.4}, 0.2, 10},
+      {"closed",
+       "1",
+       "opening of the leaflet at the bump in the closed valve, from 0 (closed) to 1 (open)",
        1,
        {0},
-       -longest,
-       longest},
+       0,
+       1},
+      {"open", "1", "opening of the leaflet at the bump in the open valve, from 0 (closed) to 1 (open)", 1, {1}, 0, 1},
+      {"lift", "length", "how much higher than healthy the bump lies in the closed valve", 1, {0}, -longest, longest},
   }};
 }
 
-// A smooth function that is 1 at the place, and 0 at distances of 1 and more.
+// A smooth function that is 1 at the place of the bump, and 0 at distances of 1 and more.
 double hat(double distance) {
   const double inside = std::max(0.0, 1 - distance * distance);
   return inside * inside;

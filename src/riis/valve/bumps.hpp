@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bumps: disease at one place of a free edge (docs/theory/bumps.md). A bump changes how far the place opens, and nothing else.
-// The parameters of the bumps determine, for each place of the edge, states between the valve's closed and open state.
+// Bumps: disease at one place of a free edge (docs/theory/bumps.md). A bump changes only how far its place opens. The parameters
+// of the bumps determine, for each place of the edge, states between the valve's closed and open state.
 #pragma once
 
 #include <array>
@@ -19,16 +19,16 @@ enum class BumpLift : bool { no, yes };
 // "lift".
 std::size_t add_bump_specs(Vector<ParameterSpec> &specs, std::size_t n_leaflets, BumpLift lift);
 
-// The closed and the open position of a place of a free edge. The two numbers are shares of the way of a healthy place: 0 at its
-// closed position, 1 at its open position. The closed position itself is lifted towards +z by `lift`.
+// The closed and the open position of a place of a free edge. The two numbers are shares of the way of a healthy place: 0 is its
+// closed position, and 1 is its open position. `lift` raises the closed position towards +z.
 struct LocalOpening {
   double closed = 0, open = 1, lift = 0;
 };
 
 class Bumps {
  public:
-  // `first` is the position of the first parameter. Fails with RIIS_INVALID_PARAMETER for a number of a leaflet or commissure
-  // that is not whole, and for a bump with both numbers.
+  // `first` is the position of the first parameter. Fails with RIIS_INVALID_PARAMETER if the number of a leaflet or commissure is
+  // not whole, and if a bump has both numbers.
   Bumps(const ParameterValues &values, std::size_t first, std::size_t n_leaflets, BumpLift lift);
 
   // Returns whether some bump has a place.

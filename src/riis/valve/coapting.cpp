@@ -21,7 +21,7 @@
 namespace riis {
 namespace {
 
-// Positions in the lists of specs below. The parameters of all commissures and then of all cusps follow, and then those of bumps.
+// The positions in the lists of specs below. The parameters of all commissures and then of all cusps follow, then those of bumps.
 // clang-format off
 enum Parameter {
   root_radius, commissure_radius, commissure_height, effective_height, coaptation_height, gap, bottom_angle, belly, edge_rise,
@@ -40,10 +40,10 @@ constexpr double least_height = 0.05;
 constexpr std::array<double, 4> openings_of_folds{0.6, 0.75, 0.9, 1};
 // At the root, the leaflet must rise by at least `least_rise` times the rise of a leaflet without sag.
 constexpr double least_rise = 0.05;
-// If a cusp rises by less than `usual_rise`, its open edge leaves the commissures flatter. The edge leaves the commissures level
-// if the rise is less than `usual_rise` by `rise_until_level` or more.
+// If a cusp rises by less than `usual_rise`, its open edge leaves the commissures at a smaller slope. If the rise is less than
+// `usual_rise` by `rise_until_level` or more, the edge leaves the commissures level.
 constexpr double usual_rise = 0.1, rise_until_level = 0.15;
-// If a cusp needs a flatter edge because it would fold otherwise, the height of this edge above the root must stay at least
+// If a cusp needs a smaller slope because it would fold otherwise, the height of its edge above the root must stay at least
 // `least_height_of_flat` times root_radius. In a lower leaflet, triangles would cross near the attachment.
 constexpr double least_height_of_flat = 0.08;
 // Fused commissures must leave an open orifice of at least `least_orifice` of the area inside the commissures.
@@ -56,7 +56,7 @@ constexpr double rate_step = 1e-4;
 using Rule = std::array<double, 3>;
 Rule commissure_radius_rule(const ParameterValues &values) { return {values[root_radius][0]}; }
 Rule commissure_height_rule(const ParameterValues &values) { return {1.4 * values[commissure_radius][0]}; }
-// The line from the middle of a free edge to the commissure rises by 34 degrees, whose tangent is 0.6745.
+// The line from the middle of a free edge to the commissure has a slope of 34 degrees, whose tangent is 0.6745.
 Rule effective_height_rule(const ParameterValues &values) {
   const double h = values[commissure_height][0];
   return {std::max(h - 0.6745 * values[commissure_radius][0], 0.3 * h)};
@@ -99,15 +99,17 @@ ValveKind make_kind(const char *name, double default_stretch) {
      longest, {"0.3 commissure_radius, at most 0.6 effective_height", coaptation_height_rule}},
     {"gap", length, "distance between closed cusps in the coaptation zone", 1, {0.016 * 1.25}, shortest, longest,
      {"0.016 commissure_radius", gap_rule}},
-    {"bottom_angle", degree, "angle of the closed cusp to the root's plane, at the root", 1, {20}, 0, 80},
-    {"belly", number, "largest start tangent of the closed symmetry curve, as a multiple of root_radius", 1, {0.5}, 0.05, 0.8},
-    {"edge_rise", number, "closed free edge: rise of the control point beside the commissure, as a share of the whole rise",
+    {"bottom_angle", degree, "angle between the closed cusp and the plane of the root, at the root", 1, {20}, 0, 80},
+    {"belly", number, "largest length of a closed cusp's tangent at the root, as a multiple of root_radius", 1, {0.5}, 0.05, 0.8},
+    {"edge_rise", number, "share of the closed free edge's rise that is reached at the control point before the commissure",
      1, {0.3}, 0, 0.9},
-    {"attachment_width", number, "start tangent of the attachment, as a multiple of root_radius", 1, {0.6}, 0.1, 1.2},
-    {"attachment_drop", number, "end tangent of the attachment, as a multiple of commissure_height", 1, {0.5}, 0.1, 0.9},
-    {"open_radius_ratio", number, "open state: radius of the free edge at the symmetry plane, as a multiple of commissure_radius",
+    {"attachment_width", number, "length of the attachment's tangent at the root, as a multiple of root_radius",
+     1, {0.6}, 0.1, 1.2},
+    {"attachment_drop", number, "length of the attachment's tangent at a commissure, as a multiple of commissure_height",
+     1, {0.5}, 0.1, 0.9},
+    {"open_radius_ratio", number, "radius of the open free edge at the symmetry plane, as a multiple of commissure_radius",
      1, {0.85}, 0.3, 1.1},
-    {"commissure_expansion", number, "open state: how far the commissures move outwards, as a multiple of commissure_radius",
+    {"commissure_expansion", number, "how far the commissures move outwards during opening, as a multiple of commissure_radius",
      1, {0.05}, 0, 0.3},
     {"translation", length, "shift of the valve", 3, {0, 0, 0}, -longest, longest},
     opening_spec("0 closed to 1 open", 0),
@@ -115,12 +117,12 @@ ValveKind make_kind(const char *name, double default_stretch) {
   kind.has_exact_contacts = true;
   kind.is_seen_along_z = true;
   Vector<ParameterSpec> &specs = kind.parameters;
-  specs.push_back({"edge_stretch", number, "open state: how much longer the free edge is than in the closed state", 1,
+  specs.push_back({"edge_stretch", number, "how much longer the free edge is in the open than in the closed state", 1,
                    {default_stretch}, 0, 0.2});
   for (std::size_t k = 0; k < n_cusps; ++k) {
     const std::string owner = "commissure_" + std::to_string(k) + ".";
     add_own(specs, owner, "height", commissure_height);
-    specs.push_back({owner + "fusion", number, "share of the meeting line over which the two cusps are fused", 1, {0}, 0, 0.6});
+    specs.push_back({owner + "fusion", number, "share of the two cusps' meeting line that is fused", 1, {0}, 0, 0.6});
   }
   for (std::size_t k = 0; k < n_cusps; ++k) {
     const std::string owner = "cusp_" + std::to_string(k) + ".";
@@ -131,7 +133,7 @@ ValveKind make_kind(const char *name, double default_stretch) {
     add_own(specs, owner, "open_radius_ratio", open_radius_ratio);
   }
   if (n_cusps == 2)
-    specs.push_back({"meeting_shift", number, "x of the middle of the closed meeting line, as a multiple of commissure_radius",
+    specs.push_back({"meeting_shift", number, "x of the point where closed cusps meet, as a multiple of commissure_radius",
                      1, {0}, -0.5, 0.5});
   add_bump_specs(specs, n_cusps, BumpLift::no);
   return kind;
@@ -258,7 +260,7 @@ double least_rise_of(const Vector<Vector<HalfCusp>> &halves) {
   return least;
 }
 
-// The least rise at the root at the openings at which cusps fold, without the openings at which the edge hangs too low.
+// The least rise at the root, over the openings at which cusps fold. Openings at which the edge hangs too low do not count.
 struct RiseOnWay {
   double least = std::numeric_limits<double>::infinity();
   bool hangs_too_low = false;  // at one of these openings

@@ -13,14 +13,14 @@ namespace riis {
 namespace {
 
 // The coaptation line is turned in `n_crease_steps` steps until no crease is left. Each step computes the crease at the ends of
-// `n_crease_spans` spans. The stiffness is the weight of the line's displacement against the crease. With these values the
-// largest crease of random valves is below one degree.
+// `n_crease_spans` parts. The stiffness is the weight of the line's displacement in comparison with the crease. With these values
+// the largest crease of random valves is below one degree.
 constexpr int n_crease_steps = 2;
 constexpr std::size_t n_crease_spans = 8;
 constexpr double crease_stiffness = 0.03;
 
-// A fused part of at least `turned_from` of the edge is wide enough for a line that arrives at the coaptation line without a
-// crease.
+// If a fused part has at least `turned_from` of the edge, it is wide enough for a line that arrives at the coaptation line
+// without a crease.
 constexpr double turned_from = 0.3;
 
 // Along the coaptation line K, the derivative of the lower patch by v is T = K - c + (1 - u) Y + u A, with the chord c of K. Y
@@ -83,7 +83,7 @@ Bezier first_coaptation_line(const Bezier &free_edge, Vec3 middle, const EndTang
 
 // Moves the inner control points of the coaptation line, so that the two patches that meet at this line have a common tangent
 // plane. The crease is the sine of the angle between two planes: the plane of K' and T, and the plane of K' and F - K. The sine
-// is computed at the ends of spans of K. A step linearizes the determinant of K', T and F - K. Patches pair points of K and F at
+// is computed at the ends of parts of K. A step linearizes the determinant of K', T and F - K. Patches pair points of K and F at
 // equal shares u of the lengths of both curves.
 Bezier smoothed(Bezier line, const Bezier &free_edge, const EndTangents &tangents) {
   const double edge_length = arc_length(free_edge), chord = distance(line.first(), line.last());
@@ -128,8 +128,8 @@ Bezier moved(Bezier curve, Vec3 by) {
 }
 
 // Returns the curve between the free and the fused part below the coaptation line. The curve is a mixture of the symmetry curve
-// and the attachment. The curve arrives in the direction of the zone's edge S, so that the leaflet has no crease at the end. The
-// curve turns less in a narrower fused part: a larger turn would lead out of this part and across the attachment.
+// and the attachment. The curve arrives in the direction of the zone's edge S, so that the leaflet has no crease at the end. In a
+// narrower fused part the curve turns less, because a larger turn would lead out of this part and across the attachment.
 Bezier parting_curve(const HalfCusp &half, const Bezier &attachment, double share, const Bezier &S) {
   const Vec3 first = half.symmetry_below.first(), last = S.first();
   const Vec3 off = last - mix(half.symmetry_below.last(), attachment.last(), share);
@@ -142,9 +142,9 @@ Bezier parting_curve(const HalfCusp &half, const Bezier &attachment, double shar
   return Bezier::cubic(first, mixed(1), mix(mixed(2), without_crease, std::min(1.0, (1 - share) / turned_from)), last);
 }
 
-// Gives the part its attachment. One cubic would leave the cylinder in a wide cusp. In a wide cusp, an arc therefore leads from
-// the symmetry plane to a second piece. The second piece starts at the height of the single cubic's middle. The two pieces have
-// the same direction where they meet.
+// Gives the part its attachment. In a wide cusp, a single cubic would leave the cylinder. An arc therefore leads from the
+// symmetry plane to a second piece. The second piece starts at the height of the single cubic's middle. The two pieces have the
+// same direction where they meet.
 void put_attachment(const HalfNumbers &numbers, const Bezier &one_piece, HalfCusp &part) {
   const Vec3 top = one_piece.last();
   part.sinus_below = one_piece;

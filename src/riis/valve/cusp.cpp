@@ -27,8 +27,8 @@ Bezier profile_curve(const CuspProfile &profile, double height) {
                        last);
 }
 
-// Splits the curve at t. Replaces the common point by `point`, which must be on the curve up to rounding. At this point, the
-// curve therefore has the same bits as the ends of other curves.
+// Splits the curve at t. Replaces the common point of two curves by `point`, which must be on the curve up to rounding. At this
+// point, the curve therefore has the same bits as the ends of other curves.
 std::pair<Bezier, Bezier> split_through(const Bezier &curve, double t, Vec3 point) {
   auto [below, above] = split(curve, t);
   view(below.control)[below.degree] = point;
@@ -70,7 +70,7 @@ SymmetrySides add_middle(PatchSet &set, const MovingHalf &half) {
           add(set, part.symmetry_below, rate.symmetry_below), add(set, part.symmetry_above, rate.symmetry_above)};
 }
 
-// Adds the patches of all parts. The first part begins at `middle`. The last part ends at `commissure`, or at a side of its own.
+// Adds the patches of all parts. The first part begins at `middle`. The last part ends at `commissure`, or at its own side.
 // `images` makes the images of the lower patch (0) or of the upper patch (1) of the part with a number.
 template <class Images>
 void add_parts(PatchSet &set, const MovingHalf &half, const SymmetrySides &middle,
@@ -108,13 +108,13 @@ MovingHalf turned(const MovingHalf &half, const PatchImage &image) {
   return {turn_all(half.parts), turn_all(half.rates)};
 }
 
-// Gives a half the middle of the other half. Before this, the middles of the two halves differ by rounding only.
+// Gives a half the middle of the other half, which differs from its own middle only by rounding.
 void begin_at(HalfCusp &half, const HalfCusp &other) {
   half.leaflet.control[0] = other.leaflet.first();
   half.bending.control[0] = other.bending.first();
 }
 
-// Moves the ends of the curves at the commissure to this point. The ends differ from the point by rounding only.
+// Moves the ends of the curves at the commissure to this point. The ends differ from this point only by rounding.
 void end_at(HalfCusp &half, Vec3 commissure) {
   for (Bezier HalfCusp::*curve : {&HalfCusp::leaflet, &HalfCusp::bending, &HalfCusp::sinus_below})
     view((half.*curve).control)[(half.*curve).degree] = commissure;
@@ -125,14 +125,14 @@ void end_at(HalfCusp &half, Vec3 commissure) {
 std::array<ParameterSpec, 2> cusp_opening_specs(const CuspOpening &defaults) {
   return {{{"open_radius_ratio",
             "1",
-            "open state: radius of the free edge at the symmetry plane, as a multiple of root_radius",
+            "radius of the open free edge at the symmetry plane, as a multiple of root_radius",
             1,
             {defaults.radius_ratio},
             0.05,
             1.5},
            {"commissure_expansion",
             "1",
-            "open state: how far the commissures move outwards, as a multiple of leaflet_radius_out",
+            "how far the commissures move outwards during opening, as a multiple of leaflet_radius_out",
             1,
             {defaults.expansion},
             0,

@@ -49,7 +49,7 @@ HalfCusp rate(const HalfCusp &closed, const HalfCusp &open, double apart = 1);
 
 // Refuses curves that extend far away. Values within their ranges can together make such curves: for example a high power with a
 // long tangent, or a bending curve near the root. `state` and `cusp` begin the message, for example "" and "the right cusp".
-// `also` is the end of the message's list of parameters.
+// `also` ends the list of parameters in the message.
 void check_reach(const HalfCusp &half, const CuspShape &shape, const char *state, const char *cusp, const char *also);
 
 // The position of a cusp. The cusp is turned and then shifted. The id of its leaflet also numbers its patches.
@@ -65,9 +65,10 @@ struct MovingHalf {
   Vector<HalfCusp> parts, rates;
 };
 
-// Adds the lower and the upper patch of each part. At each place, all patches get images for both halves of the cusp, with
-// y >= 0 first. The upper patch of the last part becomes the last patch of the set. The side v1 of this last patch is the free
-// edge, which ends at the commissure, u = 1. The ids of patches of a second part follow the ids of the first parts at all places.
+// Adds the lower and the upper patch of each part. At each place of a cusp, all patches get images for both halves of the cusp,
+// with y >= 0 first. The upper patch of the last part becomes the last patch of the set. The side v1 of this last patch is the
+// free edge, which ends at the commissure (u = 1). If there are second parts, the ids of their patches follow the ids of the
+// first parts of all cusps.
 void add_cusps(PatchSet &set, const MovingHalf &half, const Vector<CuspPlace> &places);
 inline std::size_t top_patch(const PatchSet &set) { return set.patches.size() - 1; }
 

@@ -16,11 +16,11 @@ namespace {
 
 // An edge that would be too short for open_radius_ratio opens until `used_of_edge` of its length is used, without sag.
 constexpr double used_of_edge = 0.97;
-// The open edge leaves the commissure as an arc of a circle does, if it reaches `round_from` of the arc's height.
+// The open edge leaves the commissure like an arc of a circle, if it reaches `round_from` of the arc's height.
 constexpr double round_from = 0.7;
-// The edges of three equal cusps are always round. The edge of another cusp is less round, the more the cosine of its half sector
-// differs from the cosine of 60 degrees. If the cosines differ by `not_of_three` or more, the sector does not make the edge
-// round.
+// The edges of three equal cusps are always round. The edge of another cusp is the less round, the more the cosine of its half
+// sector differs from the cosine of 60 degrees. If the cosines differ by `not_of_three` or more, the sector does not make the
+// edge round.
 constexpr double not_of_three = 0.22;
 // If a cusp has a sector of more than `most_of_one_piece` degrees, its attachment has two pieces, because one cubic would leave
 // the cylinder.
@@ -55,8 +55,8 @@ HalfNumbers blend(const HalfNumbers &a, const HalfNumbers &b, double opening) {
           a.fused};
 }
 
-// Mixes the places of two states, with a share for each control point of the free edge. The middle's share holds for all numbers
-// of the symmetry plane, and the commissure has its own share. `made` keeps its other numbers.
+// Mixes the places of two states, with a share for each control point of the free edge. The share of the middle applies to all
+// numbers of the symmetry plane, and the commissure has a separate share. `made` keeps its other numbers.
 void mix_places(const HalfNumbers &closed, const HalfNumbers &open, const std::array<double, 4> &shares,
                 HalfNumbers &made) {
   for (auto list : {&HalfNumbers::edge_x, &HalfNumbers::edge_y, &HalfNumbers::sag})
@@ -140,8 +140,8 @@ HalfNumbers closed_half(const CuspSizes &sizes, const CuspSizes::Side &side) {
 }
 
 // Returns the numbers of the closed half with the free edge of the open half. Seen along the axis, the edge is round like an arc
-// of a circle. An edge that is too short for an arc leaves the commissure straighter, the less it opens. A fused edge is shorter
-// than the arc, and its straight direction leads to the inner control point at the middle.
+// of a circle. If an edge is too short for an arc, it leaves the commissure the straighter, the less it opens. A fused edge is
+// shorter than the arc, and its straight direction leads to the inner control point at the middle.
 HalfNumbers with_open_edge(const CuspSizes &sizes, const CuspSizes::Side &side, const HalfNumbers &closed,
                            double ratio) {
   const HalfSector &sector = sizes.sector;
@@ -220,7 +220,7 @@ CuspNumbers open_cusp(const CuspSizes &sizes) {
 }  // namespace
 
 HalfSector half_sector(double sector_degrees) {
-  // Three equal cusps take this rounded root as the sine of 60 degrees.
+  // For three equal cusps, this root has the same rounding as the sine of 60 degrees.
   const double sine_60 = std::sqrt(0.75), on_cylinder_60 = tangent_on_cylinder(sine_60, 0.5);
   if (sector_degrees == 120) return {sine_60, 0.5, 4.0 / 3.0 * (2 - std::sqrt(3.0)), 1, std::nullopt};
   const auto [sine, cosine] = sine_cosine_degrees(sector_degrees / 2);
@@ -269,8 +269,8 @@ EdgeLength::Value EdgeLength::at(double depth) const {
 }
 
 // The length of the free edge is a growing and convex function of its depth. Newton's method starts at a depth that is too large.
-// Newton's method therefore descends to the solution and never passes it. A half is at least as long as the line between its
-// ends. At the starting depth, the line of one half alone has the whole length, so this depth is large enough.
+// Newton's method therefore descends to the solution and never passes it. Half an edge is at least as long as the straight line
+// between its ends. At the starting depth, the line of one half alone has the whole length, so this depth is large enough.
 double edge_depth(const CuspNumbers &cusp) {
   Vector<EdgeLength> halves(cusp.begin(), cusp.end());
   const double wanted = total_length(cusp), first_top = cusp.front().edge_top;

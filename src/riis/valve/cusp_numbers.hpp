@@ -34,7 +34,7 @@ inline constexpr double least_sector = 50, most_sector = 240;
 // Half of a cusp's sector: the angle theta from its symmetry plane to a commissure.
 struct HalfSector {
   double sine, cosine;
-  // In a cubic that approximates an arc of theta, the distance of the inner control points from the ends, in radii.
+  // The distance of the inner control points from the ends, in radii, of a cubic that approximates an arc of theta.
   double arc_reach;
   double attachment_factor;  // factor of the attachment's start tangent, which keeps its middle on the cylinder
   std::optional<AttachmentArc> arc;
@@ -50,8 +50,8 @@ struct CuspSizes {
   double root_radius, commissure_radius, effective_height, coaptation_height, gap, bottom_angle, belly, edge_rise;
   double attachment_width, attachment_drop, open_radius_ratio, commissure_expansion, edge_stretch;
   double meeting;  // x of the point in which the planes between closed neighbours meet
-  // True for one of three equal cusps. Equal cusps open to open_radius_ratio, however round and long their edge is. The edges of
-  // other cusps open as far as their length allows.
+  // True for one of three equal cusps. Equal cusps open to open_radius_ratio, whatever the shape and length of their edge. The
+  // edges of other cusps open as far as their length allows.
   bool keeps_ratio;
   struct Side {
     double commissure_height, fusion;

@@ -26,7 +26,7 @@ double polygon_length(const Bezier &span) {
   return sum;
 }
 
-// Tells whether a point is so near to the box of the control points that the span may be within reach.
+// Tells whether a point is so near to the box of the control points that the span may be within reach of it.
 bool is_near_box(const Bezier &span, Vec3 p, double reach) {
   for (double Vec3::*axis : {&Vec3::x, &Vec3::y, &Vec3::z}) {
     double least = span.first().*axis, most = least;

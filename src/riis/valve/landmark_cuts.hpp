@@ -17,7 +17,7 @@ namespace riis {
 // The places are found at rest, so they do not depend on the warp's targets or on the opening.
 class LandmarkCuts {
  public:
-  // Adds the landmarks of a map that lie on the curves of this state. All states must have the same build.
+  // Adds the landmarks of a map that lie on the curves of this state. All states must be built alike.
   void add(const PatchSet &state, const WarpMap &map);
 
   // Returns the places on a side of a patch, ascending along the side's curve. Patches are numbered as they are after a warp. The
@@ -28,8 +28,8 @@ class LandmarkCuts {
   Vector<Vector<PointOnSpan>> on_sides_;
 };
 
-// Returns the cuts of each copy. Two patches may share a curve in one state only, so each side has cuts of its own. A copy of a
-// curve has the cuts of all sides that use the copy.
+// Returns the cuts of each copy. Two patches may share a curve in one state only, so each side has separate cuts. A copy of a
+// curve has the cuts of all sides that use this copy.
 Vector<Vector<PointOnSpan>> cuts_by_copy(Unfolding &unfolding, const LandmarkCuts &cuts);
 
 // Returns the spans, or their rates, with each cut span replaced by its parts.

@@ -32,12 +32,12 @@ ValveKind make_kind() {
   constexpr double shortest = 1e-9, longest = 1e9;
   const char *length = "length", *degree = "degree", *number = "1";
   ValveKind kind{"mitral", {
-    {"anterior_ratio", number, "share of the annulus that the anterior leaflet and its triangles take", 1, {0.41}, 0.05, 0.95},
+    {"anterior_ratio", number, "share of the annulus that the anterior leaflet and its triangles have", 1, {0.41}, 0.05, 0.95},
     {"AP_diameter", length, "depth of the annulus, from the posterior to the anterior point", 1, {3.0}, shortest, longest},
     {"ALPM_diameter", length, "largest width of the annulus", 1, {4.0}, shortest, longest},
-    {"ALPM_position_ratio", number, "where the annulus is widest: 0 at the posterior point, 1 at the anterior",
+    {"ALPM_position_ratio", number, "position of the annulus' widest part, from 0 (posterior point) to 1 (anterior point)",
      1, {0.55}, 0.05, 0.95},
-    {"IT_distance", length, "distance between the trigones: width of the indent", 1, {2.5}, shortest, longest},
+    {"IT_distance", length, "distance between the trigones, which is the width of the indent", 1, {2.5}, shortest, longest},
     {"indent_depth", length, "depth of the indent of the annulus at the anterior point", 1, {0.5}, 0, longest},
     {"anterior_horn_height", length, "height of the anterior point when closed", 1, {0.8}, -longest, longest},
     {"posterior_horn_height", length, "height of the posterior point when closed", 1, {0.6}, -longest, longest},
@@ -47,18 +47,18 @@ ValveKind make_kind() {
     {"posterior_scallop_length1", length, "length of the two side scallops when open", 1, {1.35}, shortest, longest},
     {"posterior_scallop_length2", length, "length of the middle scallop when open", 1, {1.35}, shortest, longest},
     {"leaflet_arc_angle", degree, "angle of the arc that the free edges follow", 1, {120}, 1, 300},
-    {"leaflet_inward_angle", degree, "angle at which open leaflets hang: 0 inwards, 90 straight down", 1, {75}, 0, 180},
+    {"leaflet_inward_angle", degree, "direction of the open leaflets: 0 is inwards, 90 is straight down", 1, {75}, 0, 180},
     {"surface_angle", degree,
-     "angle between a leaflet and the straight line from annulus to free edge, at either end; bulges outwards", 1, {20}, -80, 80},
-    {"triangle_size_ratio", number, "share of the annulus that each commissure's triangle takes", 1, {0.1}, 0.001, 0.45},
+     "angle by which a leaflet bulges outwards at its ends, from the line between annulus and free edge", 1, {20}, -80, 80},
+    {"triangle_size_ratio", number, "share of the annulus that each commissure's triangle has", 1, {0.1}, 0.001, 0.45},
     opening_spec("0 closed to 1 open", 1),
     {"translation", length, "shift of the valve", 3, {0, 0, 1}, -longest, longest},
   }, opening_, true, check_values, make_patches, nullptr};
   kind.absent = {
     {"annulus", "its annulus is not round; set AP_diameter and ALPM_diameter"},
     {"stj", "it has no sinotubular junction"},
-    {"effective_height", "only cusps have an effective height; anterior_length and posterior_scallop_length1 and 2 say how far "
-                         "the leaflets reach"},
+    {"effective_height", "only cusps have an effective height; anterior_length and posterior_scallop_length1 and 2 determine "
+                         "the leaflets' height"},
   };
   return kind;
 }
@@ -87,8 +87,8 @@ std::array<Bezier, 3> half_annulus(const ParameterValues &values, bool flat) {
                              flat ? 0 : value(posterior_horn_height)});
 }
 
-// The annulus, from which the leaflets hang. A(u) is its point, and N(u) is the tangent there, turned inwards by 90 degrees in
-// the plane z = 0.
+// The annulus, from which the leaflets hang. A(u) is a point of the annulus. N(u) is the tangent there, turned inwards by 90
+// degrees in the plane z = 0.
 class Annulus {
  public:
   explicit Annulus(const std::array<Bezier, 3> &half) : half_({half.begin(), half.end()}) {}
@@ -230,8 +230,8 @@ class Patches {
         is_closed ? anterior_middle : set_.add(up_to_symmetry_plane(half.middle_scallop, 0.5)).curve;
     const Side commissure = set_.add(Bezier::point(side_edge.first()));
 
-    // u runs along the annulus. Beside the triangle, the annulus is divided between the spans of the anterior edge in
-    // proportion to their lengths.
+    // u runs along the annulus. Beside the triangle, the spans of the anterior edge share the annulus in proportion to their
+    // lengths.
     const double u_pm = half.u_commissure, u_triangle = u_pm + half.triangle_width;
     const double side_length = arc_length(side_edge), middle_length = arc_length(middle_edge);
     const double u_anterior_cleft = u_triangle + side_length / (side_length + middle_length) * (0.5 - u_triangle);
@@ -264,7 +264,7 @@ class Patches {
   void begin_at(double u, Vec3 on_edge) { last_arc_ = arc(u, on_edge); }
 
   // Patches run clockwise, and down from the anterior point. S_u x S_v therefore points into the ventricle, downstream. The minus
-  // sign is there because O points along (edge - annulus) x (the annulus' counter-clockwise direction).
+  // sign is needed because O points along (edge - annulus) x (the annulus' counter-clockwise direction).
   void add_patch(Side edge, double to_u, Vec3 on_edge, std::int32_t leaflet_id, std::int32_t patch_id,
                  std::int32_t mirrored_patch_id) {
     const Arc from = last_arc_, to = arc(to_u, on_edge);

@@ -20,8 +20,9 @@ enum class Mirror { none, in_x, in_y };
 
 inline constexpr std::size_t no_patch = static_cast<std::size_t>(-1);
 
-// The placement of a patch. The patch may first be mirrored; after that it is turned and moved. All images of a patch come from
-// the same operations on the same points. A patch and its mirror image therefore meet in the mirror's plane to the last bit.
+// The placement of a patch. The patch may first be mirrored. After mirroring, the patch is turned and moved. All images of a
+// patch come from the same operations on the same points. A patch and its mirror image therefore meet in the mirror's plane to
+// the last bit.
 struct PatchImage {
   Mirror mirror;
   Rotation rotation;
@@ -107,7 +108,7 @@ struct MaterialPoints {
   std::array<Vec3, n_material> point;    // of the warped curve
   std::array<double, n_material> share;  // of the warped curve's length up to that point
 
-  // Returns the points in the order of the reversed curve, which has this many spans.
+  // Returns the points in the order of the reversed curve, which has n_spans spans.
   MaterialPoints reversed(std::size_t n_spans) const {
     MaterialPoints made{};
     for (std::size_t k = 0; k < n_material; ++k) {
@@ -134,9 +135,9 @@ struct AttachedEnd {
   std::size_t patch;
   bool is_last;
 };
-// Two ends of attached sides that are neighbours but are not joined, because they belong to different leaflets. Around the axis
-// of the attachment, one side ends where the next side begins. In some valves a skirt is turned at such ends only after a warp.
-// Such valves store the angles, in radians, by which the skirt would be turned at both ends before the warp.
+// Two ends of attached sides that are neighbours but are not joined, because they belong to different leaflets. In the order
+// around the axis of the attachment, one side ends where the next side begins. In some valves a skirt is turned at such ends only
+// after a warp. Such valves store the angles, in radians, by which the skirt would be turned at both ends before the warp.
 struct NeighbourEnds {
   AttachedEnd before, after;
   std::optional<std::array<double, 2>> turns_at_rest = {};
@@ -155,7 +156,7 @@ struct PatchSet {
   // circles.
   double deviation = 0;
   // The derivatives of the spans' control points with respect to the opening, or nothing if the valve does not blend control
-  // points. The list has entries for the first curves. The curves of a skirt come later and have no entry.
+  // points. The list of derivatives has entries for the first curves. The curves of a skirt come later and have no entry.
   Vector<Vector<Bezier>> rates = {};
   // Only warped patches have this list. Each curve has an entry, except the lines between the sides of a skirt. These lines need
   // no entry, because equal shares of their lengths stand for the same points.
@@ -179,7 +180,7 @@ inline Curve along(const PatchSet &set, const Side &side) {
   return side.reversed ? set.curve_of(side).reversed() : set.curve_of(side);
 }
 
-// Returns the offset O (geometry/bulge.hpp) on a side that is itself an arc. The two patches at the side thus get the same bits.
+// Returns the offset O (geometry/bulge.hpp) on a side that is itself an arc. Both patches at such a side thus get the same bits.
 inline Vec3 arc_offset(const PatchSet &set, const Side &side) { return arc_offset(set.curve_of(side).spans().front()); }
 
 }  // namespace riis

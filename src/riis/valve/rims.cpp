@@ -23,8 +23,8 @@ int attached_side(const Patch &patch) {
   return patch.attached == AttachedSide::v0 ? rim_v0 : rim_u1;
 }
 
-// Returns whether both images put the curve at the same position. The positions are the same if the placed control points are
-// equal to the last bit.
+// Returns whether both images put the curve at the same place. The positions are the same if the placed control points are equal
+// to the last bit.
 bool coincide(const Curve &curve, const PatchImage &a, const PatchImage &b) {
   for (const Bezier &span : curve.spans())
     for (int i = 0; i <= span.degree; ++i) {

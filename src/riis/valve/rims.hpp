@@ -18,8 +18,8 @@ enum PatchRim : std::uint8_t { rim_v0 = 1, rim_v1 = 2, rim_u0 = 4, rim_u1 = 8, f
 // Returns, for each patch_id, the sides on the rim. Two patches share a side if both have the same curve there and their images
 // put this curve at the same position. A side in the mirror's plane is shared by a patch and its own mirror image. A patch shares
 // a side with itself if two of its sides are the same curve. Images also share the sides at which they are sewn together (Seam).
-// Patches may also meet inside a side, as along the bending curve. The vertices there do not change the rim, so a T-junction does
-// not count as rim.
+// Patches may also meet inside a side, as along the bending curve. Such vertices do not change the rim, so a T-junction does not
+// count as rim.
 Vector<std::uint8_t> rim_sides(const PatchSet &set);
 
 // From the u and v of a vertex, returns the sides of the patch on which the vertex lies. A vertex on a side has exactly the

@@ -15,14 +15,14 @@
 namespace riis {
 namespace {
 
-// A skirt of one length has `n_even_parts` parts on each side of a patch. The outer edge is then accurate to a thousandth of the
-// length (tests/surface/test_skirt.c).
+// A skirt of one length has `n_even_parts` parts on each side of a patch. The outer edge then has an error of at most a
+// thousandth of the length (tests/surface/test_skirt.c).
 constexpr std::size_t n_even_parts = 8;
 // Two ends of cusps that are not joined are neighbours if their distance is at most `most_between_ends` times the longest side.
 constexpr double most_between_ends = 0.5;
 // The line through two neighbouring ends has an angle to the outward direction. If the angle's sine is in this range, the skirts
-// lead along the line. The sine is positive if the ends have passed each other. Outside of the range, the skirts use a sine that
-// falls back to 0.
+// lead along the line. The sine is positive if the ends have passed each other. Outside of this range, the skirts use a sine that
+// decreases to 0.
 constexpr double most_apart_in_line = -0.5, most_past_in_line = 0.98;
 // The sine that is used also falls to 0 if the sine of the line's angle to the axis is below `least_sine_to_axis`.
 constexpr double least_sine_to_axis = 0.2;
@@ -45,7 +45,7 @@ Vec3 without_placement(const PatchImage &image, Vec3 p) {
           turned.z};
 }
 
-// A point of a curve, and the curve's step there to the next point.
+// A point of a curve, and the step from there to the next point of the curve.
 struct Step {
   Vec3 at, by;
 };
@@ -86,7 +86,7 @@ AxisLine placed(const AxisLine &axis, const PatchImage &image) {
 bool are_equal(const AxisLine &a, const AxisLine &b) { return a.centre == b.centre && a.direction == b.direction; }
 
 // Returns the line to which the map takes an axis. `steps` has points of the attachment around the axis. The map warps a disc
-// about the axis, whose height and radius are the points' mean height and mean radius. The middle and the vector area of the
+// about the axis. The height and the radius of the disc are the means over these points. The middle and the vector area of the
 // warped disc give the line.
 AxisLine warped_axis(const AxisLine &axis, const Vector<Step> &steps, const BlendedWarp &warp) {
   double whole = 0, height = 0, radius = 0;
@@ -113,7 +113,7 @@ AxisLine warped_axis(const AxisLine &axis, const Vector<Step> &steps, const Blen
   return {centre, size > 0 ? (1 / size) * area : Vec3{0, 0, 0}};
 }
 
-// Returns the line through the centroid of the attachment. The line of a vertical axis is vertical, and each other line leads
+// Returns the line through the centroid of the attachment. If the axis is vertical, the line is vertical, otherwise it leads
 // along the attachment's vector area. The direction has length 0 if the attachment encloses no area, and otherwise length 1.
 AxisLine axis_of_attachment(const PatchSet &set, const Vector<HeldSide> &sides, SkirtAxis axis) {
   const Vector<Step> steps = steps_of_attachment(set, sides);
@@ -142,7 +142,7 @@ class SkirtMaker {
       for (const PatchImage &image : patch.images) n_ids_ = std::max(n_ids_, image.patch_id + 1);
   }
 
-  // Adds the strip along a side for these images of its patch. `lengths` has the lengths at evenly spaced shares.
+  // Adds the strip along a side of a patch, for these images of the patch. `lengths` has the lengths at evenly spaced shares.
   void add(std::size_t side, std::size_t first_image, std::size_t n_images, const Vector<double> &lengths) {
     const HeldSide &held = sides_[side];
     const Patch parent = set_.patches[held.patch];
@@ -235,7 +235,7 @@ class SkirtMaker {
     return Curve(std::move(spans));
   }
 
-  // Returns the material points of the outer side. The outer points lie outwards from the inner side's points.
+  // Returns the material points of the outer side. The points of the outer side lie outwards from those of the inner side.
   MaterialPoints material_of_outer(const Curve &inner, const Side &side, const Curve &outer) const {
     const MaterialPoints &given = *set_.material[side.curve];
     const MaterialPoints points = side.reversed ? given.reversed(inner.spans().size()) : given;
@@ -288,7 +288,7 @@ double angle_about(const AxisLine &axis, Vec3 from, Vec3 to) {
 }
 
 // Returns the angles by which the skirts at two neighbouring ends turn from the outward directions of their own axes, if both
-// lead along direction_between.
+// skirts lead along direction_between.
 std::array<double, 2> turns_between(const AxisLine &axis_before, const SideEnd &before, const AxisLine &axis_after,
                                     const SideEnd &after) {
   const Vec3 direction = direction_between(between(axis_before, axis_after), before, after);
@@ -362,7 +362,7 @@ Vector<NeighbourEnds> neighbour_ends(const PatchSet &set, bool wants_turns) {
 
 Vec3 direction_between(const AxisLine &axis, const SideEnd &before, const SideEnd &after) {
   // Seen along `rise`, one side leaves its end to the left, and the other side leaves its end to the right. The planes of the
-  // skirts' ends contain `rise`.
+  // skirts' ends contain the vector `rise`.
   const auto lean = [&](Vec3 tangent) {
     const double up = dot(tangent, axis.direction);
     return (up / std::max(least_rise * least_rise, up * up)) * (tangent - up * axis.direction);

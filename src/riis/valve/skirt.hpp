@@ -14,7 +14,7 @@
 
 namespace riis {
 
-// The line from which a skirt leads away. The direction is perpendicular to this line.
+// The line from which a skirt leads away. The direction of a skirt is perpendicular to its line.
 enum class SkirtAxis : std::uint8_t {
   none,      // the kind of valve has no skirt
   of_cusp,   // the z axis before a patch's image is placed, which is the root's axis
@@ -29,7 +29,7 @@ void aim_skirt(PatchSet &set, SkirtAxis axis);
 // does.
 void aim_warped_skirt(PatchSet &set, const PatchSet &at_rest, const BlendedWarp &warp);
 
-// A side at which a patch is attached. No other patch has this side.
+// A side at which a patch is attached. No other patch has the attached side.
 struct HeldSide {
   std::size_t patch;
   Side side;
@@ -43,8 +43,8 @@ using SkirtLengths = Vector<Vector<double>>;
 inline constexpr std::size_t n_skirt_parts = 32;  // parts of each side with such lengths
 
 // Returns the attached ends of different leaflets that are neighbours but not joined, such as two aortic cusps at a commissure.
-// Patches are numbered as after a warp, where each image is a patch of its own. With `wants_turns`, the ends also get their turns
-// before the warp. The patches must then have their axes.
+// Patches are numbered as after a warp, where each image is a patch of its own. With `wants_turns`, the ends also get the turns
+// that they have before the warp. Before the call, the patches must have their axes.
 Vector<NeighbourEnds> neighbour_ends(const PatchSet &set, bool wants_turns);
 
 // An end of a side, with the unit tangent there, which may point either way along the side.
@@ -53,8 +53,8 @@ struct SideEnd {
 };
 
 // Returns the direction in which the skirts at two neighbouring ends lead. Two parallel planes contain these ends of the skirts,
-// and each skirt is on its own side of the planes. The planes lean as the two sides do on average. The direction depends
-// continuously on the points and the tangents.
+// and each skirt is on its own side of the planes. The inclination of the planes is the mean inclination of the two sides. The
+// direction depends continuously on the points and the tangents.
 Vec3 direction_between(const AxisLine &axis, const SideEnd &before, const SideEnd &after);
 
 // The direction in which a skirt leads away from its attachment. A skirt leads outwards from the axis, except near neighbouring
@@ -82,8 +82,8 @@ class SkirtDirections {
 double attachment_radius(const PatchSet &set, const Vector<HeldSide> &sides);
 // The least and the largest length of a skirt, as multiples of attachment_radius.
 inline constexpr double least_skirt = 1e-4, most_skirt = 10;
-// The least length of a skirt to a wall, as a multiple of attachment_radius. The vertices of the outer edge are at even shares of
-// the edge's length, and thus not exactly beside the attachment's vertices. A thinner strip along a round attachment would go
+// The least length of a skirt to a wall, as a multiple of attachment_radius. The vertices of the outer edge are evenly spaced
+// along its length, and thus not exactly beside the attachment's vertices. A thinner strip along a round attachment would go
 // through itself.
 inline constexpr double least_skirt_to_wall = 0.01;
 
@@ -91,10 +91,10 @@ inline constexpr double least_skirt_to_wall = 0.01;
 // axis.
 Vec3 outwards(const AxisLine &axis, Vec3 point);
 
-// Adds the patches of a skirt. If `lengths` is empty, the length is `length`. The patches continue the leaflets outwards. The
-// patches of a skirt have the leaflet_id skirt_leaflet. Their patch_id is the patch_id of the leaflet's patch plus the number of
-// the leaflets' patch ids. Fails with RIIS_INVALID_PARAMETER for an attachment without an outward direction, and for a length
-// that does not fit the attachment.
+// Adds the patches of a skirt. If `lengths` is empty, the length is `length` everywhere. The patches continue the leaflets
+// outwards. The patches of a skirt have the leaflet_id skirt_leaflet. Their patch_id is the patch_id of the leaflet's patch plus
+// the number of the leaflets' patch ids. Fails with RIIS_INVALID_PARAMETER for an attachment without an outward direction, and
+// for a length that does not fit the attachment.
 void add_skirt(PatchSet &set, double length, const SkirtLengths &lengths);
 
 // Returns the leaflet_id that a skirt of these patches has.

@@ -22,7 +22,7 @@ enum Parameter {
 // Half the angle of a cusp in degrees, from its symmetry plane to the end of its free edge.
 constexpr double half_angle = 60;
 
-// The rules for sizes that the caller did not set. If other sizes change without these sizes, the cusps cross
+// The rules for sizes that the caller did not set. If other sizes change while these sizes stay, the cusps cross
 // (docs/theory/trileaflet.md).
 using Rule = std::array<double, 3>;
 Rule bending_height_rule(const ParameterValues &values) { return {0.5 * values[leaflet_height][0]}; }

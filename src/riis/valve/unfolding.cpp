@@ -100,7 +100,7 @@ Patch Unfolding::unfolded(std::size_t number, std::size_t which) {
   return made;
 }
 
-// Gives a patch the points of its twin at the seam. The patch's own points differ from the twin's points by rounding only.
+// Gives a patch the points of its twin at the seam. The patch's own points differ from the twin's points only by rounding.
 void Unfolding::sew(const Patch &patch, const Patch &twin, SeamPlace place) {
   const Vec3 corner = end_of(twin.v1, true);
   end_of(patch.v1, true) = corner;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Patches whose images are patches of their own, because a warp has no symmetry (docs/theory/warp.md, "Warped valves"). This file
-// makes the copies of curves that patches with one image each need.
+// makes the copies of curves that are needed if each patch has one image.
 #pragma once
 
 #include <cstddef>

@@ -128,8 +128,8 @@ void check_states(const ValveState &valve, const ValveState &other, const char *
          " patches, the valve ", from.curves.size(), " and ", from.patches.size(),
          ": both must have as many curves and patches");
   for (std::size_t i = 0; i < from.curves.size(); ++i) {
-    // The degree of a straight line counts as 2, because lines are stored as quadratics. A line may therefore become a quadratic
-    // in the other state.
+    // The degree of a straight line counts as 2, because lines are stored as quadratics. In the other state, a line may therefore
+    // be a quadratic.
     const int degree = from.curves[i].spans().front().degree, other_degree = to.curves[i].spans().front().degree;
     if (degree != other_degree)
       fail(RIIS_INVALID_PARAMETER, "curve ", i, " is cubic in ", other_degree == 3 ? name : "the valve",
@@ -171,7 +171,7 @@ namespace {
 ValveKind make_kind() {
   ValveKind kind{
       "patches",
-      {opening_spec("from 0 (this state) to 1 (the open state); it stays 0 without riis_valve_set_open_state", 0)},
+      {opening_spec("from 0 (this state) to 1 (the open state); it must be 0 without riis_valve_set_open_state", 0)},
       0,
       false,
       nullptr,

@@ -27,8 +27,7 @@ struct PatchArrays {
   std::vector<double> control, bulge;
 };
 
-// Every image becomes a patch of its own. In patches that point upstream u runs the other way, so that S_u x S_v points
-// downstream.
+// Every image becomes a separate patch. If a patch points upstream, its u is reversed, so that S_u x S_v points downstream.
 PatchArrays arrays_of(const PatchSet &set);
 // Returns pointers to the arrays, which are valid as long as the arrays.
 riis_valve_patches view_of(const PatchArrays &arrays);

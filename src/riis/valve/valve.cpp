@@ -77,8 +77,8 @@ Naming naming(const ParameterSpec &spec, std::string_view name) {
 }
 
 // Calls action(position, naming) for all parameters that a name means. A parameter's whole name means only this parameter.
-// Another name means the parameter of each leaflet. The function allocates nothing, because a solver sets the opening in each
-// time step.
+// Any other name of a parameter means the parameter of each leaflet. The function allocates nothing, because a solver sets the
+// opening in each time step.
 template <class Action>
 void for_each_meant(const ValveKind &kind, std::string_view name, const Action &action) {
   const auto &specs = kind.parameters;
@@ -106,7 +106,8 @@ void check_range(const ParameterSpec &spec, std::string_view name, double factor
          factor * spec.minimum, " to ", factor * spec.maximum);
 }
 
-// Checks values that follow from rules. A rule may give a value out of range if its own inputs are near the ends of their ranges.
+// Checks values that follow from rules. A rule may give a value out of range if the sizes on which it depends are near the ends
+// of their ranges.
 void check_derived(const ValveKind &kind, const ValveState &state) {
   for (std::size_t i = 0; i < kind.parameters.size(); ++i) {
     const ParameterSpec &spec = kind.parameters[i];
@@ -258,8 +259,8 @@ void Valve::set_warp(const WarpMap *closed, const WarpMap *open) {
     warp_.reset();
     return;
   }
-  // The copies are complete before they replace the old maps, because assignment member by member could fail half way. The copies
-  // use the memory of maps that the valve had earlier.
+  // The copies are complete before they replace the old maps, because assigning one member after another could fail half way. The
+  // copies use the memory of maps that the valve had earlier.
   Warp made{*closed, {}, warp_ ? warp_->known : nullptr};
   if (open) made.open = *open;
   warp_ = std::move(made);
@@ -492,7 +493,7 @@ ValveKind with_skirt(ValveKind kind, SkirtAxis axis) {
   kind.skirt_length = kind.parameters.size();
   kind.parameters.push_back({"skirt_length",
                              "length",
-                             "length of the skirt that leads outwards from the attachment to the wall; 0: no skirt",
+                             "length of a skirt, a strip from the leaflets to the wall; 0 means no skirt",
                              1,
                              {0},
                              0,

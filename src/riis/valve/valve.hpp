@@ -77,15 +77,15 @@ struct ValveKind {
   // Makes the patches at an opening from 0, the closed state, to 1, the open state. Both states have been checked. The two states
   // are the same object if the valve was given no open state.
   PatchSet (*make_patches)(const ValveState &closed, const ValveState &open, double opening);
-  // Refuses another state whose curves or patches are not built like the valve's. The message calls that state by `name`, such
-  // as "the open state". NULL if all states of the kind are built alike.
+  // Refuses another state whose curves or patches are not built like the valve's. The message calls the other state by `name`,
+  // such as "the open state". NULL if all states of the kind are built alike.
   void (*check_states)(const ValveState &valve, const ValveState &other, const char *name);
   // True if leaflets meet only at common vertices of their triangles, such as at commissures. In valves without this property,
-  // leaflets may touch anywhere. Their triangles may then go through each other by as much as the triangles' error.
+  // leaflets may touch anywhere. Their triangles may then penetrate each other by as much as the triangles' error.
   bool has_exact_contacts = false;
   // True if the orifice is seen along the valve's z axis. Otherwise the orifice is seen along the vector area of the edges that
-  // are farthest from its middle. The vector area would be oblique for different cusps whose open edges reach beyond the
-  // attachment.
+  // are farthest from its middle. If cusps differ and their open edges reach beyond the attachment, the vector area would be
+  // oblique.
   bool is_seen_along_z = false;
   // The leaflet_id of a wall that hinges reach into, or -1.
   std::int32_t housing = -1;
@@ -173,8 +173,8 @@ class Valve {
   // Makes the patches of `before`, an earlier state of this valve. `before` must be of the same kind and build. `known` has the
   // patches of that state if they have been made already, or is null.
   PatchSet make_patches_before(const Valve &before, const PatchSet *known) const;
-  // Returns a number that every change of the valve changes, and that copies take over. Valves with the same number have the same
-  // patches, to the last bit. The number is not 0.
+  // Returns a number that every change of the valve changes. Copies have the same number. Valves with the same number have the
+  // same patches, to the last bit. The number is not 0.
   std::uint64_t revision() const { return revision_; }
   // Fails if this valve cannot be a state of a valve of the given kind, with or without a warp.
   void check_is_state_of(const ValveKind &kind, bool is_warped, const StateNames &names) const;
@@ -245,7 +245,7 @@ Bezier rate(const Bezier &closed, const Bezier &open);
 // Returns the spec of the opening. Every kind has this parameter.
 ParameterSpec opening_spec(const char *description, double default_value);
 
-// A value with which other values are compared. The message is, for example, "leaflet_height is 30; it must be from 0.05 to 10
+// A size with which other values are compared. The message is, for example, "leaflet_height is 30; it must be from 0.05 to 10
 // times root_radius, which is 1.29".
 struct Reference {
   const char *name;

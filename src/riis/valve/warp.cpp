@@ -16,7 +16,7 @@ namespace {
 
 // Sources count as planar if their rms distance from their mean plane is below `thinnest_share` of their largest rms extent.
 constexpr double thinnest_share = 0.05;
-// Sources also count as planar if noise would change the stretch across the plane by more than `largest_stretch_error`.
+// Sources also count as planar if the noise would change the stretch across the plane by more than `largest_stretch_error`.
 constexpr double largest_stretch_error = 0.1;
 // The share of the noise that the residuals should have. The share is below 1, because the map follows a part of the noise. The
 // attachments of random patients were met best with shares from 0.5 to 0.7 (docs/theory/warp.md, "Equations").
@@ -148,7 +148,7 @@ WarpLandmarks::WarpLandmarks(const Vector<Vec3> &sources, double noise, const ch
       fail(RIIS_INVALID_ARGUMENT, name, ": landmarks ", std::min(i, nearest), " and ", std::max(i, nearest),
            " are in one place, (", sources_[i].x, ", ", sources_[i].y, ", ", sources_[i].z, ")");
     nearest_to.push_back(nearest);
-    // If each of two landmarks is the other's nearest landmark, the place between them is taken once.
+    // If two landmarks are each other's nearest landmarks, the place between them is taken only once.
     if (nearest > i || nearest_to[nearest] != i)
       probes_.push_back({0.5 * (sources_[i] + sources_[nearest]), static_cast<std::int64_t>(i)});
   }
@@ -291,8 +291,8 @@ double WarpLandmarks::solve(double lambda) {
 }
 
 // Returns the lambda at which the sum of squares of all residuals is a given share of its expected value. The noise gives the
-// expected value, 3 noise^2 for each free landmark. The sum grows with lambda, so there is at most one such lambda. Returns
-// infinity if even the affine map has a smaller sum.
+// expected value, 3 noise^2 for each free landmark. The sum of squares grows with lambda, so at most one lambda gives the
+// expected value. Returns infinity if even the affine map has a smaller sum.
 double WarpLandmarks::smoothing_for_noise() {
   const double noise = noise_ / size_, wanted = residual_share * 3 * noise * noise * static_cast<double>(n_free_);
   if (wanted == 0) return 0;
@@ -348,7 +348,7 @@ void WarpLandmarks::fit(const Vector<Vec3> &targets, WarpMap &map, WarpQuality &
     for (std::size_t i = 0; i < n; ++i) displacement_[i] = displacement_[i] - dot(axis_[2], scaled_[i]) * terms[3];
   }
   for (std::size_t k = 0; k < n_free_; ++k) {
-    // Computes two sums at once, which hides the time that an addition takes.
+    // Computes two sums at the same time, which hides the time that an addition takes.
     const double *column = basis_.data() + k * n;
     Vec3 even{0, 0, 0}, odd{0, 0, 0};
     std::size_t i = 0;

@@ -112,7 +112,8 @@ class WarpLandmarks {
   Vector<double> least_squares_;      // (n_terms_, n): gives the polynomial nearest to values
   Vector<double> of_kernel_;          // (n_terms_, n): the same for values of sums of |r|^3, by their weights
   Vector<double> diagonal_, beside_;  // diagonals of the tridiagonal matrix U^T |r|^3 U
-  // The places half way from each landmark to the nearest other landmark. A map that folds between landmarks changes most there.
+  // The places half way from each landmark to the nearest other landmark. If a map folds between landmarks, it changes most at
+  // these places.
   struct Probe {
     Vec3 place;
     std::int64_t landmark;
@@ -127,7 +128,7 @@ class WarpLandmarks {
 // become patches with one image each.
 
 // Returns the patches with every image as a patch of its own. The patches keep their order and their labels u and v. Patches that
-// met still share their curves. Patches that already have one image each keep the numbers of their curves.
+// met before still share their curves. Patches that already have one image each keep the numbers of their curves.
 PatchSet without_images(const PatchSet &set);
 
 // Returns the same patches with warped curves. Curves are cut at landmarks first. Each warped part has the warped ends and the

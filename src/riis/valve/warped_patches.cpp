@@ -25,10 +25,10 @@ constexpr double least_factor = 0.2, most_factor = 5, most_of_missing = 0.5;
 // A patch is searched for folds on a grid of `n_fold_cells` by `n_fold_cells` cells.
 constexpr std::size_t n_fold_cells = 3;
 // A cell is a sliver if the sine of the angle between its diagonals is below `sliver_sine`. A sliver is hardly wider than a line,
-// so it faces no clear direction. Half-open coapting leaflets have slivers beside the attachment. The chords of a curve in a
-// sliver do not show the direction of the surface. In 20,000 states of valves with rough warps, cells with a sine up to 0.067
-// turned over although no triangle did. Where triangles but no wider cells turned over, the triangles had at most 0.6 mm^2. One
-// cell of the default valve has the sine 0.041 at the opening 0.9.
+// so it has no clear normal. Half-open coapting leaflets have slivers beside the attachment. The chords of a curve in a sliver do
+// not show the direction of the surface. In 20,000 states of valves with rough warps, cells with a sine up to 0.067 turned over
+// although no triangle did. Where triangles but no wider cells turned over, the triangles had at most 0.6 mm^2. One cell of the
+// default valve has the sine 0.041 at the opening 0.9.
 constexpr double sliver_sine = 0.07;
 
 Bezier raised_to_cubic(const Bezier &span) {
@@ -99,7 +99,7 @@ Bezier warped_span(const Bezier &given, const MapAt &first, const MapAt &last, c
 }
 
 // Returns the cubic through the rates of the warped points at 0, 1/3, 2/3 and 1. The map's derivative is known at the ends, and
-// is taken as linear between them. Rates only decide where a curve needs further vertices.
+// is taken as linear between them. Rates only decide where a curve needs more vertices.
 Bezier warped_rate(const Bezier &curve, const Bezier &rate, const MapAt &first, const MapAt &last,
                    const BlendedWarp &warp) {
   if (rate.is_point() && rate.control[0] == Vec3{0, 0, 0} && !warp.changes_with_opening()) return rate;
@@ -113,7 +113,7 @@ Bezier warped_rate(const Bezier &curve, const Bezier &rate, const MapAt &first, 
                        (1.0 / 6) * (18 * q[2] - 5 * q[3] - 9 * q[1] + 2 * q[0]), q[3]);
 }
 
-// The map at ends of curves. Several curves end in one place, so the last places are remembered.
+// The map at ends of curves. Several curves end at the same place, so the last places are remembered.
 class MapAtEnds {
  public:
   explicit MapAtEnds(const BlendedWarp &warp) : warp_(warp) {}
@@ -291,7 +291,7 @@ class LabelGrid {
 // Points of a mapped patch on the same grid.
 using MappedGrid = std::array<Vec3, (n_fold_cells + 1) * (n_fold_cells + 1)>;
 
-// The normal of a cell, with twice the cell's area as its length, and whether the cell is too narrow for a meaningful normal.
+// The normal of a cell, whose length is twice the cell's area, and whether the cell is too narrow for a meaningful normal.
 struct CellNormal {
   // `at` gives the points of the grid. The cell begins at point (i, j).
   template <class At>

@@ -58,7 +58,7 @@ std::string lower_case(std::string_view text);
 // Removes the first line from the text, and returns this line without its line feed.
 std::string_view take_line(std::string_view &text);
 
-// Removes the first word from the text, and the blanks before the word. Returns the word, or "" if there is none.
+// Removes the first word from the text, and the blanks before the word. Returns the removed word, or "" if there is none.
 std::string_view take_word(std::string_view &text);
 
 // Reads the whole text as a number. Returns false if the text is not a number of the type.
@@ -84,7 +84,7 @@ void for_each_element(const std::string &path, const CaughtOutput &caught, const
 std::string ending_of(const std::string &path);
 
 // Returns the size of the file. Fails if the path is not a regular and readable file, or if the file is empty. VTK's own messages
-// would not give the reason.
+// would not give the reason of the failure.
 std::int64_t check_readable(const std::string &path);
 
 // The bytes of a file, which can be read while this object lives.

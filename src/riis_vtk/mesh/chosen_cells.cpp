@@ -201,7 +201,7 @@ extern "C" {
 RIIS_API riis_status riis_vtk_mesh_choose_cells(riis_vtk_mesh *mesh, const char *where, int64_t *n_chosen) {
   return guarded([&](const CaughtOutput &) {
     require(mesh, "mesh");
-    if (mesh->centers) refuse_argument("mesh already has its nodes at the centres of cells");
+    if (mesh->centers) refuse_argument("the nodes of mesh are already the centres of cells");
     choose_cells(*mesh, parsed(require(where, "where")), n_chosen);
   });
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: the faces of a wall. Out: the flat ends of this wall, such as an inlet.
+// The inputs are the faces of a wall. The results are the flat ends of this wall, such as an inlet.
 #pragma once
 
 #include <cstdint>

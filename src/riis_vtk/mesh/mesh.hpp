@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The mesh handle contains a grid.
-// In: a grid whose cells have been checked. Out: the edges of the mesh's cells, the typical length of these edges, and the linear
-// volume cells. The volume cells are plain arrays for riis_adjacency_create_from_cells.
+// The input is a grid whose cells have been checked. The results are the edges of the mesh's cells, the typical length of these
+// edges, and the linear volume cells. The volume cells are plain arrays for riis_adjacency_create_from_cells.
 #pragma once
 
 #include <riis/riis_vtk.h>

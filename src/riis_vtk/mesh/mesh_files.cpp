@@ -418,7 +418,7 @@ RIIS_API riis_status riis_vtk_mesh_copy_cells(const riis_vtk_mesh *mesh, int64_t
                                               uint8_t *types, int64_t n_node_ids, int64_t *node_ids) {
   return guarded([&](const CaughtOutput &) {
     require(mesh, "mesh");
-    if (mesh->centers) refuse_argument("mesh has centres of cells as nodes, and centres have no cells");
+    if (mesh->centers) refuse_argument("the nodes of mesh are centres of cells, which have no cells themselves");
     vtkUnstructuredGrid *const grid = mesh->grid();
     const int64_t n_all = grid->GetNumberOfCells();
     if (n_cells != n_all) refuse_argument("n_cells is ", n_cells, "; the mesh has ", n_all, " cells");
@@ -455,7 +455,7 @@ RIIS_API riis_status riis_vtk_mesh_write(const riis_vtk_mesh *mesh, const char *
     require(path, "path");
     naming(path, [&] {
       if (is_foam_time(path) && !mesh->whole_cell_ids.empty())
-        refuse_argument("mesh has only a part of the cells, and fields of OpenFOAM are of all cells");
+        refuse_argument("mesh has only a part of the cells, but fields of OpenFOAM need all cells");
       if (is_foam_time(path))
         write_foam_fields(path, *mesh);
       else if (ending_of(path) == "xdmf")

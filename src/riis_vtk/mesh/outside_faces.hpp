@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a grid, and the cells that are wanted. Out: polydata with the faces that belong to exactly one wanted cell.
+// The inputs are a grid, and the cells that are wanted. The result is polydata with the faces that belong to exactly one wanted
+// cell.
 #pragma once
 
 #include <vtkSmartPointer.h>

@@ -41,7 +41,7 @@ vtkSmartPointer<vtkRenderer> two_sided_renderer();
 vtkSmartPointer<vtkActor> actor_of(vtkPolyData *data);
 
 // Returns an actor for faces. The cell scalars of `faces` give the colours of the faces, three bytes for each cell. The actor has
-// points of its own.
+// its own copy of the points.
 vtkSmartPointer<vtkActor> coloured_actor_of(vtkPolyData *faces);
 
 // Returns the faces with normals at their corners. With normals at the corners, smooth edges between faces become invisible, but

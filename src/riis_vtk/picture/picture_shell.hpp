@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: the faces of a wall. Out: a translucent shell with lighting, which is open at the wall's flat ends. Lines show its rims.
+// The inputs are the faces of a wall. The result is a translucent shell with lighting, which is open at the wall's flat ends.
+// Lines show its rims.
 #pragma once
 
 #include <vtkSmartPointer.h>
@@ -20,8 +21,8 @@ class Shell {
   // `line` is the colour of the rims, and `pixels` is their width.
   Shell(vtkPolyData *faces, double grey, const Colour &line, double pixels);
   void add_to(vtkRenderer *renderer) const;
-  // Turns the shell to a view. The shell is more opaque where it is seen at a grazing angle. If the shell extends beyond the
-  // panel, it is cut at the panel's side.
+  // Turns the shell around the valve to a view. The shell is more opaque where it is seen at a grazing angle. If the shell
+  // extends beyond the panel, it is cut at the panel's side.
   void look(const View &view, const Sight &sight);
 
  private:

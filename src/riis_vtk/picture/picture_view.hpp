@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The view of a picture.
-// In: the direction of view, and the extents of the surface and the mesh. Out: the visible part of space, which the camera, the
-// cut and the scale bar use. If the mesh extends beyond the panel, planes cut the mesh, and dashed lines show the cuts.
+// The inputs are the direction of view, and the extents of the surface and the mesh. The result is the visible part of space,
+// which the camera, the cut and the scale bar use. If the mesh extends beyond the panel, planes cut the mesh, and dashed lines
+// show the cuts.
 #pragma once
 
 #include <array>

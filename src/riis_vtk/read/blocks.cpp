@@ -28,7 +28,7 @@
 namespace riis::vtk {
 namespace {
 
-// A block, and the ids of its nodes in the joined mesh.
+// A block of a mesh, and the ids of the block's nodes in the joined mesh.
 struct Block {
   vtkSmartPointer<vtkUnstructuredGrid> grid;
   std::vector<vtkIdType> new_id;
@@ -270,7 +270,7 @@ vtkSmartPointer<vtkUnstructuredGrid> read_exodus(const std::string &path, const 
 
 vtkSmartPointer<vtkUnstructuredGrid> read_exodus(const std::string &path, const CaughtOutput &) {
   check_readable(path);
-  fail_file(path, "is an Exodus file, and this riis was built without VTK's IOExodus");
+  fail_file(path, "is an Exodus file, but this riis was built without VTK's IOExodus");
 }
 
 #endif

@@ -423,9 +423,9 @@ class GmshFile {
     further_[k][element] = group;
   }
 
-  // In version 2, an element with several physical groups is listed once for each group, each time with another number. The first
-  // of the equal elements is kept. Returns the number of the elements that are left out. Equal elements within one group are all
-  // kept.
+  // In version 2, an element with several physical groups is listed once for each group, each time with another number. The
+  // reader keeps the first of an element's copies. Returns the number of the elements that are left out. Equal elements within
+  // one group are all kept.
   std::int64_t drop_copies() {
     const bool are_grouped =
         std::any_of(physical_.begin(), physical_.end(), [&](std::int32_t group) { return group != physical_[0]; });

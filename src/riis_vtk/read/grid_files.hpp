@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a path. Out: a VTK data set that is as large as the file states, and whose cells refer only to existing points. After many
-// errors, VTK continues and returns an incomplete data set. The functions of this header refuse an incomplete file. The scans
-// below find most errors before VTK reads the file.
+// The input is a path. The result is a VTK data set that is as large as the file states, and whose cells refer only to existing
+// points. After many errors, VTK continues and returns an incomplete data set. The functions of this header refuse an incomplete
+// file. The scans below find most errors before VTK reads the file.
 #pragma once
 
 #include <array>
@@ -68,9 +68,9 @@ bool is_structured_legacy(const std::string &path);
 // `wanted_type` is the type attribute of the file, such as "PolyData".
 void check_xml(const std::string &path, const std::string &wanted_type);
 
-// In: a VTK XML file, and VTK's tree of the file's elements. Out: an error if the file states more data than it contains. VTK
-// believes every stated number of points, cells, values, bytes and blocks. VTK allocates memory for all this data before it
-// reads.
+// The inputs are a VTK XML file, and VTK's tree of the file's elements. The result is an error if the file states more data than
+// it contains. VTK believes every stated number of points, cells, values, bytes and blocks. VTK allocates memory for all this
+// data before it reads.
 class XmlSizes {
  public:
   explicit XmlSizes(const std::string &path);

@@ -49,7 +49,7 @@ bool is_number(std::string_view word, const std::string &type) {
     return error == std::errc() && std::isfinite(value) &&
            (type == "double" || std::isfinite(static_cast<float>(value)));
   }
-  // In text files, VTK writes and reads a byte as a number of 32 bits. Therefore a number above 255 is no fault.
+  // In text files, VTK writes and reads a byte as a number of 32 bits. Therefore a number above 255 is no fault of a byte.
   const bool is_unsigned = type.rfind("unsigned", 0) == 0 || type == "vtktypeuint64";
   const int n_bits = type == "short" || type == "unsigned_short" ? 16 : size_of_type(type) == 8 ? 64 : 32;
   if (is_unsigned && size_of_type(type) > 1) {

@@ -615,7 +615,7 @@ vtkSmartPointer<vtkUnstructuredGrid> read_openfoam(const std::string &path) {
   } else if (const std::vector<fs::path> parts = parts_of(root); !parts.empty()) {
     is_single = read_parts(path, parts, mesh);
   } else if (has_collated_parts(root)) {
-    fail_file(path, "has its parts in one folder; reconstructParMesh -constant joins them");
+    fail_file(path, "has all its parts in one folder; the program reconstructParMesh -constant joins the parts");
   } else if (fs::exists(root / "md.idx")) {
     fail_file(path, "is a folder of ADIOS2, which is not read");
   } else {

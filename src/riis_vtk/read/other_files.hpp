@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads meshes and surfaces in formats of other programs.
-// In: a path. Out: a grid with points in double precision. The cells of the grid have VTK's types and VTK's order of nodes.
-// read_grid checks the cells again. A stated count is believed only if the file has enough bytes for the counted items.
+// The input is a path. The result is a grid with points in double precision. The cells of the grid have VTK's types and VTK's
+// order of nodes. read_grid checks the cells again. A stated count is believed only if the file has enough bytes for the counted
+// items.
 #pragma once
 
 #include <array>
@@ -115,8 +116,9 @@ class Source {
   std::string_view bytes_, rest_;
 };
 
-// In: the bytes of an XML file. Out: its elements. For XDMF and .vtm files it suffices to know the elements: names, attributes,
-// and the text before an element's first child. Declarations and comments are skipped. A document type is ignored.
+// The inputs are the bytes of an XML file, and the results are its elements. For XDMF and .vtm files it suffices to know the
+// elements: names, attributes, and the text before an element's first child. Declarations and comments are skipped. A document
+// type is ignored.
 struct XmlElement {
   std::string name;
   std::map<std::string, std::string> attributes;

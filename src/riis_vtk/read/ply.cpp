@@ -234,7 +234,7 @@ class PlyFile {
   void expect_end_of_line() const {
     if (in_.is_binary) return;
     std::string_view rest = in_.rest(), line = take_line(rest);
-    if (!take_word(line).empty()) in_.refuse("a line has more or fewer numbers than its element states");
+    if (!take_word(line).empty()) in_.refuse("a line has more or fewer numbers than the header states");
   }
 
   const std::string &path_;

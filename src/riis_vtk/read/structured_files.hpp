@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a .vti, .vtr or .vts file, or a legacy file with a structured grid. Out: axes and arrays, or an unstructured grid if the
-// nodes do not lie on ascending axes.
+// The input is a .vti, .vtr or .vts file, or a legacy file with a structured grid. The results are axes and arrays, or an
+// unstructured grid if the nodes do not lie on ascending axes.
 #pragma once
 
 #include <array>

@@ -152,7 +152,7 @@ class WatchedReader : public Reader {
 };
 
 // Explains why a file could not be read. When VTK 9.1 writes its message about an unreadable array, it crashes. The first reader
-// therefore ran without messages. The second reader skips the arrays, so it can report all other faults.
+// therefore ran without messages of VTK. The second reader skips arrays, so it can report all other faults.
 template <class Watched>
 [[noreturn]] void explain_failure(const std::string &path, const CaughtOutput &caught) {
   vtkNew<Watched> reader;

@@ -65,8 +65,8 @@ std::vector<std::int32_t> pieces_of(const Faces &faces);
 void give_arrays(const Faces &faces, riis_surface_arrays *arrays, std::int64_t struct_size);
 
 // Motions of surfaces.
-// In: files of a surface at several times, or one file with displacements. Out: the faces of the first file, and the positions of
-// the vertices at all times.
+// The inputs are files of a surface at several times, or one file with displacements. The results are the faces of the first
+// file, and the positions of the vertices at all times.
 
 inline constexpr std::int64_t most_frames = 1'000'000;  // the limit of riis_keyframe_arrays
 

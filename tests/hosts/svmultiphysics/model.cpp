@@ -71,7 +71,7 @@ double uris_compute_sdf_sign(const urisType &uris, const Vector<double> &place, 
   return above < 0 ? -1 : 1;
 }
 
-// The nearest middle of a triangle counts. If several are equally near, the first counts.
+// The nearest middle of a triangle counts. If several middles are equally near, the first counts.
 void sv_calc_sdf(ComMod &com_mod) {
   if (com_mod.urisFluidNodeMask.empty()) uris_build_fluid_node_mask(com_mod);
   for (urisType &uris : com_mod.uris) {
