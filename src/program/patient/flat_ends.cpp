@@ -42,14 +42,11 @@ class EndChoice {
   PatientWall result() const {
     PatientWall wall;
     wall.path = path_;
-    const Triangles &all = surface_.triangles;
-    for (const Vector3 &point : all.points) wall.xyz.insert(wall.xyz.end(), point.begin(), point.end());
-    for (const Corners &triangle : all.corners)
-      wall.corners.insert(wall.corners.end(), triangle.begin(), triangle.end());
-    wall.end_of.assign(all.corners.size(), -1);
+    wall.triangles = surface_.triangles;
+    wall.end_of.assign(wall.triangles.corners.size(), -1);
     wall.size = finder_.size();
     wall.area = finder_.whole_area();
-    wall.volume = all.volume();
+    wall.volume = wall.triangles.volume();
     wall.remarks = surface_.remarks;
     std::vector<Chosen> chosen = chosen_;
     std::sort(chosen.begin(), chosen.end(), [](const Chosen &a, const Chosen &b) { return a.part.area > b.part.area; });
@@ -200,7 +197,7 @@ PatientWall read_patient_wall(const std::string &path, const EndPoints &points) 
 }
 
 void scale_wall(PatientWall &wall, double factor) {
-  for (double &x : wall.xyz) x *= factor;
+  for (Vector3 &point : wall.triangles.points) point = factor * point;
   for (FlatEnd &end : wall.ends) {
     end.centre = factor * end.centre;
     end.area *= factor * factor;
@@ -211,15 +208,6 @@ void scale_wall(PatientWall &wall, double factor) {
 }
 
 namespace {
-
-Triangles triangles_in(const PatientWall &wall) {
-  Triangles triangles;
-  for (std::size_t i = 0; i < wall.xyz.size(); i += 3)
-    triangles.points.push_back({wall.xyz[i], wall.xyz[i + 1], wall.xyz[i + 2]});
-  for (std::size_t i = 0; i < wall.corners.size(); i += 3)
-    triangles.corners.push_back({wall.corners[i], wall.corners[i + 1], wall.corners[i + 2]});
-  return triangles;
-}
 
 // Returns whether a point is inside the wall. From a point inside, the triangles cover all directions.
 bool is_in_wall(const Triangles &triangles, const Vector3 &point) {
@@ -258,7 +246,8 @@ std::int64_t first_wall_hit(const Triangles &triangles, const Vector3 &from, con
 }
 
 // Starts at a triangle, follows the edges, and returns the first end that has no name yet.
-std::int32_t first_end_from(const PatientWall &wall, const Triangles &triangles, std::int64_t from) {
+std::int32_t first_end_from(const PatientWall &wall, std::int64_t from) {
+  const Triangles &triangles = wall.triangles;
   if (view(wall.end_of)[from] >= 0) return view(wall.end_of)[from];
   std::vector<std::vector<std::int64_t>> beside(triangles.points.size());
   std::vector<std::int32_t> end_at(triangles.points.size(), -1);
@@ -297,13 +286,12 @@ void name_ends(PatientWall &wall, const std::array<double, 3> &centre, const std
     return std::any_of(wall.ends.begin(), wall.ends.end(), [&](const FlatEnd &end) { return end.name == name; });
   };
   if (!has_name("inlet")) {
-    const Triangles triangles = triangles_in(wall);
-    if (!is_in_wall(triangles, centre))
+    if (!is_in_wall(wall.triangles, centre))
       refuse_data(
           wall.path + ": the valve's centre, " + point_text(centre, wall.size) +
           ", lies outside the wall; landmarks and wall may have different units or axes, or be of two patients");
-    const std::int64_t hit = first_wall_hit(triangles, centre, -1 * unit_vector(flow));
-    view(wall.ends)[hit < 0 ? 0 : first_end_from(wall, triangles, hit)].name = "inlet";
+    const std::int64_t hit = first_wall_hit(wall.triangles, centre, -1 * unit_vector(flow));
+    view(wall.ends)[hit < 0 ? 0 : first_end_from(wall, hit)].name = "inlet";
   }
   int n_outlets = 0;
   for (const FlatEnd &end : wall.ends) n_outlets += !end.name.empty() && end.name != "inlet";
@@ -315,7 +303,7 @@ void name_ends(PatientWall &wall, const std::array<double, 3> &centre, const std
 }
 
 void write_wall(const PatientWall &wall, const std::string &path) {
-  const Triangles triangles = triangles_in(wall);
+  const Triangles &triangles = wall.triangles;
   std::string text("riis");
   text.resize(80, ' ');
   const auto add = [&](const auto &number) { text.append(reinterpret_cast<const char *>(&number), sizeof number); };

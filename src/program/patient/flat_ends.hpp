@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "common/triangles.hpp"
+
 namespace riis::program {
 
 // A flat end of the blood, at which a vessel was cut.
@@ -24,13 +26,12 @@ struct FlatEnd {
 // A wall with its flat ends: a closed surface around the blood. Lengths are in the file's unit until scale_wall changes them.
 struct PatientWall {
   std::string path;
-  std::vector<double> xyz;            // (3, n_vertices); no two vertices are equal, and each has a triangle
-  std::vector<std::int64_t> corners;  // (3, n_triangles); seen from outside, they run counter-clockwise
-  std::vector<std::int32_t> end_of;   // (n_triangles): the position in `ends`, or -1 at the wall
-  std::vector<FlatEnd> ends;          // two or more, the largest first
-  double size = 0;                    // the diagonal of the box around the wall
-  double area = 0, volume = 0;        // of the whole surface with its ends, and of the blood
-  std::vector<std::string> remarks;   // what was changed in the surface, a line each, such as "... are turned outwards"
+  Triangles triangles;               // which face outwards; no two vertices are equal, and each has a triangle
+  std::vector<std::int32_t> end_of;  // (n_triangles): the position in `ends`, or -1 at the wall
+  std::vector<FlatEnd> ends;         // two or more, the largest first
+  double size = 0;                   // the diagonal of the box around the wall
+  double area = 0, volume = 0;       // of the whole surface with its ends, and of the blood
+  std::vector<std::string> remarks;  // what was changed in the surface, a line each, such as "... are turned outwards"
 };
 
 // The points of --inlet and --outlet, in the unit of the wall's file. Each point chooses the flat part that is nearest to it.

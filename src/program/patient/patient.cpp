@@ -157,7 +157,7 @@ class PatientRun {
                               (options_.has_valve || !landmarks_.valve.empty() ? "" : " (--valve names another)"));
     for (const std::string &remark : wall_.remarks) steps_.say("wall", remark);
     steps_.say("wall",
-               options_.wall + ": " + counted(view(wall_.corners).size() / 3, "triangle") + ", " +
+               options_.wall + ": " + counted(wall_.triangles.n(), "triangle") + ", " +
                    counted(view(wall_.ends).size(), "flat end") + ", in " + name_of(frame_.unit) +
                    (frame_.axes == "mesh" ? "" : " and " + frame_.axes) + ": the landmarks are " +
                    printed("%.3g", frame_.away) + " mm from it on average, at most " + printed("%.3g", frame_.worst) +

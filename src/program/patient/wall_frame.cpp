@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <vector>
 
-#include "common/array_view.hpp"
 #include "program/base/handles.hpp"
 #include "program/base/text.hpp"
 
@@ -19,15 +18,7 @@ constexpr double clearly_farther = 2;
 std::string mm_text(double length) { return printed("%.3g", length) + " mm"; }
 
 Surface wall_surface_of(const PatientWall &wall) {
-  auto arrays = defaults<riis_surface_arrays>();
-  arrays.n_vertices = view(wall.xyz).size() / 3;
-  arrays.x = wall.xyz.data();
-  arrays.y = wall.xyz.data() + 1;
-  arrays.z = wall.xyz.data() + 2;
-  arrays.stride = 3;
-  arrays.n_faces = view(wall.corners).size() / 3;
-  arrays.vertex_ids = wall.corners.data();
-  arrays.id_bits = 64;
+  const riis_surface_arrays arrays = arrays_of(wall.triangles);
   auto how = defaults<riis_surface_options>();
   how.zero_area = RIIS_ZERO_AREA_SKIP;
   return create_for<Surface>(wall.path, riis_surface_create_from_arrays, &arrays, &how);
