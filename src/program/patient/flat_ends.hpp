@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: the file of a patient's wall. Out: a closed surface whose triangles face outwards, and the flat ends at which the vessels
-// were cut.
+// In: the file of a patient's wall. Out: a closed surface whose triangles face outwards, the flat ends at which the vessels were
+// cut, and the unit and the axes of the file.
 #pragma once
 
 #include <array>
@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "common/triangles.hpp"
+#include "program/input/placing.hpp"
 
 namespace riis::program {
 
@@ -56,5 +57,19 @@ void name_ends(PatientWall &wall, const std::array<double, 3> &centre, const std
 
 // Writes all triangles as a binary .stl file.
 void write_wall(const PatientWall &wall, const std::string &path);
+
+// A file of a wall states neither a unit nor axes. The landmarks state both, and lie at the wall.
+struct WallFrame {
+  Unit unit = Unit::millimetre;
+  std::string axes;      // "LPS", "RAS" or "mesh"
+  double away = 0;       // mean distance of the landmarks from the wall, in millimetres
+  double worst = 0;      // the largest of these distances
+  std::string farthest;  // the landmark with this distance
+};
+
+// The lengths of the wall are in the unit of its file. `unit` and `axes` are given if the user stated them. Refuses landmarks
+// that are not at the wall. If two units or axes fit about equally well, refuses to choose one of them.
+WallFrame frame_of_wall(const PatientWall &wall, const LandmarkFile &landmarks, std::optional<Unit> unit,
+                        const std::string &axes);
 
 }  // namespace riis::program
