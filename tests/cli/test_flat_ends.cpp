@@ -57,13 +57,9 @@ void expect_refused(const std::vector<std::string> &parts, const EndPoints &poin
 
 double volume_of(const PatientWall &wall) {
   double volume = 0;
-  const Vector3 origin{wall.xyz[0], wall.xyz[1], wall.xyz[2]};
-  for (std::size_t i = 0; i < wall.corners.size(); i += 3) {
+  for (std::int64_t i = 0; i < wall.triangles.n(); ++i) {
     Vector3 p[3];
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double *const xyz = &view(wall.xyz)[3 * wall.corners[i + k]];
-      p[k] = Vector3{xyz[0], xyz[1], xyz[2]} - origin;
-    }
+    for (std::size_t k = 0; k < 3; ++k) p[k] = wall.triangles.corner(i, k) - wall.triangles.points[0];
     volume += dot(p[0], cross(p[1], p[2])) / 6;
   }
   return volume;
@@ -72,8 +68,8 @@ double volume_of(const PatientWall &wall) {
 // At each side, a triangle has exactly one neighbour, which runs along the side in the other direction.
 void expect_closed(const PatientWall &wall) {
   std::map<std::pair<std::int64_t, std::int64_t>, int> sides;
-  for (std::size_t i = 0; i < wall.corners.size(); ++i)
-    ++sides[{wall.corners[i], wall.corners[i % 3 == 2 ? i - 2 : i + 1]}];
+  for (const Corners &corner : wall.triangles.corners)
+    for (std::size_t k = 0; k < 3; ++k) ++sides[{corner[k], corner[(k + 1) % 3]}];
   for (const auto &[side, n] : sides) {
     const auto other = sides.find({side.second, side.first});
     if (n == 1 && other != sides.end()) continue;
@@ -104,14 +100,11 @@ void expect_ends(const PatientWall &wall, const CutVessels &vessels, const Place
   }
   expect(std::count(is_found.begin(), is_found.end(), 0) == 0, "each end is found");
   std::vector<double> areas(wall.ends.size(), 0);
-  for (std::size_t i = 0; i < wall.end_of.size(); ++i) {
-    if (wall.end_of[i] < 0) continue;
+  for (std::int64_t i = 0; i < wall.triangles.n(); ++i) {
+    if (view(wall.end_of)[i] < 0) continue;
     Vector3 p[3];
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double *const xyz = &view(wall.xyz)[3 * wall.corners[3 * i + k]];
-      p[k] = {xyz[0], xyz[1], xyz[2]};
-    }
-    view(areas)[wall.end_of[i]] += 0.5 * norm(cross(p[1] - p[0], p[2] - p[0]));
+    for (std::size_t k = 0; k < 3; ++k) p[k] = wall.triangles.corner(i, k);
+    view(areas)[view(wall.end_of)[i]] += 0.5 * norm(cross(p[1] - p[0], p[2] - p[0]));
   }
   for (std::size_t i = 0; i < areas.size(); ++i)
     expect_near(areas[i] / wall.ends[i].area, 1, 1e-9, "the triangles of an end over its area");

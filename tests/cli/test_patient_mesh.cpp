@@ -287,10 +287,9 @@ void failing_programs(random_source &random, const std::string &folder) {
   // A wall goes through itself, because a point near the first end was moved through the wall behind it.
   PatientWall crossed = wall;
   const Vector3 axis = unit_vector(vessels.axes[0]), other = cross(axis, Vector3{axis[1], axis[2], axis[0]});
-  for (std::size_t i = 0; i < crossed.xyz.size(); i += 3) {
-    const Vector3 point{crossed.xyz[i], crossed.xyz[i + 1], crossed.xyz[i + 2]};
+  for (Vector3 &point : crossed.triangles.points) {
     if (std::abs(dot(point, axis) - 3.5) > 0.2 || dot(point, other) < 0.4 * norm(other)) continue;
-    for (std::size_t k = 0; k < 3; ++k) crossed.xyz[i + k] = (point - 3.0 * unit_vector(other))[k];
+    point = point - 3.0 * unit_vector(other);
     break;
   }
   expect_refused({"gmsh fails: it writes", "the wall goes through itself at ", " of triangles, the deepest at "}, [&] {

@@ -6,9 +6,7 @@
 
 #include "program/base/refusal.hpp"
 #include "program/input/json.hpp"
-#include "program/patient/fenicsx_case.hpp"
-#include "program/patient/openfoam_case.hpp"
-#include "program/patient/svmultiphysics_case.hpp"
+#include "program/patient/solver_case.hpp"
 
 namespace {
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "common/array_view.hpp"
+#include "common/triangles.hpp"
 #include "program/base/refusal.hpp"
 #include "program/base/units.hpp"
 
@@ -81,6 +82,20 @@ inline riis_points points_of(const std::vector<double> &xyz) {
   points.z = xyz.data() + 2;
   points.stride = 3;
   return points;
+}
+// Returns arrays that refer to the given triangles.
+inline riis_surface_arrays arrays_of(const Triangles &triangles) {
+  const auto *const xyz = reinterpret_cast<const double *>(triangles.points.data());
+  auto arrays = defaults<riis_surface_arrays>();
+  arrays.n_vertices = view(triangles.points).size();
+  arrays.x = xyz;
+  arrays.y = xyz + 1;
+  arrays.z = xyz + 2;
+  arrays.stride = 3;
+  arrays.n_faces = triangles.n();
+  arrays.vertex_ids = triangles.corners.data();
+  arrays.id_bits = 64;
+  return arrays;
 }
 // Returns the distances of points to a surface. The points are an array (3, n).
 inline std::vector<double> distances_to(const riis_surface *surface, const std::vector<double> &xyz) {

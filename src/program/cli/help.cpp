@@ -3,7 +3,7 @@
 
 #include "program/base/refusal.hpp"
 #include "program/base/text.hpp"
-#include "program/input/diseases.hpp"
+#include "program/input/valve_file.hpp"
 
 namespace riis::program {
 namespace {

@@ -16,7 +16,7 @@
 #include "program/input/valve_source.hpp"
 #include "program/mark/crossings.hpp"
 #include "program/output/outputs.hpp"
-#include "program/patient/openfoam_valve.hpp"
+#include "program/patient/solver_case.hpp"
 
 namespace riis::program {
 namespace {

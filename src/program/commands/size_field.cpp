@@ -5,18 +5,16 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <numeric>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "common/array_view.hpp"
-#include "common/sets.hpp"
 #include "program/base/progress.hpp"
 #include "program/base/text.hpp"
 #include "program/input/case.hpp"
+#include "program/input/face_faults.hpp"
 #include "program/input/valve_source.hpp"
 #include "program/mark/mesh_marking.hpp"
 #include "program/mark/moving_valve.hpp"
@@ -112,37 +110,16 @@ struct Zone {
 // Adds a narrow strip of triangles along the rim of a surface. The rim consists of the edges that belong to one triangle only.
 // Vertices with equal coordinates count as one.
 void add_rim(const riis_triangles &triangles, JoinedTriangles &rim) {
-  const std::vector<std::int64_t> places = equal_places(triangles.n_vertices, triangles.xyz);
-  std::map<std::array<std::int64_t, 2>, std::vector<std::array<std::int64_t, 3>>> of_edge;  // its triangles, by corners
-  for (std::int64_t triangle = 0; triangle < triangles.n_triangles; ++triangle) {
-    const std::int64_t *const corner = triangles.vertex_id + 3 * triangle;
-    for (int k = 0; k < 3; ++k) {
-      const std::int64_t a = corner[k], b = corner[(k + 1) % 3], p = view(places)[a], q = view(places)[b];
-      if (p != q) of_edge[{std::min(p, q), std::max(p, q)}].push_back({a, b, corner[(k + 2) % 3]});
-    }
-  }
-  std::vector<double> xyz;
-  for (const auto &[edge, sides] : of_edge) {
-    if (sides.size() != 1) continue;
-    const double *corner[3];
-    for (std::size_t k = 0; k < 3; ++k) corner[k] = triangles.xyz + 3 * sides[0][k];
-    xyz.insert(xyz.end(), corner[0], corner[0] + 3);
-    xyz.insert(xyz.end(), corner[1], corner[1] + 3);
-    for (int k = 0; k < 3; ++k) {
-      const double middle = (corner[0][k] + corner[1][k]) / 2;
-      xyz.push_back(middle + 1e-3 * (corner[2][k] - middle));
-    }
-  }
-  riis_triangles strip{};
-  strip.n_vertices = view(xyz).size() / 3;
-  strip.n_triangles = strip.n_vertices / 3;
-  std::vector<std::int64_t> vertex_id(static_cast<std::size_t>(strip.n_vertices));
-  std::iota(vertex_id.begin(), vertex_id.end(), 0);
-  const std::vector<std::int32_t> leaflet_id(static_cast<std::size_t>(strip.n_triangles), 0);
-  strip.xyz = xyz.data();
-  strip.vertex_id = vertex_id.data();
-  strip.leaflet_id = leaflet_id.data();
-  rim.add(strip, 0);
+  for_each_edge(sorted_sides(joined_corners(triangles)), [&](const TriangleSide *side, std::size_t n_sides) {
+    if (n_sides != 1 || side->a == side->b) return;
+    const auto corner = [&](std::size_t k) {
+      const auto at = static_cast<std::int64_t>((side->k + k) % 3);
+      const double *const xyz = triangles.xyz + 3 * triangles.vertex_id[3 * side->triangle + at];
+      return Vector3{xyz[0], xyz[1], xyz[2]};
+    };
+    const Vector3 middle = 0.5 * (corner(0) + corner(1));
+    rim.add({corner(0), corner(1), middle + 1e-3 * (corner(2) - middle)});
+  });
 }
 
 Surface surface_of(const JoinedTriangles &triangles, double half_thickness) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "program/input/diseases.hpp"
+#include "program/input/valve_file.hpp"
 
 #include <algorithm>
 #include <iterator>

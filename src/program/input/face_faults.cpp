@@ -2,10 +2,8 @@
 #include "program/input/face_faults.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <map>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -19,13 +17,6 @@
 
 namespace riis::program {
 namespace {
-
-// A side of a face between two vertices, a < b.
-struct Side {
-  std::int64_t a, b, face;
-  bool is_forward;  // whether the face goes from a to b
-  std::int32_t leaflet;
-};
 
 // Faces that are joined along sides, as disjoint sets. The disjoint sets also tell how the faces are oriented against each other.
 // The number i stands for face i as it is, and the number n + i stands for face i turned over. Two numbers are in one set if the
@@ -61,8 +52,7 @@ struct Faults {
 
 class FaceCheck {
  public:
-  explicit FaceCheck(const riis_triangles &triangles)
-      : triangles_(triangles), places_(equal_places(triangles.n_vertices, triangles.xyz)) {}
+  explicit FaceCheck(const riis_triangles &triangles) : triangles_(triangles), corners_(joined_corners(triangles)) {}
 
   Faults run() {
     const std::vector<std::int64_t> faces = different_faces();
@@ -90,16 +80,11 @@ class FaceCheck {
   }
 
  private:
-  std::int64_t corner(std::int64_t face, std::int64_t k) const {
-    return view(places_)[triangles_.vertex_id[3 * face + k % 3]];
-  }
-
   // Returns the faces that have different corners. If several faces have the same corners, returns only the first of them.
   std::vector<std::int64_t> different_faces() const {
-    using Key = std::array<std::int64_t, 3>;
-    std::vector<std::pair<Key, std::int64_t>> sorted;
+    std::vector<std::pair<Triangles::Corners, std::int64_t>> sorted;
     for (std::int64_t face = 0; face < triangles_.n_triangles; ++face) {
-      Key key{corner(face, 0), corner(face, 1), corner(face, 2)};
+      Triangles::Corners key = view(corners_)[face];
       std::sort(key.begin(), key.end());
       sorted.emplace_back(key, face);
     }
@@ -113,28 +98,33 @@ class FaceCheck {
   // Joins the faces of one leaflet that share a side. For each face, returns whether one of its sides is open. If more than two
   // faces share a side, the side joins none of the faces.
   std::vector<char> join_along_sides(const std::vector<std::int64_t> &faces, Pieces &pieces) const {
-    std::vector<Side> sides;
-    for (const std::int64_t face : faces)
-      for (std::int64_t k = 0; k < 3; ++k) {
-        const std::int64_t from = corner(face, k), to = corner(face, k + 1);
-        sides.push_back({std::min(from, to), std::max(from, to), face, from < to, triangles_.leaflet_id[face]});
-      }
-    const auto edge = [](const Side &side) { return std::tie(side.a, side.b, side.leaflet); };
-    std::sort(sides.begin(), sides.end(), [&](const Side &s, const Side &t) { return edge(s) < edge(t); });
-    std::vector<char> is_open(static_cast<std::size_t>(triangles_.n_triangles), 0);
-    for (std::size_t i = 0, end = 0; i < sides.size(); i = end) {
-      while (end < sides.size() && edge(sides[end]) == edge(sides[i])) ++end;
-      if (end == i + 1) view(is_open)[sides[i].face] = 1;
-      if (end == i + 2) pieces.join(sides[i].face, sides[i + 1].face, sides[i].is_forward == sides[i + 1].is_forward);
+    std::vector<Triangles::Corners> corners;  // with other numbers for each leaflet
+    for (const std::int64_t face : faces) {
+      corners.push_back(view(corners_)[face]);
+      for (std::int64_t &id : corners.back()) id += triangles_.n_vertices * triangles_.leaflet_id[face];
     }
+    std::vector<char> is_open(static_cast<std::size_t>(triangles_.n_triangles), 0);
+    for_each_edge(sorted_sides(corners), [&](const TriangleSide *side, std::size_t n_sides) {
+      const std::int64_t face = view(faces)[side->triangle];
+      if (n_sides == 1) view(is_open)[face] = 1;
+      if (n_sides == 2) pieces.join(face, view(faces)[side[1].triangle], side[0].is_forward == side[1].is_forward);
+    });
     return is_open;
   }
 
   const riis_triangles &triangles_;
-  std::vector<std::int64_t> places_;
+  std::vector<Triangles::Corners> corners_;
 };
 
 }  // namespace
+
+std::vector<Triangles::Corners> joined_corners(const riis_triangles &triangles) {
+  const std::vector<std::int64_t> places = equal_places(triangles.n_vertices, triangles.xyz);
+  std::vector<Triangles::Corners> corners;
+  for (const std::int64_t *id = triangles.vertex_id; id != triangles.vertex_id + 3 * triangles.n_triangles; id += 3)
+    corners.push_back({view(places)[id[0]], view(places)[id[1]], view(places)[id[2]]});
+  return corners;
+}
 
 void warn_of_faces(const std::string &name, const riis_surface *surface) {
   const riis_triangles triangles = triangles_of(surface);
@@ -154,35 +144,27 @@ void warn_of_faces(const std::string &name, const riis_surface *surface) {
 
 OpenLine longest_open_line(const riis_surface *surface, double most) {
   const riis_triangles triangles = triangles_of(surface);
-  const std::vector<std::int64_t> places = equal_places(triangles.n_vertices, triangles.xyz);
-  using Edge = std::pair<std::int64_t, std::int64_t>;
-  std::vector<Edge> edges;
-  for (std::int64_t i = 0; i < 3 * triangles.n_triangles; ++i) {
-    const std::int64_t next = i % 3 == 2 ? i - 2 : i + 1;
-    edges.push_back(std::minmax(view(places)[triangles.vertex_id[i]], view(places)[triangles.vertex_id[next]]));
-  }
-  std::sort(edges.begin(), edges.end());
-  std::vector<Edge> open;
-  for (std::size_t i = 0, end = 0; i < edges.size(); i = end) {
-    while (end < edges.size() && edges[end] == edges[i]) ++end;
-    if (end == i + 1 && edges[i].first != edges[i].second) open.push_back(edges[i]);
-  }
-  // Makes one vertex for each place.
-  std::vector<const double *> points(static_cast<std::size_t>(triangles.n_vertices), nullptr);
-  for (std::int64_t i = 0; i < triangles.n_vertices; ++i) view(points)[view(places)[i]] = triangles.xyz + 3 * i;
+  const std::vector<Triangles::Corners> corners = joined_corners(triangles);
+  std::vector<TriangleSide> open;
+  for_each_edge(sorted_sides(corners), [&](const TriangleSide *side, std::size_t n_sides) {
+    if (n_sides == 1 && side->a != side->b) open.push_back(*side);
+  });
   DisjointSets joined(triangles.n_vertices);
-  for (const auto &[a, b] : open) joined.unite(a, b);
+  for (const TriangleSide &side : open) joined.unite(side.a, side.b);
   struct Line {
     OpenLine line;
     Box box = empty_box();
   };
   std::map<std::int64_t, Line> lines;
-  for (const auto &[a, b] : open) {
-    Line &of_edge = lines[joined.root(a)];
+  for (const TriangleSide &side : open) {
+    const auto point = [&](std::size_t k) {
+      return triangles.xyz + 3 * triangles.vertex_id[3 * side.triangle + static_cast<std::int64_t>(k % 3)];
+    };
+    Line &of_edge = lines[joined.root(side.a)];
     ++of_edge.line.n_edges;
-    of_edge.line.length += distance_between(view(points)[a], view(points)[b]);
-    of_edge.box.grow(view(points)[a]);
-    of_edge.box.grow(view(points)[b]);
+    of_edge.line.length += distance_between(point(side.k), point(side.k + 1));
+    of_edge.box.grow(point(side.k));
+    of_edge.box.grow(point(side.k + 1));
   }
   OpenLine longest;
   for (auto &[root, found] : lines) {

@@ -7,11 +7,17 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
+
+#include "common/triangles.hpp"
 
 namespace riis::program {
 
+// Returns the corners of the triangles. Corners at equal positions are one vertex.
+std::vector<Triangles::Corners> joined_corners(const riis_triangles &triangles);
+
 // Warns of three faults: triangles whose orientation differs from their neighbours', equal triangles, and closed pieces such as
-// thick leaflets. The warnings begin with `name`. Corners at equal positions are one vertex.
+// thick leaflets. The warnings begin with `name`.
 void warn_of_faces(const std::string &name, const riis_surface *surface);
 
 // A line of open edges: the number of its edges, their total length, and the middle of the box around the line.

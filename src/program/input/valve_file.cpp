@@ -15,7 +15,6 @@
 #include "common/array_view.hpp"
 #include "program/base/refusal.hpp"
 #include "program/base/text.hpp"
-#include "program/input/diseases.hpp"
 #include "program/input/json.hpp"
 #include "program/input/parameters.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The input is a JSON file of boundary curves and patches. The result is a valve, which has an open state if the file has one.
+// What --valve names: a file of patches, a placed valve, or a disease.
 #pragma once
 
 #include <riis/riis.h>
@@ -15,6 +15,8 @@ namespace riis::program {
 // Returns whether --valve names a file, not a kind. Files of valves end in .json.
 bool is_valve_file(const std::string &valve);
 
+// The input is a JSON file of boundary curves and patches. The result is a valve, which has an open state if the file has one.
+//
 // {"curves": {"edge": [[0, 0, 0], [1, 0, 0]], ...},
 //  "patches": [{"v0": "edge", "v1": "-rim", "u0": ..., "u1": ..., "leaflet": 0}, ...],
 //  "open": {"curves": {"edge": ...}}}
@@ -40,6 +42,21 @@ struct PlacedFile {
 };
 // `root` is the content of the file. Without `unit`, the placement stays in the unit of the file.
 PlacedFile read_placed(const std::string &path, const Json &root, std::optional<Unit> unit = std::nullopt);
+
+// The diseased valves that --valve accepts by the names of diagnoses. docs/diseases.md has the sources of their areas.
+struct Disease {
+  const char *name, *kind;
+  const char *parameters;  // a JSON object, as the file of --params
+  int opening;             // 1: `area` is that of the open valve, 0: it is the gap of the closed valve
+  double area;             // the orifice in cm2; 0: the disease changes no orifice that is seen along the axis
+  const char *diagnosis;
+};
+
+// Returns the disease with that name, or nullptr.
+const Disease *disease_named(const std::string &name);
+
+// Returns a table of all diseases for the user to read.
+std::string table_of_diseases();
 
 // If --valve is a disease or the file of a placed valve, replaces it by the valve's kind. The file's placement becomes the
 // placement of the options. An option that the file already contains is refused. set_own_parameters sets the parameters of the

@@ -15,7 +15,6 @@
 #include "program/mark/mesh_marking.hpp"
 #include "program/mark/mesh_pieces.hpp"
 #include "program/mark/moving_valve.hpp"
-#include "program/mark/outside.hpp"
 #include "program/mark/warnings.hpp"
 #include "program/output/report.hpp"
 

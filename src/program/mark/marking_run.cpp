@@ -68,12 +68,6 @@ MeshFile copy_of_mesh(const riis_vtk_mesh *file, std::int64_t n_nodes) {
 // The first steps are not timed, because they sort the mesh's nodes and allocate memory that later steps use again.
 constexpr int n_first_steps = 2;
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 // For --steps, measures how long a step of a moving valve takes. The mesh is prepared for many markings. The function moves the
 // opening of a copy of the valve back and forth between 0 and 1, and marks the nodes of the file after each step. Throws a
 // Refusal for a valve that cannot move.

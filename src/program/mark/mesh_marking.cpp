@@ -64,6 +64,12 @@ void ResistanceSum::set_arrays(const std::string &prefix, riis_vtk_mesh *file) c
 
 double distance_between(const double *p, const double *q) { return hypotenuse(p[0] - q[0], p[1] - q[1], p[2] - q[2]); }
 
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 NodePoints::NodePoints(const riis_vtk_mesh *file) : axes_(get<riis_grid>(riis_vtk_mesh_get_axes, file)) {
   check(riis_vtk_mesh_get_nodes(file, &n_, nullptr, axes() ? nullptr : &xyz_));
   std::size_t axis = 0;

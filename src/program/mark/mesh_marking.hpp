@@ -39,6 +39,8 @@ class ResistanceSum {
 };
 
 double distance_between(const double *p, const double *q);
+// Returns the value in the middle, or the upper one of two such values.
+double median(std::vector<double> values);
 
 // The coordinates of the nodes of a file. A rectilinear grid has only the coordinates along its axes.
 class NodePoints {

@@ -117,22 +117,25 @@ std::vector<MovingValve> moving_valves(Case &all) {
 // ---- Joined surface ----
 
 void JoinedTriangles::add(const riis_triangles &triangles, std::int32_t first_leaflet) {
-  const int64_t before = view(xyz_).size() / 3;
-  xyz_.insert(xyz_.end(), triangles.xyz, triangles.xyz + 3 * triangles.n_vertices);
-  for (int64_t i = 0; i < 3 * triangles.n_triangles; ++i) corners_.push_back(before + triangles.vertex_id[i]);
-  for (int64_t i = 0; i < triangles.n_triangles; ++i) leaflets_.push_back(first_leaflet + triangles.leaflet_id[i]);
+  const int64_t before = view(triangles_.points).size();
+  for (const double *xyz = triangles.xyz; xyz != triangles.xyz + 3 * triangles.n_vertices; xyz += 3)
+    triangles_.points.push_back({xyz[0], xyz[1], xyz[2]});
+  for (int64_t i = 0; i < triangles.n_triangles; ++i) {
+    const int64_t *const id = triangles.vertex_id + 3 * i;
+    triangles_.corners.push_back({before + id[0], before + id[1], before + id[2]});
+    leaflets_.push_back(first_leaflet + triangles.leaflet_id[i]);
+  }
+}
+
+void JoinedTriangles::add(const std::array<Vector3, 3> &corners) {
+  const int64_t first = view(triangles_.points).size();
+  triangles_.points.insert(triangles_.points.end(), corners.begin(), corners.end());
+  triangles_.corners.push_back({first, first + 1, first + 2});
+  leaflets_.push_back(0);
 }
 
 riis_surface_arrays JoinedTriangles::arrays() const {
-  auto arrays = defaults<riis_surface_arrays>();
-  arrays.n_vertices = view(xyz_).size() / 3;
-  arrays.x = xyz_.data();
-  arrays.y = xyz_.data() + 1;
-  arrays.z = xyz_.data() + 2;
-  arrays.stride = 3;
-  arrays.n_faces = view(corners_).size() / 3;
-  arrays.vertex_ids = corners_.data();
-  arrays.id_bits = 64;
+  riis_surface_arrays arrays = arrays_of(triangles_);
   arrays.leaflet_id = leaflets_.data();
   return arrays;
 }

@@ -64,12 +64,13 @@ class JoinedTriangles {
  public:
   // Adds the triangles of a surface. The ids of the surface's leaflets begin at `first_leaflet`.
   void add(const riis_triangles &triangles, std::int32_t first_leaflet);
+  // Adds one triangle of leaflet 0.
+  void add(const std::array<Vector3, 3> &corners);
   // Returns arrays that refer to all triangles.
   riis_surface_arrays arrays() const;
 
  private:
-  std::vector<double> xyz_;
-  std::vector<std::int64_t> corners_;
+  Triangles triangles_;
   std::vector<std::int32_t> leaflets_;
 };
 

@@ -13,7 +13,7 @@
 #include "program/base/options.hpp"
 #include "program/base/text.hpp"
 #include "program/input/valve_file.hpp"
-#include "program/mark/outside.hpp"
+#include "program/mark/leaks.hpp"
 #include "program/mark/warnings.hpp"
 
 namespace riis::program {

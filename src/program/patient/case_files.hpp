@@ -35,8 +35,9 @@ std::string filled(std::string text, const std::map<std::string, std::string> &n
 // Returns a duration for a message, such as "12 minutes".
 std::string duration_text(double seconds);
 
-// Returns the texts of beat_table.py and of the files in the folders fenicsx, openfoam and svmultiphysics. A key is a path such
-// as "openfoam/Allrun". CMake writes these texts into the program, so the program needs no path to the files.
+// Returns the texts of beat_table.py, of the files in the folders fenicsx, openfoam and svmultiphysics, and of uris_flow.py. A
+// key is a path from this folder, such as "openfoam/Allrun". CMake writes these texts into the program, so the program needs no
+// path to the files.
 const std::map<std::string, std::string> &case_texts();
 
 }  // namespace riis::program

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "program/patient/fenicsx_case.hpp"
-
 #include "program/base/text.hpp"
 #include "program/input/json.hpp"
 #include "program/mark/warnings.hpp"

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "common/flat_parts.hpp"
+#include "program/base/handles.hpp"
 #include "program/base/refusal.hpp"
 #include "program/base/text.hpp"
 #include "program/output/outputs.hpp"
@@ -42,14 +43,11 @@ class EndChoice {
   PatientWall result() const {
     PatientWall wall;
     wall.path = path_;
-    const Triangles &all = surface_.triangles;
-    for (const Vector3 &point : all.points) wall.xyz.insert(wall.xyz.end(), point.begin(), point.end());
-    for (const Corners &triangle : all.corners)
-      wall.corners.insert(wall.corners.end(), triangle.begin(), triangle.end());
-    wall.end_of.assign(all.corners.size(), -1);
+    wall.triangles = surface_.triangles;
+    wall.end_of.assign(wall.triangles.corners.size(), -1);
     wall.size = finder_.size();
     wall.area = finder_.whole_area();
-    wall.volume = all.volume();
+    wall.volume = wall.triangles.volume();
     wall.remarks = surface_.remarks;
     std::vector<Chosen> chosen = chosen_;
     std::sort(chosen.begin(), chosen.end(), [](const Chosen &a, const Chosen &b) { return a.part.area > b.part.area; });
@@ -200,7 +198,7 @@ PatientWall read_patient_wall(const std::string &path, const EndPoints &points) 
 }
 
 void scale_wall(PatientWall &wall, double factor) {
-  for (double &x : wall.xyz) x *= factor;
+  for (Vector3 &point : wall.triangles.points) point = factor * point;
   for (FlatEnd &end : wall.ends) {
     end.centre = factor * end.centre;
     end.area *= factor * factor;
@@ -211,15 +209,6 @@ void scale_wall(PatientWall &wall, double factor) {
 }
 
 namespace {
-
-Triangles triangles_in(const PatientWall &wall) {
-  Triangles triangles;
-  for (std::size_t i = 0; i < wall.xyz.size(); i += 3)
-    triangles.points.push_back({wall.xyz[i], wall.xyz[i + 1], wall.xyz[i + 2]});
-  for (std::size_t i = 0; i < wall.corners.size(); i += 3)
-    triangles.corners.push_back({wall.corners[i], wall.corners[i + 1], wall.corners[i + 2]});
-  return triangles;
-}
 
 // Returns whether a point is inside the wall. From a point inside, the triangles cover all directions.
 bool is_in_wall(const Triangles &triangles, const Vector3 &point) {
@@ -258,7 +247,8 @@ std::int64_t first_wall_hit(const Triangles &triangles, const Vector3 &from, con
 }
 
 // Starts at a triangle, follows the edges, and returns the first end that has no name yet.
-std::int32_t first_end_from(const PatientWall &wall, const Triangles &triangles, std::int64_t from) {
+std::int32_t first_end_from(const PatientWall &wall, std::int64_t from) {
+  const Triangles &triangles = wall.triangles;
   if (view(wall.end_of)[from] >= 0) return view(wall.end_of)[from];
   std::vector<std::vector<std::int64_t>> beside(triangles.points.size());
   std::vector<std::int32_t> end_at(triangles.points.size(), -1);
@@ -297,13 +287,12 @@ void name_ends(PatientWall &wall, const std::array<double, 3> &centre, const std
     return std::any_of(wall.ends.begin(), wall.ends.end(), [&](const FlatEnd &end) { return end.name == name; });
   };
   if (!has_name("inlet")) {
-    const Triangles triangles = triangles_in(wall);
-    if (!is_in_wall(triangles, centre))
+    if (!is_in_wall(wall.triangles, centre))
       refuse_data(
           wall.path + ": the valve's centre, " + point_text(centre, wall.size) +
           ", lies outside the wall; landmarks and wall may have different units or axes, or be of two patients");
-    const std::int64_t hit = first_wall_hit(triangles, centre, -1 * unit_vector(flow));
-    view(wall.ends)[hit < 0 ? 0 : first_end_from(wall, triangles, hit)].name = "inlet";
+    const std::int64_t hit = first_wall_hit(wall.triangles, centre, -1 * unit_vector(flow));
+    view(wall.ends)[hit < 0 ? 0 : first_end_from(wall, hit)].name = "inlet";
   }
   int n_outlets = 0;
   for (const FlatEnd &end : wall.ends) n_outlets += !end.name.empty() && end.name != "inlet";
@@ -315,7 +304,7 @@ void name_ends(PatientWall &wall, const std::array<double, 3> &centre, const std
 }
 
 void write_wall(const PatientWall &wall, const std::string &path) {
-  const Triangles triangles = triangles_in(wall);
+  const Triangles &triangles = wall.triangles;
   std::string text("riis");
   text.resize(80, ' ');
   const auto add = [&](const auto &number) { text.append(reinterpret_cast<const char *>(&number), sizeof number); };
@@ -329,6 +318,91 @@ void write_wall(const PatientWall &wall, const std::string &path) {
     add(std::uint16_t{0});
   }
   write_text(path, text);
+}
+
+// ---- Unit and axes ----
+
+namespace {
+
+// The largest mean distance of landmarks from their wall, in millimetres. Cusps and annuli are about 25 mm wide.
+constexpr double at_wall = 5;
+// Another unit or other axes are excluded if they would put the landmarks clearly farther from the wall.
+constexpr double clearly_farther = 2;
+
+std::string mm_text(double length) { return printed("%.3g", length) + " mm"; }
+
+Surface wall_surface_of(const PatientWall &wall) {
+  const riis_surface_arrays arrays = arrays_of(wall.triangles);
+  auto how = defaults<riis_surface_options>();
+  how.zero_area = RIIS_ZERO_AREA_SKIP;
+  return create_for<Surface>(wall.path, riis_surface_create_from_arrays, &arrays, &how);
+}
+
+// The place where the closed cusps meet is in the middle of the vessel, not at the wall.
+bool is_at_wall(std::int32_t role) { return role != RIIS_LANDMARK_COAPTATION && role != RIIS_LANDMARK_HINGE; }
+
+WallFrame frame_with(const riis_surface *wall, const LandmarkFile &given, Unit unit, const std::string &axes) {
+  LandmarkFile landmarks = given;
+  landmarks.convert(unit);
+  if (axes != name_of(given.axes)) landmarks.convert(axes == "LPS" ? Axes::LPS : Axes::RAS);
+  const std::vector<double> distance = distances_to(wall, landmarks.xyz);
+  WallFrame frame{unit, axes, 0, 0, ""};
+  double n = 0;
+  for (std::size_t i = 0; i < distance.size(); ++i) {
+    if (!is_at_wall(landmarks.roles[i])) continue;
+    const double here = factor_between(unit, Unit::millimetre) * distance[i];
+    frame.away += here;
+    ++n;
+    if (here <= frame.worst) continue;
+    frame.worst = here;
+    frame.farthest = landmarks.names[i];
+  }
+  frame.away /= std::max(n, 1.0);
+  return frame;
+}
+
+// Returns the options that choose a frame's unit and axes, or words for the unit and the axes.
+std::string options_of(const WallFrame &frame, const WallFrame &other) {
+  std::vector<std::string> options;
+  if (frame.unit != other.unit) options.push_back(std::string("--wall-unit ") + name_of(frame.unit));
+  if (frame.axes != other.axes) options.push_back("--axes " + frame.axes);
+  return joined_by(options, " ");
+}
+
+}  // namespace
+
+WallFrame frame_of_wall(const PatientWall &wall, const LandmarkFile &landmarks, std::optional<Unit> unit,
+                        const std::string &axes) {
+  const Surface surface = wall_surface_of(wall);
+  const std::string own = name_of(landmarks.axes);
+  if (landmarks.axes == Axes::mesh && !axes.empty())
+    refuse_usage("--axes: " + landmarks.path + " states the axes mesh, which are those of the wall: leave --axes out");
+  std::vector<WallFrame> all, allowed;
+  for (const Unit tried : {Unit::millimetre, Unit::centimetre, Unit::metre})
+    for (const std::string &turned : {own, std::string(own == "LPS" ? "RAS" : "LPS")}) {
+      if (landmarks.axes == Axes::mesh && turned != own) continue;
+      all.push_back(frame_with(surface, landmarks, tried, turned));
+      if ((!unit || *unit == tried) && (axes.empty() || axes == turned)) allowed.push_back(all.back());
+    }
+  const auto is_nearer = [](const WallFrame &a, const WallFrame &b) { return a.away < b.away; };
+  std::stable_sort(all.begin(), all.end(), is_nearer);
+  std::stable_sort(allowed.begin(), allowed.end(), is_nearer);
+  const WallFrame &best = allowed[0];
+  if (best.away > at_wall) {
+    const std::string text =
+        landmarks.path + ": the landmarks are " + mm_text(best.away) + " from the wall of " + wall.path + " on average";
+    if (all[0].away <= at_wall)
+      refuse_data(text + "; they are " + mm_text(all[0].away) + " from it with " + options_of(all[0], best));
+    refuse_data(
+        text + ", and farther with other units and axes. On their wall they are nearer than " + mm_text(at_wall) +
+        ": are both files of the same patient and the same image? Load both in 3D Slicer, and set the landmarks anew");
+  }
+  if (allowed.size() > 1 && allowed[1].away <= std::min(at_wall, clearly_farther * best.away))
+    refuse_usage(wall.path + ": its " + (allowed[1].unit == best.unit ? "axes are" : "unit is") +
+                 " not clear, because the landmarks are " + mm_text(best.away) + " from it with " +
+                 options_of(best, allowed[1]) + ", and " + mm_text(allowed[1].away) + " with " +
+                 options_of(allowed[1], best) + ": write one of them");
+  return best;
 }
 
 }  // namespace riis::program

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The input is the file of a patient's wall. The results are a closed surface whose triangles face outwards, and the flat ends at
-// which the vessels were cut.
+// The input is the file of a patient's wall. The results are a closed surface whose triangles face outwards, the flat ends at
+// which the vessels were cut, and the unit and the axes of the file.
 #pragma once
 
 #include <array>
@@ -8,6 +8,9 @@
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "common/triangles.hpp"
+#include "program/input/placing.hpp"
 
 namespace riis::program {
 
@@ -24,13 +27,12 @@ struct FlatEnd {
 // A wall with its flat ends: a closed surface around the blood. Lengths are in the file's unit until scale_wall changes them.
 struct PatientWall {
   std::string path;
-  std::vector<double> xyz;            // (3, n_vertices); no two vertices are equal, and each has a triangle
-  std::vector<std::int64_t> corners;  // (3, n_triangles); seen from outside, they run counter-clockwise
-  std::vector<std::int32_t> end_of;   // (n_triangles): the position in `ends`, or -1 at the wall
-  std::vector<FlatEnd> ends;          // two or more, the largest first
-  double size = 0;                    // the diagonal of the box around the wall
-  double area = 0, volume = 0;        // of the whole surface with its ends, and of the blood
-  std::vector<std::string> remarks;   // what was changed in the surface, a line each, such as "... are turned outwards"
+  Triangles triangles;               // which face outwards; no two vertices are equal, and each has a triangle
+  std::vector<std::int32_t> end_of;  // (n_triangles): the position in `ends`, or -1 at the wall
+  std::vector<FlatEnd> ends;         // two or more, the largest first
+  double size = 0;                   // the diagonal of the box around the wall
+  double area = 0, volume = 0;       // of the whole surface with its ends, and of the blood
+  std::vector<std::string> remarks;  // what was changed in the surface, a line each, such as "... are turned outwards"
 };
 
 // The points of --inlet and --outlet, in the unit of the wall's file. Each point chooses the flat part that is nearest to it.
@@ -55,5 +57,19 @@ void name_ends(PatientWall &wall, const std::array<double, 3> &centre, const std
 
 // Writes all triangles as a binary .stl file.
 void write_wall(const PatientWall &wall, const std::string &path);
+
+// A file of a wall states neither a unit nor axes. The landmarks state both, and lie at the wall.
+struct WallFrame {
+  Unit unit = Unit::millimetre;
+  std::string axes;      // "LPS", "RAS" or "mesh"
+  double away = 0;       // mean distance of the landmarks from the wall, in millimetres
+  double worst = 0;      // the largest of these distances
+  std::string farthest;  // the landmark with this distance
+};
+
+// The lengths of the wall are in the unit of its file. `unit` and `axes` are given if the user stated them. Refuses landmarks
+// that are not at the wall. If two units or axes fit about equally well, refuses to choose one of them.
+WallFrame frame_of_wall(const PatientWall &wall, const LandmarkFile &landmarks, std::optional<Unit> unit,
+                        const std::string &axes);
 
 }  // namespace riis::program

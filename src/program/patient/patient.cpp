@@ -12,27 +12,28 @@
 #include "program/base/refusal.hpp"
 #include "program/base/text.hpp"
 #include "program/commands/commands.hpp"
-#include "program/input/diseases.hpp"
 #include "program/input/placing.hpp"
 #include "program/input/valve_file.hpp"
 #include "program/input/valve_source.hpp"
 #include "program/mark/warnings.hpp"
 #include "program/output/report.hpp"
-#include "program/patient/fenicsx_case.hpp"
 #include "program/patient/flat_ends.hpp"
-#include "program/patient/openfoam_case.hpp"
 #include "program/patient/patient_mesh.hpp"
 #include "program/patient/patient_steps.hpp"
 #include "program/patient/solver_case.hpp"
-#include "program/patient/svmultiphysics_case.hpp"
 #include "program/patient/valve_sides.hpp"
-#include "program/patient/wall_frame.hpp"
 
 namespace riis::program {
 namespace {
 
 namespace fs = std::filesystem;
 using Words = std::vector<std::string>;
+
+Words joined(std::initializer_list<Words> lists) {
+  Words all;
+  for (const Words &words : lists) all.insert(all.end(), words.begin(), words.end());
+  return all;
+}
 
 // Defaults of lengths, in millimetres.
 constexpr double aortic_half_thickness = 1, mitral_half_thickness = 1.5, usual_skirt = 6, usual_noise = 0.3;
@@ -133,31 +134,34 @@ class PatientRun {
     const std::string given = options_.has_valve         ? options_.valve
                               : landmarks_.valve.empty() ? kind_of_roles(landmarks_)
                                                          : "";
-    kind_ = kind_of(landmarks_, given, Reader::program);
-    check_kind(kind_);
-    is_mitral_ = is_mitral_kind(kind_);
+    the_.kind = kind_of(landmarks_, given, Reader::program);
+    check_kind(the_.kind);
+    the_.is_mitral = is_mitral_kind(the_.kind);
+    the_.name = the_.is_mitral ? "mitral_valve" : "aortic_valve";
+    the_.folder = ".";
+    the_.solver = options_.solver;
     const auto point_of = [](const std::vector<double> &xyz) { return std::array<double, 3>{xyz[0], xyz[1], xyz[2]}; };
     EndPoints points;
     if (options_.inlet) points.inlet = point_of(*options_.inlet);
     for (const std::vector<double> &outlet : options_.outlets) points.outlets.push_back(point_of(outlet));
     wall_ = read_patient_wall(options_.wall, points);
     frame_ = frame_of_wall(wall_, landmarks_, options_.wall_unit, options_.axes);
-    unit_ = options_.unit.value_or(frame_.unit);
-    millimetre_ = factor_between(Unit::millimetre, unit_);
-    half_thickness_ =
-        length_of(options_.given_half_thickness, is_mitral_ ? mitral_half_thickness : aortic_half_thickness,
+    the_.unit = options_.unit.value_or(frame_.unit);
+    millimetre_ = factor_between(Unit::millimetre, the_.unit);
+    the_.half_thickness =
+        length_of(options_.given_half_thickness, the_.is_mitral ? mitral_half_thickness : aortic_half_thickness,
                   least_half_thickness_mm, most_half_thickness_mm);
-    skirt_ = length_of(options_.given_skirt, usual_skirt, 0, most_skirt_mm);
-    largest_edge_ =
-        length_of(options_.given_largest_edge, usual_largest_edge * half_thickness_ / millimetre_, 0, most_skirt_mm);
+    the_.skirt = length_of(options_.given_skirt, usual_skirt, 0, most_skirt_mm);
+    largest_edge_ = length_of(options_.given_largest_edge, usual_largest_edge * the_.half_thickness / millimetre_, 0,
+                              most_skirt_mm);
     band_edge_ = options_.band_edge.value_or(options_.solver == "svmultiphysics" ? uris_band_edge : usual_band_edge);
-    resistance_ = options_.given_resistance ? options_.given_resistance->number : usual_resistance;
-    steps_.say("patient", "a " + kind_ + " valve by " + counted(view(landmarks_.names).size(), "landmark") + " of " +
-                              options_.landmarks +
+    the_.resistance = options_.given_resistance ? options_.given_resistance->number : usual_resistance;
+    steps_.say("patient", "a " + the_.kind + " valve by " + counted(view(landmarks_.names).size(), "landmark") +
+                              " of " + options_.landmarks +
                               (options_.has_valve || !landmarks_.valve.empty() ? "" : " (--valve names another)"));
     for (const std::string &remark : wall_.remarks) steps_.say("wall", remark);
     steps_.say("wall",
-               options_.wall + ": " + counted(view(wall_.corners).size() / 3, "triangle") + ", " +
+               options_.wall + ": " + counted(wall_.triangles.n(), "triangle") + ", " +
                    counted(view(wall_.ends).size(), "flat end") + ", in " + name_of(frame_.unit) +
                    (frame_.axes == "mesh" ? "" : " and " + frame_.axes) + ": the landmarks are " +
                    printed("%.3g", frame_.away) + " mm from it on average, at most " + printed("%.3g", frame_.worst) +
@@ -168,7 +172,7 @@ class PatientRun {
            options_.wall + " on average, and a person sets them within " + shown(usual_distance_mm) +
            " mm: they may belong to another patient or image. Load both in 3D Slicer");
     steps_.say("folder",
-               options_.folder + ", where lengths are in " + name_of(unit_) + ". The next commands run there");
+               options_.folder + ", where lengths are in " + name_of(the_.unit) + ". The next commands run there");
     std::error_code error;
     inputs_ = {fs::absolute(options_.wall, error).string(), fs::absolute(options_.landmarks, error).string()};
     if (!options_.params.empty()) inputs_.push_back(fs::absolute(options_.params, error).string());
@@ -196,7 +200,7 @@ class PatientRun {
     landmarks_name_ = "landmarks" + landmark_ending(options_.landmarks);
     copy(inputs_[1], landmarks_name_);
     if (!options_.params.empty()) copy(inputs_[2], "params.json");
-    scale_wall(wall_, factor_between(frame_.unit, unit_));
+    scale_wall(wall_, factor_between(frame_.unit, the_.unit));
     write_wall(wall_, "wall.stl");
   }
   static void copy(const std::string &from, const std::string &to) {
@@ -208,27 +212,26 @@ class PatientRun {
   // ---- The valve ----
 
   Words place_words(const Words &more) const {
-    Words words = {"place",  landmarks_name_, "--valve", options_.disease.empty() ? kind_ : options_.disease,
-                   "--unit", name_of(unit_)};
+    Words words = {"place",  landmarks_name_,   "--valve", options_.disease.empty() ? the_.kind : options_.disease,
+                   "--unit", name_of(the_.unit)};
     if (frame_.axes != "mesh") words.insert(words.end(), {"--axes", frame_.axes});
     if (options_.flow) words.insert(words.end(), {"--flow", numbers_text(options_.flow->data(), 3, ",")});
     if (!options_.params.empty()) words.insert(words.end(), {"--params", "params.json"});
     for (const std::string &setting : options_.settings) words.insert(words.end(), {"--set", setting});
-    words.insert(words.end(), more.begin(), more.end());
-    return words;
+    return joined({words, more});
   }
 
   double noise() const {
-    if (!options_.noise && landmarks_.noise) return factor_between(landmarks_.unit, unit_) * *landmarks_.noise;
+    if (!options_.noise && landmarks_.noise) return factor_between(landmarks_.unit, the_.unit) * *landmarks_.noise;
     return length_of(options_.noise, usual_noise, 0, most_skirt_mm);
   }
 
   void place() {
     static const char *const names[] = {"none", "exact", "smoothed"};
-    Words more = {"--warp", names[options_.warp_choice]};
-    if (options_.noise) more.insert(more.end(), {"--noise", shortest(noise())});
-    more.insert(more.end(), {"--output", "placed.json"});
-    const StepEnd end = steps_.run("place", place_words(more));
+    const Words noise_words = options_.noise ? Words{"--noise", shortest(noise())} : Words();
+    const StepEnd end = steps_.run(
+        "place",
+        place_words(joined({{"--warp", names[options_.warp_choice]}, noise_words, {"--output", "placed.json"}})));
     if (!end.is_fine()) steps_.refuse("place", end, cure_of_folds(end));
     show_warnings(end);
     const Json placed = parse_json_file("placed.json", "a placed valve");
@@ -241,11 +244,11 @@ class PatientRun {
                               joined_by(fit["undetermined"].get<std::vector<std::string>>(), ", ") +
                               ". More landmarks or --set would determine them (logs/place.log)");
     report_["fit"] = fit;
-    const PlacedFile file = read_placed("placed.json", placed, unit_);
+    const PlacedFile file = read_placed("placed.json", placed, the_.unit);
     for (std::size_t k = 0; k < 3; ++k) centre_[k] = file.where.translation[k];
     const double *const axis = file.where.rotation_axis;
     // The atrium of a mitral valve lies in the direction of z.
-    flow_ = turned({0, 0, is_mitral_ ? -1.0 : 1.0}, {axis[0], axis[1], axis[2]}, file.where.rotation_angle);
+    flow_ = turned({0, 0, the_.is_mitral ? -1.0 : 1.0}, {axis[0], axis[1], axis[2]}, file.where.rotation_angle);
     name_ends(wall_, centre_, flow_);
   }
 
@@ -271,14 +274,11 @@ class PatientRun {
                : "";
   }
 
-  Words valve_words() const { return {"--valve", "placed.json", "--skirt", shortest(skirt_), "--wall", "wall.stl"}; }
   Words with_valve(const Words &begin, const Words &end = {}) const {
-    Words words = begin;
-    const Words valve = valve_words();
-    words.insert(words.end(), valve.begin(), valve.end());
-    words.insert(words.end(), {"--half-thickness", shortest(half_thickness_)});
-    words.insert(words.end(), end.begin(), end.end());
-    return words;
+    return joined({begin,
+                   {"--valve", "placed.json", "--skirt", shortest(the_.skirt), "--wall", "wall.stl", "--half-thickness",
+                    shortest(the_.half_thickness)},
+                   end});
   }
 
   void check_valve() {
@@ -300,7 +300,7 @@ class PatientRun {
   std::string cure_of_missed_wall(const StepEnd &end) {
     if (end.reason().find("wall.stl: ") != 0) return "";
     for (const double longest : {8, 10, 12, 15, 20}) {
-      if (longest * millimetre_ <= skirt_) continue;
+      if (longest * millimetre_ <= the_.skirt) continue;
       const StepEnd trial = steps_.run_silently(
           "skirt_trial", {"surface", "--valve", "placed.json", "--skirt", shortest(longest * millimetre_), "--wall",
                           "wall.stl", "--output", "logs/trial.vtp"});
@@ -332,7 +332,7 @@ class PatientRun {
       if (attempt == 1)
         refuse_data(text + " also in the second mesh, whose edges in the band have " + shown(band_edge_) +
                     " half thicknesses: --band-edge " + shown(shorter_by * band_edge_) +
-                    " makes them shorter, or --half-thickness " + option_mm(1.1 * half_thickness_) +
+                    " makes them shorter, or --half-thickness " + option_mm(1.1 * the_.half_thickness) +
                     " thickens the band");
       band_edge_ *= shorter_by;
       steps_.say("marks",
@@ -347,7 +347,8 @@ class PatientRun {
                                  {"--band-edge", shown(band_edge_), "--largest-edge", shortest(largest_edge_)}));
     if (!end.is_fine()) steps_.refuse("size_field", end);
     show_warnings(end);
-    steps_.say("edges", in_mm(band_edge_ * half_thickness_) + " in the band, " + in_mm(largest_edge_) + " elsewhere",
+    steps_.say("edges",
+               in_mm(band_edge_ * the_.half_thickness) + " in the band, " + in_mm(largest_edge_) + " elsewhere",
                end.seconds);
     PatientMeshOptions how;
     how.folder = ".";
@@ -355,20 +356,24 @@ class PatientRun {
     how.largest_edge = largest_edge_;
     how.announce = [this](const std::string &command) { steps_.announce(command); };
     const double begin = steps_.seconds();
-    mesh_ = mesh_patient(wall_, how);
+    PatientMesh mesh = mesh_patient(wall_, how);
+    the_.boundaries = std::move(mesh.boundaries);
+    the_.n_nodes = mesh.n_nodes;
+    the_.n_cells = mesh.n_cells;
+    the_.band_edge = band_edge_ * the_.half_thickness;
     steps_.say("mesh",
-               "mesh.msh: " + grouped(mesh_.n_nodes) + " nodes, " + grouped(mesh_.n_cells) +
-                   " tetrahedra; boundaries " + names_of_boundaries(),
+               "mesh.msh: " + grouped(the_.n_nodes) + " nodes, " + grouped(the_.n_cells) + " tetrahedra; boundaries " +
+                   names_of_boundaries(),
                steps_.seconds() - begin);
-    if (mesh_.n_nodes <= many_nodes) return;
+    if (the_.n_nodes <= many_nodes) return;
     steps_.say("mesh", "more than " + grouped(many_nodes) + " nodes take long to compute: --half-thickness " +
-                           option_mm(half_thickness_ * std::cbrt(static_cast<double>(mesh_.n_nodes) / many_nodes)) +
+                           option_mm(the_.half_thickness * std::cbrt(static_cast<double>(the_.n_nodes) / many_nodes)) +
                            " would need about " + grouped(many_nodes));
   }
 
   std::string names_of_boundaries() const {
     std::vector<std::string> names;
-    for (const Boundary &boundary : mesh_.boundaries) names.push_back(boundary.name);
+    for (const Boundary &boundary : the_.boundaries) names.push_back(boundary.name);
     return joined_by(names, ", ");
   }
 
@@ -398,20 +403,23 @@ class PatientRun {
   void find_sides() {
     MarkOptions marking;
     marking.valve = "placed.json";
-    marking.skirt = skirt_;
+    marking.skirt = the_.skirt;
     marking.wall = "wall.stl";
     marking.has_half_thickness = true;
-    marking.surface_options.half_thickness = half_thickness_;
+    marking.surface_options.half_thickness = the_.half_thickness;
     use_named_valve(marking);
     apply_units(marking);
-    sides_ = sides_of_valve("mesh.msh", marking, mesh_.boundaries, centre_, flow_, millimetre_);
-    check_ends();
+    const ValveSides sides = sides_of_valve("mesh.msh", marking, the_.boundaries, centre_, flow_, millimetre_);
+    the_.upstream = sides.upstream;
+    the_.downstream = sides.downstream;
+    the_.ball_radius = sides.ball_radius;
+    check_ends(sides);
   }
 
   void check_sealed() {
     const double begin = steps_.seconds();
-    const std::string from = numbers_text(sides_.upstream.data(), 3, ","),
-                      to = numbers_text(sides_.downstream.data(), 3, ",");
+    const std::string from = numbers_text(the_.upstream.data(), 3, ","),
+                      to = numbers_text(the_.downstream.data(), 3, ",");
     const auto passage_at = [&](const char *opening, const std::string &name) {
       const StepEnd end = steps_.run(
           name, with_valve({"check", "leaks", "mesh.msh"},
@@ -436,7 +444,7 @@ class PatientRun {
     if (open["passage"]["state"] != "open")
       refuse_data("the open valve lets no blood pass: the widest passage is " + in_mm(open["passage"]["distance"]) +
                   " from it. A smaller --half-thickness leaves more room");
-    const double square_cm = factor_between(unit_, Unit::centimetre) * factor_between(unit_, Unit::centimetre);
+    const double square_cm = factor_between(the_.unit, Unit::centimetre) * factor_between(the_.unit, Unit::centimetre);
     const Disease *const disease = disease_named(options_.disease);
     std::string text = "the closed valve seals";
     if (closed["passage"]["state"] != "closed")
@@ -456,12 +464,12 @@ class PatientRun {
   }
 
   // Refuses ends that lie on the wrong side of the closed valve.
-  void check_ends() const {
-    if (!sides_.are_apart) return;
-    for (const auto &[names, is_before] : {std::pair(sides_.after, false), std::pair(sides_.before, true)})
+  void check_ends(const ValveSides &sides) const {
+    if (!sides.are_apart) return;
+    for (const auto &[names, is_before] : {std::pair(sides.after, false), std::pair(sides.before, true)})
       for (const std::string &name : names) {
         if ((name == "inlet") == is_before) continue;
-        const auto end = std::find_if(mesh_.boundaries.begin(), mesh_.boundaries.end(),
+        const auto end = std::find_if(the_.boundaries.begin(), the_.boundaries.end(),
                                       [&](const Boundary &boundary) { return boundary.name == name; });
         refuse_data(
             "mesh.msh: the end " + name + " at " + point_text(end->centre) + " is " + (is_before ? "before" : "after") +
@@ -473,11 +481,11 @@ class PatientRun {
   template <class Point>
   std::string point_text(const Point &point) const {
     const double p[3] = {point[0], point[1], point[2]};
-    return place_text(options_in_folder(), p, half_thickness_);
+    return place_text(options_in_folder(), p, the_.half_thickness);
   }
   ValveOptions options_in_folder() const {
     ValveOptions options;
-    options.unit = unit_;
+    options.unit = the_.unit;
     return options;
   }
 
@@ -486,9 +494,8 @@ class PatientRun {
   void write_marks() {
     for (const auto &[opening, name] : {std::pair<std::string, std::string>{"0", "closed"}, {"1", "open"}}) {
       const Words words = with_valve({"mark", "mesh.msh"}, {"--opening", opening, "--output", name + ".vtu"});
-      Words with_picture = words;
-      with_picture.insert(with_picture.end(), {"--picture", name + ".png", "--view", "valve-oblique"});
-      run_with_picture(name + "_marks", with_picture, words, name + ".vtu", name + ".png");
+      run_with_picture(name + "_marks", joined({words, {"--picture", name + ".png", "--view", "valve-oblique"}}), words,
+                       name + ".vtu", name + ".png");
     }
   }
 
@@ -508,65 +515,41 @@ class PatientRun {
   }
 
   void write_beat() {
-    const Beat &beat = is_mitral_ ? mitral_beat : aortic_beat;
+    const Beat &beat = the_.is_mitral ? mitral_beat : aortic_beat;
     write_text("beat.csv", beat.text);
     const Words words = with_valve(
-        {"mark", "mesh.msh"}, {"--resistance", shortest(resistance_), "--cycle", "beat.csv", "--period", shown_period,
-                               "--interpolation", "cubic", "--times", beat.times, "--output", "beat.pvd",
+        {"mark", "mesh.msh"}, {"--resistance", shortest(the_.resistance), "--cycle", "beat.csv", "--period",
+                               shown_period, "--interpolation", "cubic", "--times", beat.times, "--output", "beat.pvd",
                                "--surface-output", "leaflets.pvd", "--series-table", "beat_table.csv"});
-    Words with_movie = words;
-    with_movie.insert(with_movie.end(), {"--movie", "beat.mp4", "--movie-view", "valve-oblique", "--frame-rate", "6"});
-    run_with_picture("beat", with_movie, words, "beat.pvd, leaflets.pvd, beat_table.csv", "beat.mp4");
-  }
-
-  SolverCase solver_case() const {
-    SolverCase the;
-    the.folder = ".";
-    the.solver = options_.solver;
-    the.unit = unit_;
-    the.kind = kind_;
-    the.is_mitral = is_mitral_;
-    the.name = is_mitral_ ? "mitral_valve" : "aortic_valve";
-    the.half_thickness = half_thickness_;
-    the.skirt = skirt_;
-    the.resistance = resistance_;
-    the.upstream = sides_.upstream;
-    the.downstream = sides_.downstream;
-    the.ball_radius = sides_.ball_radius;
-    the.boundaries = mesh_.boundaries;
-    the.n_nodes = mesh_.n_nodes;
-    the.n_cells = mesh_.n_cells;
-    the.band_edge = band_edge_ * half_thickness_;
-    return the;
+    const Words movie = {"--movie", "beat.mp4", "--movie-view", "valve-oblique", "--frame-rate", "6"};
+    run_with_picture("beat", joined({words, movie}), words, "beat.pvd, leaflets.pvd, beat_table.csv", "beat.mp4");
   }
 
   void write_case() {
     if (options_.solver == "none") return;
     const double begin = steps_.seconds();
-    const SolverCase the = solver_case();
-    if (options_.solver == "openfoam") write_openfoam_case(the);
-    if (options_.solver == "svmultiphysics") write_svmultiphysics_case(the);
-    if (options_.solver == "fenicsx") write_fenicsx_case(the);
+    if (options_.solver == "openfoam") write_openfoam_case(the_);
+    if (options_.solver == "svmultiphysics") write_svmultiphysics_case(the_);
+    if (options_.solver == "fenicsx") write_fenicsx_case(the_);
     steps_.say("case", "for " + options_.solver, steps_.seconds() - begin);
   }
 
   void write_report() {
-    const SolverCase the = solver_case();
-    Json json = {{"version", riis_version_string()}, {"gmsh", gmsh_}, {"valve", kind_}};
+    Json json = {{"version", riis_version_string()}, {"gmsh", gmsh_}, {"valve", the_.kind}};
     if (!options_.disease.empty()) json["disease"] = options_.disease;
-    json["unit"] = name_of(unit_);
+    json["unit"] = name_of(the_.unit);
     json["wall"] = {{"file", options_.wall},
                     {"unit", name_of(frame_.unit)},
                     {"axes", frame_.axes},
                     {"landmarks_away_mm", frame_.away}};
-    json["half_thickness"] = half_thickness_;
+    json["half_thickness"] = the_.half_thickness;
     json["band_edge"] = band_edge_;
     json["largest_edge"] = largest_edge_;
-    json["skirt"] = skirt_;
-    json["resistance"] = resistance_;
-    json["n_nodes"] = mesh_.n_nodes;
-    json["n_cells"] = mesh_.n_cells;
-    for (const Boundary &boundary : mesh_.boundaries)
+    json["skirt"] = the_.skirt;
+    json["resistance"] = the_.resistance;
+    json["n_nodes"] = the_.n_nodes;
+    json["n_cells"] = the_.n_cells;
+    for (const Boundary &boundary : the_.boundaries)
       json["boundaries"].push_back({{"name", boundary.name},
                                     {"group", boundary.group},
                                     {"centre", boundary.centre},
@@ -574,9 +557,9 @@ class PatientRun {
                                     {"n_faces", boundary.n_faces}});
     json["centre"] = centre_;
     json["flow"] = flow_;
-    json["upstream"] = sides_.upstream;
-    json["downstream"] = sides_.downstream;
-    json["ball_radius"] = sides_.ball_radius;
+    json["upstream"] = the_.upstream;
+    json["downstream"] = the_.downstream;
+    json["ball_radius"] = the_.ball_radius;
     json.update(report_);
     json["solver"] = options_.solver;
     json["seconds"] = steps_.seconds();
@@ -585,8 +568,8 @@ class PatientRun {
   }
 
   void print_end() {
-    const double finer = std::pow(static_cast<double>(mesh_.n_nodes) / many_nodes, 1 / power_of_nodes);
-    steps_.say("edges", "the mesh has " + grouped(mesh_.n_nodes) + " nodes with --band-edge " + shown(band_edge_) +
+    const double finer = std::pow(static_cast<double>(the_.n_nodes) / many_nodes, 1 / power_of_nodes);
+    steps_.say("edges", "the mesh has " + grouped(the_.n_nodes) + " nodes with --band-edge " + shown(band_edge_) +
                             ", and would have about " + grouped(many_nodes) + " with " +
                             printed("%.2f", finer * band_edge_));
     steps_.say("done", "in " + printed("%.0f", steps_.seconds()) + " s. " + options_.folder + " has:");
@@ -609,19 +592,16 @@ class PatientRun {
 
   const PatientOptions &options_;
   PatientSteps steps_;
-  std::string gmsh_, kind_, landmarks_name_;
-  bool is_mitral_ = false;
+  SolverCase the_;  // whose folder is the working folder
+  std::string gmsh_, landmarks_name_;
   LandmarkFile landmarks_;
   PatientWall wall_;
   WallFrame frame_;
   std::vector<std::string> inputs_;
-  Unit unit_ = Unit::millimetre;
-  double millimetre_ = 1;  // in the folder's unit, as are the lengths below
-  double half_thickness_ = 0, skirt_ = 0, largest_edge_ = 0;
-  double band_edge_ = 0, resistance_ = 0, marks_seconds_ = 0;
+  double millimetre_ = 1, largest_edge_ = 0;  // in the folder's unit
+  double band_edge_ = 0;                      // in half thicknesses
+  double marks_seconds_ = 0;
   std::array<double, 3> centre_{}, flow_{};
-  PatientMesh mesh_;
-  ValveSides sides_;
   Json report_ = Json::object();
 };
 

@@ -236,12 +236,11 @@ std::vector<BoundaryGroup> boundary_groups(const PatientWall &wall) {
 class PatientMesher {
  public:
   PatientMesher(const PatientWall &wall, const PatientMeshOptions &options)
-      : wall_(wall), options_(options), groups_(boundary_groups(wall)), gmsh_folder_(options.folder + "/gmsh") {
-    for (std::size_t i = 0; i < wall.xyz.size(); i += 3)
-      old_.points.push_back({wall.xyz[i], wall.xyz[i + 1], wall.xyz[i + 2]});
-    for (std::size_t i = 0; i < wall.corners.size(); i += 3)
-      old_.corners.push_back({wall.corners[i], wall.corners[i + 1], wall.corners[i + 2]});
-  }
+      : wall_(wall),
+        options_(options),
+        old_(wall.triangles),
+        groups_(boundary_groups(wall)),
+        gmsh_folder_(options.folder + "/gmsh") {}
 
   PatientMesh run() {
     make_folder(gmsh_folder_);
@@ -375,16 +374,7 @@ class PatientMesher {
 
   // Tells where the wall intersects itself, or returns "". Most failures of gmsh come from a wall that intersects itself.
   std::string crossing_text() const {
-    auto arrays = defaults<riis_surface_arrays>();
-    arrays.n_vertices = static_cast<std::int64_t>(old_.points.size());
-    arrays.x = wall_.xyz.data();
-    arrays.y = wall_.xyz.data() + 1;
-    arrays.z = wall_.xyz.data() + 2;
-    arrays.stride = 3;
-    arrays.real_bits = 64;
-    arrays.n_faces = old_.n();
-    arrays.vertex_ids = wall_.corners.data();
-    arrays.id_bits = 64;
+    const riis_surface_arrays arrays = arrays_of(old_);
     auto how = defaults<riis_surface_options>();
     how.half_thickness = least_crossing_share * wall_.size;
     how.zero_area = RIIS_ZERO_AREA_SKIP;
@@ -652,9 +642,9 @@ class PatientMesher {
 
   const PatientWall &wall_;
   const PatientMeshOptions &options_;
+  const Triangles &old_;  // of the wall
   const std::vector<BoundaryGroup> groups_;
   const std::string gmsh_folder_;
-  Triangles old_;
   GmshMesh surface_, mesh_;
   std::vector<std::vector<std::pair<Corners, std::int64_t>>>
       faces_;  // by group: triangles of the boundary and their cells

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The inputs are a mesh with named boundaries of a patient, and a valve that is placed in the mesh. The result is a folder in
 // which a flow solver can run without changes. riis patient fills a SolverCase. For each solver, one function writes this
-// solver's folder from the SolverCase.
+// solver's folder from the SolverCase. Each folder must be new or empty, and the case must have one inlet, one wall and at least
+// one outlet.
 #pragma once
 
 #include <array>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "program/base/units.hpp"
+#include "program/input/json.hpp"
 
 namespace riis::program {
 
@@ -45,5 +47,28 @@ struct SolverCase {
   std::int64_t n_nodes = 0, n_cells = 0;
   double band_edge = 0;  // edge length in the band
 };
+
+// Writes a folder that OpenFOAM 1912 runs as it is: the mesh, the dictionaries, and the scripts Allrun and report.py. An aortic
+// valve is driven by the pressure of the ventricle and by a Windkessel. A mitral valve is driven by the pressures of the atrium
+// and the ventricle. Refuses a unit that is not metres, and a valve that starts open.
+void write_openfoam_case(const SolverCase &the);
+
+// Writes a folder in which svMultiPhysics runs one beat as it is (docs/patient_svmultiphysics.md): the mesh with its faces, the
+// valve's motion, pressures, solver.xml and Allrun. Reads mesh.vtu, faces/NAME.vtp, placed.json and wall.stl from the case's
+// folder, with lengths in centimetres. Prints the command of the export, and how long the run of a beat takes.
+void write_svmultiphysics_case(const SolverCase &solver);
+
+// Writes a folder in which dolfinx runs one beat as it is (docs/patient_fenicsx.md): run.py, its numbers in case.json, and copies
+// of mesh.msh, placed.json and wall.stl. Lengths of the case's folder must be in metres. Prints how long the run of a beat takes.
+void write_fenicsx_case(const SolverCase &solver);
+
+// The longest skirt that OpenFOAM accepts by default, in metres. Gaps in patients are below 3 mm, and the walls of other chambers
+// are farther away.
+inline constexpr double longest_foam_skirt = 6e-3;
+// Returns the entries valve, placement, warp and skirt of OpenFOAM's dictionary of riisValve (examples/openfoam/README.md).
+// `root` is the content of the file of a placed valve. `longest` is the length of the longest skirt in metres, or 0 for no skirt.
+// The skirt ends at the patch `wall` of the mesh. A valve whose parameter skirt_length is set keeps its own skirt. If a kind of
+// valve cannot have a skirt, there is no skirt. Refuses a warp that changes in time.
+std::string foam_valve_of(const std::string &path, const Json &root, double longest);
 
 }  // namespace riis::program

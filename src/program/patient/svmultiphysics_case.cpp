@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "program/patient/svmultiphysics_case.hpp"
-
 #include <array>
 #include <variant>
 

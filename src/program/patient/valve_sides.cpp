@@ -60,15 +60,7 @@ ValveSides sides_of_valve(const std::string &mesh, const MarkOptions &marking, c
   const MeshFile file = read_mesh_file(mesh, "");
   FileNodes nodes(file, mesh);
   nodes.find_neighbors(marking.n_threads);
-  std::vector<double> xyz;
-  for (std::int64_t i = 0; i < nodes.n(); ++i) {
-    const NodePoints::Point point = nodes.point(i);
-    xyz.insert(xyz.end(), point.begin(), point.end());
-  }
-  const auto at = [&](std::int64_t node) {
-    return Vector3{view(xyz)[3 * node], view(xyz)[3 * node + 1], view(xyz)[3 * node + 2]};
-  };
-
+  const auto at = [&](std::int64_t node) { return nodes.point(node); };
   const std::vector<double> places = places_by_distance(centre, flow, millimetre);
   const auto place = [&](std::size_t i) {
     return Vector3{view(places)[3 * i], view(places)[3 * i + 1], view(places)[3 * i + 2]};

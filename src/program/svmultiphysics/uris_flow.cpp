@@ -11,6 +11,7 @@
 #include "program/base/progress.hpp"
 #include "program/base/text.hpp"
 #include "program/mark/warnings.hpp"
+#include "program/patient/case_files.hpp"
 
 namespace riis::program {
 namespace {
@@ -120,7 +121,7 @@ ClosedDrop closed_drop(const SolverMesh &mesh, const SolverDistances &distances,
   };
   const std::string python = python_of_user();
   // Python must not look for modules in the current folder, because a file there may have the name of a module.
-  const std::string script = std::string("import sys; del sys.path[0]\n") + uris_flow_script;
+  const std::string script = "import sys; del sys.path[0]\n" + case_texts().at("../svmultiphysics/uris_flow.py");
   const ProgramEnd end = run_program({python, "-c", script}, arrays.file(), read);
   if (end.error != 0) throw NoFlow{python + " cannot be run: " + system_text(end.error)};
   if (last.rfind("lacks ", 0) == 0) throw NoFlow{python + ' ' + last};

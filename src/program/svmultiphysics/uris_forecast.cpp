@@ -36,12 +36,6 @@ bool is_edge(const SolverElement &element, std::size_t a, std::size_t b) {
   return agrees[0] + agrees[1] + agrees[2] == 2;
 }
 
-double middle_of(std::vector<double> numbers) {
-  const auto middle = numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2);
-  std::nth_element(numbers.begin(), middle, numbers.end());
-  return *middle;
-}
-
 class Forecaster {
  public:
   Forecaster(const ExportOptions &options, UrisLeaflets &leaflets)
@@ -257,7 +251,7 @@ class Forecaster {
     for (std::int64_t i = 0; i < mesh_.n_nodes; ++i)
       if (view(near)[i] <= half_thickness_) volumes.push_back(view(mesh_.node_volume)[i]);
     if (lengths.empty() || volumes.empty()) return "";
-    const double edge = middle_of(lengths), volume = middle_of(volumes), shorter = edge - edge / factor;
+    const double edge = median(lengths), volume = median(volumes), shorter = edge - edge / factor;
     double n_nodes = 0;
     for (const double of_node : mesh_.node_volume) {
       const double of_edges = edge * std::cbrt(std::max(of_node, 0.0) / volume);

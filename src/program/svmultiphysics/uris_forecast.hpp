@@ -49,7 +49,4 @@ ClosedDrop closed_drop(const SolverMesh &mesh, const SolverDistances &distances,
                        const std::vector<double> &near, double reach, double half_thickness, const SolverFluid &fluid,
                        bool quiet);
 
-// The text of uris_flow.py. CMake writes the script into the program, so the program needs no path to the script.
-extern const char uris_flow_script[];
-
 }  // namespace riis::program

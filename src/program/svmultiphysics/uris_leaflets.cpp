@@ -5,11 +5,9 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <tuple>
 #include <utility>
 
 #include "common/array_view.hpp"
-#include "common/elementary.hpp"
 #include "program/base/refusal.hpp"
 #include "program/base/text.hpp"
 #include "program/input/valve_source.hpp"
@@ -117,10 +115,9 @@ void UrisLeaflets::find_forward(double opening) {
   const std::vector<double> xyz = vertices_at(opening);
   for (const auto &[corners, leaflet] : net_.triangles()) {
     if (leaflet == housing_) continue;
-    const Point area = twice_area(vertex_of(xyz, corners[0]), vertex_of(xyz, corners[1]), vertex_of(xyz, corners[2]));
-    for (std::size_t k = 0; k < 3; ++k) forward_[k] += area[k];
+    forward_ = forward_ + twice_area(xyz, corners);
   }
-  const double length = hypotenuse(forward_[0], forward_[1], forward_[2]);
+  const double length = norm(forward_);
   if (!(length > 0))
     refuse_data((subject_.empty() ? "" : subject_ + ": ") +
                 "the normals of the leaflets cancel, so the direction of forward flow is not known");
@@ -148,25 +145,23 @@ void UrisLeaflets::part(const ExportOptions &options) {
 void UrisLeaflets::turn_ring(double opening) {
   const std::vector<double> xyz = vertices_at(opening);
   const auto middle_of = [&](const Corners &corners) {
-    Point middle{};
+    Vector3 middle{};
     for (const std::int64_t vertex : corners)
       for (std::size_t k = 0; k < 3; ++k) middle[k] += vertex_of(xyz, vertex)[k] / 3;
     return middle;
   };
-  Point centre{};
+  Vector3 centre{};
   double n = 0;
   for (const auto &[corners, leaflet] : net_.triangles()) {
     if (leaflet != housing_) continue;
-    const Point middle = middle_of(corners);
+    const Vector3 middle = middle_of(corners);
     for (std::size_t k = 0; k < 3; ++k) centre[k] = (centre[k] * n + middle[k]) / (n + 1);
     ++n;
   }
   for (std::size_t i = 0; i < net_.triangles().size(); ++i) {
     const auto &[corners, leaflet] = net_.triangles()[i];
     if (leaflet != housing_) continue;
-    const Point off = difference(middle_of(corners), centre),
-                area = twice_area(vertex_of(xyz, corners[0]), vertex_of(xyz, corners[1]), vertex_of(xyz, corners[2]));
-    if (product(off, area) < 0) net_.turn(i);
+    if (dot(middle_of(corners) - centre, twice_area(xyz, corners)) < 0) net_.turn(i);
   }
 }
 
@@ -265,17 +260,12 @@ double FinerTriangles::longest_edge() const {
 
 void FinerTriangles::append_middles(std::vector<double> &xyz) const {
   xyz.reserve(xyz.size() + 3 * middles_.size());
-  for (const Ends &ends : middles_) {
-    for (std::int64_t k = 0; k < 3; ++k) xyz.push_back(0.5 * (view(xyz)[3 * ends.a + k] + view(xyz)[3 * ends.b + k]));
-  }
+  for (const Edge &edge : middles_)
+    for (std::int64_t k = 0; k < 3; ++k) xyz.push_back(0.5 * (view(xyz)[3 * edge.a + k] + view(xyz)[3 * edge.b + k]));
 }
 
 void FinerTriangles::measure(const std::vector<double> &xyz) {
-  const auto at = view(xyz);
-  for (Edge &edge : edges_) {
-    const std::int64_t a = 3 * edge.ends.a, b = 3 * edge.ends.b;
-    edge.length = std::max(edge.length, hypotenuse(at[a] - at[b], at[a + 1] - at[b + 1], at[a + 2] - at[b + 2]));
-  }
+  for (Edge &edge : edges_) edge.length = std::max(edge.length, norm(vertex_of(xyz, edge.a) - vertex_of(xyz, edge.b)));
 }
 
 bool FinerTriangles::halve_longer(double length) {
@@ -283,7 +273,7 @@ bool FinerTriangles::halve_longer(double length) {
   std::vector<std::int64_t> middle;
   for (const Edge &edge : edges_) {
     middle.push_back(edge.length > length ? n_given_ + view(middles_).size() : -1);
-    if (edge.length > length) middles_.push_back(edge.ends);
+    if (edge.length > length) middles_.push_back(edge);
   }
   std::vector<Triangle> cut;
   for (std::size_t i = 0; i < triangles_.size(); ++i) {
@@ -324,27 +314,14 @@ bool FinerTriangles::halve_longer(double length) {
 }
 
 void FinerTriangles::find_edges() {
-  struct Side {
-    Ends ends;
-    std::size_t triangle, k;
-  };
-  std::vector<Side> sides;
-  sides.reserve(3 * triangles_.size());
-  for (std::size_t i = 0; i < triangles_.size(); ++i) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto [a, b] = std::minmax(triangles_[i].corners[k], triangles_[i].corners[(k + 1) % 3]);
-      sides.push_back({{a, b}, i, k});
-    }
-  }
-  std::sort(sides.begin(), sides.end(),
-            [](const Side &s, const Side &t) { return std::tie(s.ends.a, s.ends.b) < std::tie(t.ends.a, t.ends.b); });
+  std::vector<Corners> corners;
+  for (const Triangle &triangle : triangles_) corners.push_back(triangle.corners);
   edges_.clear();
   triangle_edges_.assign(triangles_.size(), {});
-  for (const Side &side : sides) {
-    const bool is_known = !edges_.empty() && edges_.back().ends.a == side.ends.a && edges_.back().ends.b == side.ends.b;
-    if (!is_known) edges_.push_back({side.ends, 0});
-    triangle_edges_[side.triangle][side.k] = view(edges_).size() - 1;
-  }
+  for_each_edge(sorted_sides(corners), [&](const TriangleSide *side, std::size_t n_sides) {
+    for (std::size_t i = 0; i < n_sides; ++i) view(triangle_edges_)[side[i].triangle][side[i].k] = view(edges_).size();
+    edges_.push_back({side->a, side->b, 0});
+  });
 }
 
 }  // namespace riis::program

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "common/array_view.hpp"
+#include "common/triangles.hpp"
 #include "program/base/handles.hpp"
 #include "program/base/options.hpp"
 
@@ -19,18 +20,15 @@ namespace riis::program {
 
 // Moving triangles, which are cut into smaller triangles. The cuts are the same at all times.
 
-using Corners = std::array<std::int64_t, 3>;
-using Point = std::array<double, 3>;
+using Corners = Triangles::Corners;
 
-inline Point vertex_of(const std::vector<double> &xyz, std::int64_t vertex) {
+inline Vector3 vertex_of(const std::vector<double> &xyz, std::int64_t vertex) {
   return {view(xyz)[3 * vertex], view(xyz)[3 * vertex + 1], view(xyz)[3 * vertex + 2]};
 }
-inline Point difference(const Point &a, const Point &b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-inline double product(const Point &a, const Point &b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 // Returns the normal of a triangle. The normal's length is twice the triangle's area.
-inline Point twice_area(const Point &a, const Point &b, const Point &c) {
-  const Point u = difference(b, a), v = difference(c, a);
-  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+inline Vector3 twice_area(const std::vector<double> &xyz, const Corners &corners) {
+  const Vector3 a = vertex_of(xyz, corners[0]);
+  return cross(vertex_of(xyz, corners[1]) - a, vertex_of(xyz, corners[2]) - a);
 }
 
 // Triangles whose corners are the given vertices and the middles of edges. The middle of an edge moves with the two ends of the
@@ -59,12 +57,9 @@ class FinerTriangles {
   bool halve_longer(double length);
 
  private:
-  struct Ends {
-    std::int64_t a, b;  // a < b
-  };
   struct Edge {
-    Ends ends;
-    double length;  // the largest length measured so far
+    std::int64_t a, b;  // a < b
+    double length;      // the largest length measured so far
   };
 
   // Returns the number of the edge that begins at corner k of a triangle.
@@ -73,7 +68,7 @@ class FinerTriangles {
 
   std::int64_t n_given_;
   std::vector<Triangle> triangles_;
-  std::vector<Ends> middles_;  // the ends of the edge whose middle is vertex n_given_, n_given_ + 1, ...
+  std::vector<Edge> middles_;  // the edge whose middle is vertex n_given_, n_given_ + 1, ...
   std::vector<Edge> edges_;
   std::vector<Corners> triangle_edges_;
 };

@@ -7,7 +7,6 @@
 #include <numeric>
 
 #include "common/array_view.hpp"
-#include "common/vectors.hpp"
 #include "program/base/handles.hpp"
 #include "program/base/refusal.hpp"
 #include "program/mark/mesh_marking.hpp"
@@ -26,12 +25,12 @@ constexpr double widening = 0.1, far_in_half_thicknesses = 1e6;
 // of them.
 class PointTree {
  public:
-  explicit PointTree(std::vector<Point> points) : points_(std::move(points)), order_(points_.size()) {
+  explicit PointTree(std::vector<Vector3> points) : points_(std::move(points)), order_(points_.size()) {
     std::iota(order_.begin(), order_.end(), 0);
     split(0, order_.size(), 0);
   }
 
-  std::size_t nearest(const Point &to, double &distance) const {
+  std::size_t nearest(const Vector3 &to, double &distance) const {
     Search search{to, infinity, 0};
     visit(0, order_.size(), 0, search);
     distance = std::sqrt(search.squared);
@@ -40,7 +39,7 @@ class PointTree {
 
  private:
   struct Search {
-    Point to;
+    Vector3 to;
     double squared;
     std::size_t found;
   };
@@ -58,8 +57,8 @@ class PointTree {
   void visit(std::size_t begin, std::size_t end, std::size_t axis, Search &search) const {
     if (begin == end) return;
     const std::size_t middle = (begin + end) / 2, point = order_[middle], next = (axis + 1) % 3;
-    const Point away = difference(search.to, points_[point]);
-    const double squared = product(away, away);
+    const Vector3 away = search.to - points_[point];
+    const double squared = dot(away, away);
     if (squared < search.squared || (squared == search.squared && point < search.found)) {
       search.squared = squared;
       search.found = point;
@@ -70,7 +69,7 @@ class PointTree {
       is_below ? visit(middle + 1, end, next, search) : visit(begin, middle, next, search);
   }
 
-  std::vector<Point> points_;
+  std::vector<Vector3> points_;
   std::vector<std::size_t> order_;
 };
 
@@ -78,7 +77,7 @@ class PointTree {
 
 struct FrameTriangles {
   Box box = empty_box();  // as the solver widens it
-  std::vector<Point> middles, normals;
+  std::vector<Vector3> middles, normals;
   std::vector<Corners> corners;  // as vertices of the frame
 };
 
@@ -87,14 +86,13 @@ FrameTriangles triangles_of(const UrisLeaflets &leaflets, const std::vector<doub
   for (const UrisLeaflet &leaflet : leaflets.leaflets()) {
     for (const std::int64_t vertex : leaflet.nodes) frame.box.grow(xyz.data() + 3 * vertex);
     for (const Corners &corners : leaflet.triangles) {
-      const auto corner = [&](std::size_t c) { return vertex_of(xyz, view(leaflet.nodes)[corners[c]]); };
-      const Point a = corner(0), b = corner(1), c = corner(2);
-      Point middle;
-      for (std::size_t k = 0; k < 3; ++k) middle[k] = (a[k] + b[k] + c[k]) / 3;
-      frame.corners.push_back(
-          {view(leaflet.nodes)[corners[0]], view(leaflet.nodes)[corners[1]], view(leaflet.nodes)[corners[2]]});
+      const Corners of_frame{view(leaflet.nodes)[corners[0]], view(leaflet.nodes)[corners[1]],
+                             view(leaflet.nodes)[corners[2]]};
+      Vector3 middle = vertex_of(xyz, of_frame[0]) + vertex_of(xyz, of_frame[1]) + vertex_of(xyz, of_frame[2]);
+      for (double &x : middle) x /= 3;
+      frame.corners.push_back(of_frame);
       frame.middles.push_back(middle);
-      frame.normals.push_back(twice_area(a, b, c));
+      frame.normals.push_back(twice_area(xyz, of_frame));
     }
   }
   for (std::size_t k = 0; k < 3; ++k) {
@@ -204,14 +202,13 @@ SolverDistances solver_distances(const SolverMesh &mesh, const UrisLeaflets &lea
   distances.nearest.assign(static_cast<std::size_t>(mesh.n_nodes), -1);
   const PointTree middles(frame.middles);
   for (std::int64_t i = 0; i < mesh.n_nodes; ++i) {
-    const Point p = mesh.point(i);
+    const Vector3 p = mesh.point(i);
     if (!distances.box.contains(p.data())) continue;
     ++distances.n_in_box;
     double distance = 0;
     const std::size_t nearest = middles.nearest(p, distance);
-    const Point off = difference(p, frame.middles[nearest]);
-    const bool is_before =
-        product(off, frame.normals[nearest]) < 0 && (!is_closing || product(off, leaflets.forward()) < 0);
+    const Vector3 off = p - frame.middles[nearest];
+    const bool is_before = dot(off, frame.normals[nearest]) < 0 && (!is_closing || dot(off, leaflets.forward()) < 0);
     view(distances.to_leaflets)[i] = is_before ? -distance : distance;
     view(distances.nearest)[i] = static_cast<std::int64_t>(nearest);
   }
@@ -243,7 +240,7 @@ SolverBand solver_band(const SolverMesh &mesh, const SolverDistances &distances,
   for (std::int64_t i = 0; i < mesh.n_nodes; ++i) {
     const double distance = view(distances.to_leaflets)[i];
     if (!(distance >= from && distance <= to)) continue;
-    const double place = product(mesh.point(i), forward);
+    const double place = dot(mesh.point(i), forward);
     ++band.n_nodes;
     band.volume += view(mesh.node_volume)[i];
     band.from = std::min(band.from, place);
@@ -257,11 +254,11 @@ SolverSpeeds solver_speeds(const SolverMesh &mesh, const UrisLeaflets &leaflets,
                            double half_thickness) {
   SolverSpeeds speeds;
   const auto velocity_of = [&](std::int64_t vertex) {
-    Point v = difference(vertex_of(xyz, vertex), vertex_of(before, vertex));
+    Vector3 v = vertex_of(xyz, vertex) - vertex_of(before, vertex);
     for (double &x : v) x /= time_step;
     return v;
   };
-  const auto length = [](const Point &v) { return std::sqrt(product(v, v)); };
+  const auto length = [](const Vector3 &v) { return std::sqrt(dot(v, v)); };
   for (const UrisLeaflet &leaflet : leaflets.leaflets())
     if (leaflet.name != "box")
       for (const std::int64_t vertex : leaflet.nodes)
@@ -270,14 +267,13 @@ SolverSpeeds solver_speeds(const SolverMesh &mesh, const UrisLeaflets &leaflets,
   for (std::int64_t i = 0; i < mesh.n_nodes; ++i) {
     if (!(std::abs(view(distances.to_leaflets)[i]) < half_thickness)) continue;
     const Corners &corners = view(frame.corners)[view(distances.nearest)[i]];
-    const Point a = vertex_of(xyz, corners[0]), u = difference(vertex_of(xyz, corners[1]), a),
-                v = difference(vertex_of(xyz, corners[2]), a), p = difference(mesh.point(i), a);
+    const Vector3 a = vertex_of(xyz, corners[0]), u = vertex_of(xyz, corners[1]) - a,
+                  v = vertex_of(xyz, corners[2]) - a, p = mesh.point(i) - a;
     // The component of p across the plane does not change the products, so p need not be projected.
-    const double uu = product(u, u), uv = product(u, v), vv = product(v, v), pu = product(p, u), pv = product(p, v);
+    const double uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), pu = dot(p, u), pv = dot(p, v);
     const double xi = (vv * pu - uv * pv) / (uu * vv - uv * uv), eta = (uu * pv - uv * pu) / (uu * vv - uv * uv);
-    const Point va = velocity_of(corners[0]), vb = velocity_of(corners[1]), vc = velocity_of(corners[2]);
-    Point velocity;
-    for (std::size_t k = 0; k < 3; ++k) velocity[k] = (1 - xi - eta) * va[k] + xi * vb[k] + eta * vc[k];
+    const Vector3 velocity =
+        (1 - xi - eta) * velocity_of(corners[0]) + xi * velocity_of(corners[1]) + eta * velocity_of(corners[2]);
     speeds.of_nodes = std::max(speeds.of_nodes, length(velocity));
   }
   return speeds;
@@ -317,10 +313,10 @@ double exact_area(const SolverMesh &mesh, const riis_surface *surface, const std
   // Most points of the elements near the band are outside the band. A point's distance is at least a node's distance minus the
   // way from the node to the point.
   const double reach = (1 + 1e-6) * half_thickness + error;  // rounding changes less
-  const auto excludes = [&](std::int64_t node, const Point &point) {
-    const Point off = difference(point, mesh.point(node));
+  const auto excludes = [&](std::int64_t node, const Vector3 &point) {
+    const Vector3 off = point - mesh.point(node);
     const double beyond = view(near)[node] - reach;
-    return beyond > 0 && beyond < infinity && product(off, off) < beyond * beyond;
+    return beyond > 0 && beyond < infinity && dot(off, off) < beyond * beyond;
   };
   // A linear element lies between its nodes. If one node shows that all other nodes are outside the band, the whole element is
   // outside the band.
@@ -330,9 +326,8 @@ double exact_area(const SolverMesh &mesh, const riis_surface *surface, const std
     double nearest = infinity, size = 0;
     for (std::size_t a = 0; a < element.n_nodes; ++a) {
       const std::int64_t node = mesh.nodes_of(e)[a];
-      const Point off = difference(mesh.point(node), mesh.point(mesh.nodes_of(e)[0]));
       nearest = std::min(nearest, view(near)[node]);
-      size = std::max(size, hypotenuse(off[0], off[1], off[2]));
+      size = std::max(size, norm(mesh.point(node) - mesh.point(mesh.nodes_of(e)[0])));
     }
     if (!(nearest <= half_thickness + 2 * size)) continue;
     const std::int64_t *const begin = mesh.nodes_of(e), *const end = begin + element.n_nodes;
@@ -341,9 +336,8 @@ double exact_area(const SolverMesh &mesh, const riis_surface *surface, const std
         }))
       continue;
     for (std::size_t g = 0; g < points.size(); ++g) {
-      Point point{};
-      for (std::size_t k = 0; k < 3; ++k)
-        for (std::size_t a = 0; a < element.n_nodes; ++a) point[k] += functions[g].values[a] * mesh.point(begin[a])[k];
+      Vector3 point{};
+      for (std::size_t a = 0; a < element.n_nodes; ++a) point = point + functions[g].values[a] * mesh.point(begin[a]);
       if (std::any_of(begin, end, [&](std::int64_t node) { return excludes(node, point); })) continue;
       weights.push_back(points[g].weight * determinant_at(mesh, e, functions[g]));
       xyz.insert(xyz.end(), point.begin(), point.end());
@@ -368,10 +362,8 @@ std::optional<double> closed_area_in(const riis_vtk_mesh *file, const riis_surfa
   const double half_thickness = info_of(surface).half_thickness;
   double largest = 0;
   for (std::int64_t e = 0; e < mesh.n_elements(); ++e)
-    for (std::size_t a = 1; a < mesh.element->n_nodes; ++a) {
-      const Point off = difference(mesh.point(mesh.nodes_of(e)[a]), mesh.point(mesh.nodes_of(e)[0]));
-      largest = std::max(largest, hypotenuse(off[0], off[1], off[2]));
-    }
+    for (std::size_t a = 1; a < mesh.element->n_nodes; ++a)
+      largest = std::max(largest, norm(mesh.point(mesh.nodes_of(e)[a]) - mesh.point(mesh.nodes_of(e)[0])));
   const std::vector<double> near =
       exact_distances(mesh.n_nodes, mesh.xyz(), surface, half_thickness + 2 * largest, n_threads);
   return exact_area(mesh, surface, near, half_thickness, n_threads, false, error);

@@ -60,7 +60,7 @@ struct SolverMesh {
     return static_cast<std::int64_t>(nodes.size()) / static_cast<std::int64_t>(element->n_nodes);
   }
   const double *xyz() const { return points.data(); }
-  Point point(std::int64_t node) const { return {xyz()[3 * node], xyz()[3 * node + 1], xyz()[3 * node + 2]}; }
+  Vector3 point(std::int64_t node) const { return {xyz()[3 * node], xyz()[3 * node + 1], xyz()[3 * node + 2]}; }
   const std::int64_t *nodes_of(std::int64_t e) const {
     return nodes.data() + e * static_cast<std::int64_t>(element->n_nodes);
   }
