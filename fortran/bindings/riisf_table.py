@@ -25,20 +25,19 @@ class Table:
         self.shown, self.groups, self.texts, self.sections = shown, {}, {}, []
         with open(path, encoding="utf-8") as file:
             lines = file.read().splitlines()
-        block, start = [], 0
-        for number, line in enumerate([*lines, ""], 1):
-            if line.startswith("#"):
-                continue
-            if line.strip():
-                start = start if block else number
-                block.append(line)
-            elif block:
-                self.read_block(f"{shown}:{start}", block)
-                block = []
+        blocks = []  # a block begins in the first column; its other lines are indented
+        for number, line in enumerate(lines, 1):
+            if line[:1] not in ("#", " ", ""):
+                blocks.append((f"{shown}:{number}", []))
+            if line.strip() and not line.startswith("#"):
+                blocks[-1][1].append(line)
+        for place, block in blocks:
+            self.read_block(place, block)
 
     def read_block(self, place, block):
         """A block in which {marked/within_limit} stands is two blocks."""
-        head, lines = block[0], []
+        head, colon, rest = block[0].partition(": ")
+        lines = [rest] if colon else []
         for line in block[1:]:
             if line.startswith("   "):
                 if not lines:
@@ -53,15 +52,15 @@ class Table:
         elif head.startswith("@"):
             self.groups[head] = [argument for line in lines for argument in self.arguments(place, line)]
         else:
-            for i in range(2 if any("/" in part for part in re.findall(r"\{(.*?)\}", "".join(block))) else 1):
+            for i in range(max(part.count("/") + 1 for part in re.findall(r"\{(.*?)\}", "".join(block)) or [""])):
                 chosen = [re.sub(r"\{(.*?)\}", lambda match, i=i: match[1].split("/")[i], line) for line in [head, *lines]]
                 self.sections[-1][2].append(self.entry(place, chosen[0], chosen[1:]))
 
     def entry(self, place, head, lines):
-        match = re.fullmatch(r"(riisf_\w+)(, _64)? = (riis_\w+(?:, riis_\w+)*)", head)
+        match = re.fullmatch(r"riisf(_\w+)(, _64)?(?: = (riis_\w+(?:, riis_\w+)*))?", head)
         if not match:
             raise Problem(f"{place}: {head!r} is not understood; 'riisf_name, _64 = riis_name' is")
-        entry = Entry(place, match[1], bool(match[2]), match[3].split(", "))
+        entry = Entry(place, "riisf" + match[1], bool(match[2]), (match[3] or "riis" + match[1]).split(", "))
         for line in lines:
             word, _, rest = line.partition(" ")
             if word == "!":

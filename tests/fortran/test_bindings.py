@@ -421,7 +421,7 @@ class Words(Planted):
 class Subroutines(Planted):
     """Tests the table of the external subroutines."""
 
-    ENTRY = "riisf_mesh_prepare = riis_mesh_prepare\n"
+    ENTRY = "riisf_mesh_prepare: mesh, n_threads\n"
 
     def test_an_entry_makes_a_subroutine_and_its_interface(self):
         self.plant(SUBROUTINES, self.ENTRY, "riisf_planted, _64 = riis_warp_set_targets\n  ! Planted.\n  warp  A warp.\n"
@@ -434,12 +434,26 @@ class Subroutines(Planted):
         self.assertIn("  targets%n_points = n\n  targets%x = location_of(x)\n", self.text(EXTERNAL))
         self.assertIn("  targets%real_bits = 64\n  status = riis_warp_set_targets(c_handle_of(warp), targets)\n",
                       self.text(EXTERNAL))
-        self.assertIn("\n!> Planted.\nsubroutine riisf_planted(", self.text(EXTERNAL))
+        self.assertIn("\n!> Planted. Errors: RIIS_INVALID_ARGUMENT naming the point.", self.text(EXTERNAL))
 
     def test_a_text_of_the_header(self):
         self.plant(HEADER, "double depth;", "double depth; /* planted, default 3. NULL: none */ double other_depth;")
         self.writes()
         self.assertRegex(self.text(EXTERNAL), r"real\(c_double\), intent\(in\) :: depth +!< Planted, usually 3\.\n")
+
+    def test_a_comment_of_the_header(self):
+        """The comment of a function serves its subroutine, with the subroutine's names and without sentences about pointers."""
+        comment = "/* Destroys the handle. The caller's coordinates and all marks stay. */\nRIIS_API void riis_mesh_destroy"
+        self.plant(HEADER, comment, comment.replace("stay. */", "stay. NULL is allowed. Planted \"for\" riis_valve_get. */"))
+        self.plant(HEADER, "*   `reach`: 1e-50 to 1e50.", "*   `reach`: planted *here. NULL: none.")
+        self.writes()
+        self.assertIn("all marks stay. Planted 'for' riisf_valve_get. The handle becomes 0.",
+                      " ".join(self.text(EXTERNAL).replace("!!", "").split()))
+        self.assertRegex(self.text(EXTERNAL), r"intent\(in\) :: reach +!< Planted here\. RIIS_AUTO")
+
+    def test_a_function_without_a_comment(self):
+        self.plant(HEADER, "/* Gives the number of the surface's leaflets. */\n", "")
+        self.refuses("riisf_surface_n_leaflets: riis_surface_get_n_leaflets has no comment")
 
     def test_a_function_that_is_gone(self):
         self.plant(HEADER, "RIIS_API riis_status riis_mesh_prepare(riis_mesh *mesh, int32_t n_threads);\n", "")
@@ -447,13 +461,17 @@ class Subroutines(Planted):
 
     def test_faulty_entries(self):
         for old, new, message in (
-                (self.ENTRY, "riisf_mesh_prepare\n", "'riisf_mesh_prepare' is not understood"),
-                ("  mesh, n_threads\n", "  mesh, (3)\n", "the argument '(3)' is not understood"),
-                ("  mesh, n_threads\n", "  mesh, planted\n", "riisf_mesh_prepare: riis.h has no planted"),
-                ("  mesh, n_threads\n", "  mesh, n_threads = csr%planted\n", "riisf_mesh_prepare: riis.h has no csr%planted"),
-                ("  mesh, n_threads\n", "  mesh\n", "riisf_mesh_prepare: no argument gives n_threads of riis_mesh_prepare"),
-                ("  mesh, n_threads\n", "  mesh, planted = n_threads\n", "riisf_mesh_prepare: planted has no text"),
-                (self.ENTRY, self.ENTRY + "    mesh\n", "nothing is above that the second line could belong to")):
+                ("riisf_mesh_prepare: mesh, n_threads", "riisf_mesh_prepare =: mesh", "'riisf_mesh_prepare =' is not understood"),
+                ("prepare: mesh, n_threads", "prepare: mesh, (3)", "the argument '(3)' is not understood"),
+                ("prepare: mesh, n_threads", "prepare: mesh, planted", "riisf_mesh_prepare: riis.h has no planted"),
+                ("prepare: mesh, n_threads", "prepare: mesh, n_threads = csr%planted",
+                 "riisf_mesh_prepare: riis.h has no csr%planted"),
+                ("prepare: mesh, n_threads", "prepare: mesh", "riisf_mesh_prepare: no argument gives n_threads"),
+                ("prepare: mesh, n_threads", "prepare: mesh, planted = n_threads", "riisf_mesh_prepare: planted has no text"),
+                ("riisf_mesh_prepare: mesh, n_threads", "riisf_mesh_prepared: mesh, n_threads",
+                 "riisf_mesh_prepared: riis.h has no riis_mesh_prepared"),
+                ("riisf_mesh_destroy\n", "riisf_mesh_destroy\n    mesh\n",
+                 "nothing is above that the second line could belong to")):
             self.setUp()
             self.plant(SUBROUTINES, old, new)
             self.refuses(f"{SUBROUTINES}:", message)
