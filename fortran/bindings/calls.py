@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Writes docs/fortran_calls.md: the calls of riis.h in Fortran and Fortran 77, from riis.h, calls.table and the Fortran sources.
+"""Writes docs/fortran_calls.md: the calls of riis.h in Fortran and Fortran 77, from riis.h, the Fortran sources, riisf.table and
+calls.table, which has the calls whose procedures have other names.
 
     python3 calls.py                writes the page
     python3 calls.py --check        writes nothing; fails and shows the difference if the page is out of date
@@ -16,8 +17,10 @@ import textwrap
 
 sys.dont_write_bytecode = True
 from header import Header, Problem
+from riisf_table import Table as Subroutines
 
 HEADER, TABLE, PAGE = "include/riis/riis.h", "fortran/bindings/calls.table", "docs/fortran_calls.md"
+SUBROUTINES = "fortran/bindings/riisf.table"
 SOURCES = "fortran/riis*.f90", "fortran/generated/riis*.f90"
 HEAD = """<!-- SPDX-License-Identifier: Apache-2.0 -->
 <!-- Written by ./run bindings (fortran/bindings/calls.py); edit fortran/bindings/calls.table. -->
@@ -129,10 +132,32 @@ class Fortran:
 
 
 class Calls:
-    """The entries of the table, by C call."""
+    """For each C call, its procedures in both languages, and a reason if one language has none. Names in the table take the place
+    of the language's names that follow from the call: riis_type%name, riis_name or the subroutines that riisf.table has for it."""
 
-    def __init__(self, root):
+    def __init__(self, root, declared, fortran):
         self.entries, self.problems = {}, []
+        self.read(root)
+        self.problems += [f"{TABLE}: {HEADER} has no {name}" for name in self.entries if name not in declared]
+        subroutines = {}
+        for entry in (entry for section in Subroutines(os.path.join(root, SUBROUTINES), SUBROUTINES).sections
+                      for entry in section[2]):
+            for name in entry.functions:
+                subroutines.setdefault(name, []).append(entry.name)
+        for call in declared:
+            names, reason = self.entries.get(call, ([], ""))
+            found = [name for name in names if not name.startswith("riisf_")] or self.of_same_name(call, fortran)
+            found += [name for name in names if name.startswith("riisf_")] or ([] if reason else subroutines.get(call, []))
+            if found or reason:
+                self.entries[call] = found, reason
+
+    def of_same_name(self, call, fortran):
+        """Returns riis_type%name for riis_type_name, or riis_name, in which `get` may be left out."""
+        kind, _, name = call[len("riis_"):].partition("_")
+        names = [f"riis_{kind}%{name}", call, f"riis_{name}", f"riis_{kind}%{name.replace('get_', '')}"]
+        return next(([name] for name in names if fortran.forms(name)), [])
+
+    def read(self, root):
         text = re.sub(r"\n +", " ", read(root, TABLE))  # an indented line continues the line above
         for line in text.splitlines():
             if line.strip() and not line.startswith("#"):
@@ -160,9 +185,10 @@ def wrapped(line):
 
 def page(root):
     """Returns the text of the page."""
-    header, fortran, table = Header(os.path.join(root, HEADER), HEADER), Fortran(root), Calls(root)
-    problems, groups = table.problems, contents(root)
+    header, fortran, groups = Header(os.path.join(root, HEADER), HEADER), Fortran(root), contents(root)
     declared = [function.name for function in header.functions]
+    table = Calls(root, [name for name in declared if not name.endswith("_init")], fortran)
+    problems = table.problems
     listed = [name for _, _, calls in groups for name, _ in calls]
     if listed != declared:
         changes = difflib.unified_diff(declared, listed, "the headers", "the contents of riis.h", n=0, lineterm="")
@@ -170,7 +196,6 @@ def page(root):
     told = {name for names, _ in table.entries.values() for name in names}
     problems += [f"{TABLE}: there is no line for {name}" for name in declared
                  if not name.endswith("_init") and name not in table.entries]
-    problems += [f"{TABLE}: {HEADER} has no {name}" for name in table.entries if name not in declared]
     problems += [f"{TABLE}: the Fortran sources have no {name}" for name in sorted(told) if not fortran.forms(name)]
     problems += [f"{TABLE}: {name} belongs to no call" for name in sorted(fortran.wanted() - told)]
     for call, (names, reason) in table.entries.items():

@@ -514,8 +514,13 @@ class Page(Planted):
         self.says(f"{calls.TABLE}: riisf_planted belongs to no call")
 
     def test_names_that_nothing_has(self):
-        self.plant(calls.TABLE, "riis_valve%unset riisf_valve_unset", "riis_valve%planted riisf_valve_unset")
-        self.says("the Fortran sources have no riis_valve%planted", "riis_valve%unset belongs to no call")
+        self.plant(calls.TABLE, "riis_mesh%clear_adjacency", "riis_mesh%planted")
+        self.says("the Fortran sources have no riis_mesh%planted", "riis_mesh%clear_adjacency belongs to no call")
+
+    def test_a_call_of_one_language(self):
+        self.plant(SUBROUTINES, "riisf_mesh_prepare: mesh, n_threads\n", "")
+        self.says(f"{calls.TABLE}: riis_mesh_prepare needs procedures of both languages, or '-' and a reason",
+                  f"{calls.TABLE}: riisf_mesh_prepare belongs to no call")
 
     def test_a_line_that_changes(self):
         self.plant(INTERFACES, "    subroutine riisf_valve_unset(valve, name,",
