@@ -50,6 +50,7 @@ def fill(template, shown, parts):
 def generate(root):
     """Returns the contents of the generated files, by path."""
     header, table = Header(os.path.join(root, HEADER), HEADER), Table(os.path.join(root, TABLE), TABLE)
+    table.add_from(header)
     bindings = Bindings(header, table)
     parts = {"constants": bindings.constants(), "structs": bindings.structs(), "callbacks": bindings.callbacks(),
              "functions": bindings.functions()}

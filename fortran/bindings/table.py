@@ -5,6 +5,7 @@ import re
 
 from header import Problem
 
+SHAPE = re.compile(r"\(\w+( \+ 1)?(, \w+( \+ 1)?)*\)")  # at the beginning of a text in the header
 WORDS = {"optional", "required", "scalar", "borrowed", "out", "real"}
 
 
@@ -83,6 +84,37 @@ class Table:
             if entry.line_of(name):
                 self.problems.append(f"{place}: {entry.name}: {name} is in {entry.line_of(name).place} already")
         entry.lines.append(Line(place, names, words, text))
+
+    def add_from(self, header):
+        """Adds what the header says where the table has no line: the shape at the beginning of a text, as in "(n_nodes): ...", and
+        whether an argument may be NULL. It may if the header says so in a sentence that begins with NULL, or if it is `options`. A
+        function without a comment says nothing."""
+        structs = {struct.name for struct in header.structs}
+        for struct in header.structs:
+            for line in struct.lines:
+                if line.fields[0].type.stars and SHAPE.match(line.text):
+                    null = "or c_null_ptr" if re.search("NULL(?! only)", line.text) else ""
+                    self.add(struct.name, line.line, [field.name for field in line.fields], [SHAPE.match(line.text)[0]], null)
+        for function in [function for function in header.functions if function.text.what]:
+            for argument in function.arguments:
+                text = function.text.arguments.get(argument.name, "")
+                null, shape = re.search(r"(?:^|[.;] )NULL(?::| stands for| keeps) ([^.;]*)", text), SHAPE.match(text)
+                optional = null or argument.name == "options" and argument.type.const
+                words = ["optional" if optional else "required"]
+                meaning = "if left out: " + (null[1] if null else "all defaults") if optional else ""
+                if argument.type.base in structs:
+                    words = words if optional or argument.type.const else []
+                elif argument.type.stars == 1 and shape and argument.type.base != "char":
+                    words.append("(*)")
+                    meaning = shape[0] + ", " * bool(meaning) + meaning
+                else:
+                    continue
+                self.add(function.name, function.line, [argument.name], words, meaning)
+
+    def add(self, name, place, names, words, text):
+        entry = self.entries.setdefault(name, Entry(place, name, ""))
+        if words and not entry.line_of(names[0]):
+            entry.lines.append(Line(place, names, words, text))
 
     def get(self, name):
         return self.entries.get(name) or Entry(self.shown, name, "")

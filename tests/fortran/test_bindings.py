@@ -145,6 +145,12 @@ class Fields(Planted):
         self.assertRegex(self.text(MODULE),
                          r"    type\(c_ptr\) :: planted +!< real\(c_double\), \(4, n_patches\), or c_null_ptr\n")
 
+    def test_a_shape_of_the_header(self):
+        self.plant(HEADER, "} riis_patches;", "  const double *planted; /* (4, n_patches), planted. NULL: none */\n} riis_patches;")
+        self.writes()
+        self.assertRegex(self.text(MODULE),
+                         r"    type\(c_ptr\) :: planted +!< real\(c_double\), \(4, n_patches\), or c_null_ptr\n")
+
     def test_pointers_to_texts_and_to_anything(self):
         self.plant(HEADER, "} riis_csr;", "  const char *text;\n  const void *planted;\n} riis_csr;")
         self.plant(TABLE, "riis_csr\n", "riis_csr\n  planted  (n_rows)\n")
@@ -157,7 +163,7 @@ class Fields(Planted):
         self.plant(HEADER, "/* How the last marking went. */", "/* Planted for\n * the struct. */")
         self.plant(HEADER, "} riis_mark_stats;",
                    "  double a, b; /* planted for\n         the fields */\n  double c;\n} riis_mark_stats;")
-        self.plant(TABLE, "riis_mark_stats  as in riis.h\n", "riis_mark_stats  as in riis.h\n  seconds  -  planted here\n")
+        self.plant(TABLE, "riis_csr\n", "riis_mark_stats\n  seconds  -  planted here\n\nriis_csr\n")
         self.writes()
         self.assertIn("\n  !> Planted for the struct.\n  type, bind(c) :: riis_mark_stats\n", self.text(MODULE))
         self.assertRegex(self.text(MODULE),
@@ -278,6 +284,24 @@ class Functions(Planted):
                      f"{place} 'const riis_csr *csr': 'required', or 'optional' where it may be NULL",
                      f"Needed in {TABLE}, whose head says how:\nriis_valve_planted\n  n  ...\n  x  ...\n  ids  ...\n  csr  ...\n")
 
+    def test_what_the_comment_says(self):
+        self.plant(HEADER, BEFORE_FUNCTION, "/* Planted.\n *   `x` (2, n), planted.\n *   `y` (n): planted. NULL: none.\n"
+                   " *   `csr`: NULL stands for no rows. */\nRIIS_API riis_status riis_planted(const double *x, double *y,\n"
+                   "const riis_csr *csr, const riis_grid *grid);\n" + BEFORE_FUNCTION)
+        self.writes()
+        self.assertIn("""\
+    !>   x    (2, n)
+    !!   y    (n), if left out: none
+    !!   csr  if left out: no rows
+    function riis_planted(x, y, csr, grid) result(status) bind(c, name='riis_planted')
+      import :: c_double, riis_csr, riis_grid, riis_status
+      implicit none
+      real(c_double), intent(in) :: x(*)
+      real(c_double), intent(inout), optional :: y(*)
+      type(riis_csr), intent(in), optional :: csr
+      type(riis_grid), intent(in) :: grid
+""", self.text(MODULE))
+
     def test_with_words(self):
         self.plant_function("int64_t *n, int32_t *m, const double *x, const double *y, double *z,\n    const double *w,"
                             " const int64_t **ids, const riis_csr *csr, riis_valve **made", """\
@@ -372,7 +396,7 @@ class Words(Planted):
         self.refused(entry, "riis_planted  text\n\n" + entry, f"TABLE: {HEADER} has no riis_planted")
         self.refused(entry, f"{entry}  planted  required (*)\n", f"riis_valve_get of {HEADER} has no planted")
         self.refused("  RIIS_LOG_*  ", "  RIIS_PLANTED_*  ", f"TABLE: omit from riisf.h of {HEADER} has no RIIS_PLANTED_*")
-        self.refused("  degree       (n_curves)", "  planted      (n_curves)", f"riis_patches of {HEADER} has no planted")
+        self.refused("  xyz          real (3, ", "  planted      real (3, ", f"riis_keyframe_arrays of {HEADER} has no planted")
 
     def test_words_that_do_not_suit(self):
         csr = "  csr      optional  "
@@ -380,8 +404,8 @@ class Words(Planted):
             self.refused(csr, f"  csr      {words}  ", "riis_mesh_set_adjacency: ",
                          "'const riis_csr *csr': 'required', or 'optional'")
         for words in ("optional", "(*)", "scalar", "optional borrowed", "required optional (*)", "required scalar (*)"):
-            self.refused("  values        required (*)  (n_values), c", f"  values        {words}  (n_values), c",
-                         "riis_valve_set: ", "'const double *values': 'required', or 'optional'")
+            self.refused("  values        required (*)  (n_values)", f"  values        {words}  (n_values)",
+                         "riis_valve_get: ", "'double *values': 'required', or 'optional'")
         self.refused("  kind          -", "  kind          scalar",
                      "TABLE: riis_valve_create: 'scalar' does not suit 'const char *kind'")
         self.refused(
@@ -389,13 +413,13 @@ class Words(Planted):
             "  parameter_id  optional",
             "TABLE: riis_valve_get_parameter: 'optional' does not suit 'int64_t parameter_id': nothing but '-' and a text",
         )
-        self.refused("  rotation_angle  -", "  rotation_angle  (3)",
-                     "TABLE: riis_surface_options: 'double rotation_angle' points to no")
+        self.refused("  weight       -", "  weight       (2)", "TABLE: riis_band_sums: 'double weight' points to no")
         self.refused("  user_data  -  the pointer", "  user_data  scalar  the pointer",
                      "TABLE: riis_log_function: only a text is wanted")
         self.refused("riis_csr\n", "riis_parameter\n  unit  (3)\n\nriis_csr\n",
                      "riis_parameter: 'const char *unit' points to no array")
-        self.refused("  degree       (n_curves)", "  degree       optional", "'const int32_t *degree': the shape of the array")
+        self.refused("  xyz          real (3, n_vertices, n_keys)", "  xyz          real optional",
+                     "'const void *xyz': the shape of the array")
         self.refused("  x, y, z      real (n_vertices)", "  x, y         real (n_vertices)",
                      "riis_surface_arrays: x, y, z belong into one line")
 
@@ -414,8 +438,8 @@ class Words(Planted):
         self.refused(entry, "  csr\n", "TABLE: there is no second column; the second column is")
         self.refused(entry, " csr      optional  ", "TABLE: nothing is above that this line could belong to")
         self.refused("riis_valve_get\n", "riis_csr\n\nriis_valve_get\n", "TABLE: riis_csr is in ", "already")
-        self.refused("  degree       (n_curves)\n", "  degree  (n_curves)\n  degree  (n_curves)\n",
-                     "riis_patches: degree is in ", "already")
+        self.refused("  point_ids    (n_point_ids)", "  point_ids  (n_point_ids)\n  point_ids  (n_point_ids)",
+                     "riis_closest_options: point_ids is in ", "already")
 
 
 class Subroutines(Planted):
