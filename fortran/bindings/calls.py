@@ -7,7 +7,6 @@ calls.table, which has the calls whose procedures have other names.
     python3 calls.py --root FOLDER  does one or the other in another copy of the sources
 """
 
-import argparse
 import difflib
 import glob
 import os
@@ -16,6 +15,7 @@ import sys
 import textwrap
 
 sys.dont_write_bytecode = True
+import generate
 from header import Header, Problem
 from riisf_table import Table as Subroutines
 
@@ -133,7 +133,7 @@ class Fortran:
 
 class Calls:
     """For each C call, its procedures in both languages, and a reason if one language has none. Names in the table take the place
-    of the language's names that follow from the call: riis_type%name, riis_name or the subroutines that riisf.table has for it."""
+    of the language's names that follow from the call: riis_type%name, riis_name or the subroutines that riisf.table has."""
 
     def __init__(self, root, declared, fortran):
         self.entries, self.problems = {}, []
@@ -147,7 +147,7 @@ class Calls:
         for call in declared:
             names, reason = self.entries.get(call, ([], ""))
             found = [name for name in names if not name.startswith("riisf_")] or self.of_same_name(call, fortran)
-            found += [name for name in names if name.startswith("riisf_")] or ([] if reason else subroutines.get(call, []))
+            found += [name for name in names if name.startswith("riisf_")] or subroutines.get(call, []) * (not reason)
             if found or reason:
                 self.entries[call] = found, reason
 
@@ -220,29 +220,7 @@ def page(root):
 
 
 def main(words):
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--check", action="store_true", help="write nothing, compare")
-    parser.add_argument("--root", default=os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."),
-                        help="the folder of the sources; this script's by default")
-    arguments = parser.parse_args(words)
-    try:
-        text = page(arguments.root)
-    except Problem as problem:
-        print(problem, file=sys.stderr)
-        return 1
-    path = os.path.join(arguments.root, PAGE)
-    found = read(arguments.root, PAGE) if os.path.exists(path) else ""
-    if found == text:
-        print(f"{PAGE} is as it should be")
-        return 0
-    if arguments.check:
-        sys.stdout.writelines(difflib.unified_diff(found.splitlines(True), text.splitlines(True), PAGE, "generated anew", n=1))
-        print(f"{PAGE} is out of date; ./run bindings writes it anew", file=sys.stderr)
-        return 1
-    with open(path, "w", encoding="utf-8") as file:
-        file.write(text)
-    print(f"written: {PAGE}")
-    return 0
+    return generate.main(words, lambda root: {PAGE: page(root)}, __doc__)
 
 
 if __name__ == "__main__":

@@ -101,6 +101,11 @@ class Subroutine:
                 return Place(f"{base}%{name}", field.type, field.extent, self.words_of(struct, name), struct)
         return None
 
+    def text_of(self, base, name):
+        """Returns the text that riis.h has for a struct's field."""
+        struct = (self.nested.get(base) or self.structs[base])[0]
+        return next(line.text for line in self.writer.structs[struct].lines if name in [field.name for field in line.fields])
+
     def find(self, argument, target):
         """Returns the place of an argument: the one that the table names, or the one with the argument's name."""
         base, _, name = target.rpartition("%")
@@ -170,9 +175,7 @@ class Subroutine:
             return text and text + " Counted from 1." * argument.name.endswith("_num")
         if argument.name in self.writer.table.texts:
             return ""
-        lines = self.writer.structs[place.struct].lines
-        text = next(line.text for line in lines if name in [field.name for field in line.fields])
-        text = re.sub("Default NaN.*", "", text)
+        text = re.sub("Default NaN.*", "", self.text_of(place.path.partition("%")[0], name))
         text = re.sub(r"Default (\S+?)(:| stands)", r"\1\2", text.replace("0, the default:", "0:"))
         text = self.told(re.sub(r"Default(?= [0-9R])", "Usually", re.sub("[,;] default ", ", usually ", text)))
         if place.type.stars and not place.extent and not text.startswith("("):
@@ -334,15 +337,14 @@ class Subroutine:
         return f"{function.name}({', '.join(parts)})"
 
     def bits(self):
-        """Returns statements for fields such as id_bits, whose text in riis.h is "of" an array: the kind of the caller's array."""
+        """Returns statements for fields such as id_bits, whose text in riis.h is "of" an array: the kind of the argument."""
         lines = []
-        for base in [base for base in [*self.nested, *self.structs] if base in self.used and self.is_read(base)]:
-            for line in self.writer.structs[(self.nested.get(base) or self.structs[base])[0]].lines:
-                match = re.match(r"of (\w+)", line.text)
-                array = match and self.filled.get(f"{base}%{match[1]}")
-                path = f"{base}%{line.fields[0].name}"
-                if array and re.search("(id|offset|column)_bits$", path):
-                    lines.append(f"{self.path(path)} = storage_size({array})")
+        for base in [*self.nested, *self.structs]:
+            for field in self.fields((self.nested.get(base) or self.structs[base])[0]) if base in self.used else []:
+                array = re.match(r"of (\w+)", self.text_of(base, field.name))
+                given = array and self.filled.get(f"{base}%{array[1]}")
+                if given and field.name in ("id_bits", "offset_bits", "column_bits"):
+                    lines.append(f"{self.path(f'{base}%{field.name}')} = storage_size({given})")
         return lines
 
     def statements(self):

@@ -86,30 +86,30 @@ class Table:
         entry.lines.append(Line(place, names, words, text))
 
     def add_from(self, header):
-        """Adds what the header says where the table has no line: the shape at the beginning of a text, as in "(n_nodes): ...", and
-        whether an argument may be NULL. It may if the header says so in a sentence that begins with NULL, or if it is `options`. A
+        """Adds what the header says where the table has no line: the shape at the beginning of a text, as in "(n_nodes): ...",
+        and whether an argument may be NULL. It may if a sentence of the header begins with NULL, or if it is `options`. A
         function without a comment says nothing."""
         structs = {struct.name for struct in header.structs}
         for struct in header.structs:
             for line in struct.lines:
-                if line.fields[0].type.stars and SHAPE.match(line.text):
+                shape = SHAPE.match(line.text)
+                if shape and line.fields[0].type.stars:
                     null = "or c_null_ptr" if re.search("NULL(?! only)", line.text) else ""
-                    self.add(struct.name, line.line, [field.name for field in line.fields], [SHAPE.match(line.text)[0]], null)
+                    self.add(struct.name, line.line, [field.name for field in line.fields], [shape[0]], null)
         for function in [function for function in header.functions if function.text.what]:
             for argument in function.arguments:
+                base, const, stars = argument.type
                 text = function.text.arguments.get(argument.name, "")
-                null, shape = re.search(r"(?:^|[.;] )NULL(?::| stands for| keeps) ([^.;]*)", text), SHAPE.match(text)
-                optional = null or argument.name == "options" and argument.type.const
-                words = ["optional" if optional else "required"]
-                meaning = "if left out: " + (null[1] if null else "all defaults") if optional else ""
-                if argument.type.base in structs:
-                    words = words if optional or argument.type.const else []
-                elif argument.type.stars == 1 and shape and argument.type.base != "char":
-                    words.append("(*)")
-                    meaning = shape[0] + ", " * bool(meaning) + meaning
-                else:
-                    continue
-                self.add(function.name, function.line, [argument.name], words, meaning)
+                if argument.name == "options" and const and "NULL" not in text:
+                    text += ". NULL stands for all defaults"
+                null = re.search(r"(?:^|[.;] )NULL\b(?:(?::| stands for| keeps) ([^.;]*))?", text)
+                shape = SHAPE.match(text)
+                words = ["optional" if null else "required"]
+                meaning = [f"if left out: {null[1]}"] if null and null[1] else []
+                if base in structs and (const or null):
+                    self.add(function.name, function.line, [argument.name], words, "".join(meaning))
+                elif shape and stars == 1 and base != "char":
+                    self.add(function.name, function.line, [argument.name], [*words, "(*)"], ", ".join([shape[0], *meaning]))
 
     def add(self, name, place, names, words, text):
         entry = self.entries.setdefault(name, Entry(place, name, ""))

@@ -2009,7 +2009,7 @@ module riis_c
     ! Skirt
     ! -----------------------------------------------------------------------------------------------------------------
 
-    !>   distance     (2, riis_attachment%n_edges)
+    !>   distance     (2, n_edges)
     !!   struct_size  c_sizeof(gap)
     function riis_surface_get_gap(surface, wall, distance, gap, struct_size) result(status) &
         bind(c, name='riis_surface_get_gap')

@@ -146,7 +146,7 @@ class Fields(Planted):
                          r"    type\(c_ptr\) :: planted +!< real\(c_double\), \(4, n_patches\), or c_null_ptr\n")
 
     def test_a_shape_of_the_header(self):
-        self.plant(HEADER, "} riis_patches;", "  const double *planted; /* (4, n_patches), planted. NULL: none */\n} riis_patches;")
+        self.plant(HEADER, "} riis_patches;", "  const double *planted; /* (4, n_patches). NULL: none */\n} riis_patches;")
         self.writes()
         self.assertRegex(self.text(MODULE),
                          r"    type\(c_ptr\) :: planted +!< real\(c_double\), \(4, n_patches\), or c_null_ptr\n")
