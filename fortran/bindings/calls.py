@@ -17,7 +17,7 @@ import textwrap
 sys.dont_write_bytecode = True
 import generate
 from header import Header, Problem
-from riisf_table import Table as Subroutines
+from table import Subroutines
 
 HEADER, TABLE, PAGE = "include/riis/riis.h", "fortran/bindings/calls.table", "docs/fortran_calls.md"
 SUBROUTINES = "fortran/bindings/riisf.table"

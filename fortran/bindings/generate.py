@@ -15,8 +15,7 @@ sys.dont_write_bytecode = True
 from fortran import Bindings
 from header import Header, Problem
 from riisf import Writer
-from riisf_table import Table as SubroutineTable
-from table import Table
+from table import Subroutines, Table
 
 HEADER = "include/riis/riis.h"
 TABLE = "fortran/bindings/bindings.table"
@@ -56,7 +55,7 @@ def generate(root):
              "functions": bindings.functions()}
     fixed = {"constants": bindings.fixed_form_constants()}
     bindings.finish()
-    subroutines, interfaces = Writer(header, table, SubroutineTable(os.path.join(root, SUBROUTINES), SUBROUTINES)).write()
+    subroutines, interfaces = Writer(header, table, Subroutines(os.path.join(root, SUBROUTINES), SUBROUTINES)).write()
     files, problems = {}, []
     for (path, width), part in zip(WIDTHS.items(), (parts, fixed, {"subroutines": subroutines}, {"interfaces": interfaces})):
         template = template_of(path)

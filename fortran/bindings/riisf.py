@@ -10,7 +10,7 @@ from functools import lru_cache
 
 from fortran import WIDTH, RULE
 from header import Problem
-from riisf_table import Argument
+from table import Argument
 
 REALS = "real(c_double)"
 KINDS = {"double": REALS, "int32_t": "integer(int32)", "uint8_t": "integer(int32)", "riis_status": "integer(riis_status)"}

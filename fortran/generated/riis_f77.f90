@@ -313,10 +313,8 @@ subroutine riisf_surface_measure(surface, valve, half_thickness, tolerance, scal
   status = riis_surface_update(c_handle_of(surface), c_handle_of(valve), options)
 end subroutine riisf_surface_measure
 
-!> Replaces the surface like riisf_surface_place, and sets the kind of triangulation, which later updates keep. With
-!! RIIS_TRIANGULATION_FIXED, triangles keep their ids, vertices and neighbours at every opening, and only the opening may change.
-!! Errors then: RIIS_INVALID_PARAMETER naming another parameter that changed, RIIS_LIMIT_EXCEEDED for an opening at which the
-!! tolerance does not hold.
+!> Replaces the surface like riisf_surface_place, and sets the kind of triangulation, which later updates keep. Errors: as
+!! riisf_surface_create.
 subroutine riisf_surface_triangulate(surface, valve, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
     translation, triangulation, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -4033,8 +4031,7 @@ subroutine riisf_add_leaflet_reaction(marks, R, half_thickness, rim, n_nodes, ve
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
   real(c_double), intent(in) :: about(3)                  !< The reference point of moment and leaflet_moment; magnitude at
                                                           !! most 1e60. Usually 0.
-  integer(int32), intent(in) :: n_leaflets                !< The number of columns of leaflet_force and leaflet_moment, which
-                                                          !! must be more than riis_surface_info.largest_leaflet_id. Usually 0.
+  integer(int32), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
   real(c_double), intent(inout) :: force(3)               !< (3): force on the whole surface, in the unit of weight K velocity,
                                                           !! N in SI units.
   real(c_double), intent(inout) :: moment(3)              !< (3): moment on the whole surface.
@@ -4089,8 +4086,7 @@ subroutine riisf_add_leaflet_reaction_64(marks, R, half_thickness, rim, n_nodes,
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
   real(c_double), intent(in) :: about(3)                  !< The reference point of moment and leaflet_moment; magnitude at
                                                           !! most 1e60. Usually 0.
-  integer(int32), intent(in) :: n_leaflets                !< The number of columns of leaflet_force and leaflet_moment, which
-                                                          !! must be more than riis_surface_info.largest_leaflet_id. Usually 0.
+  integer(int32), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
   real(c_double), intent(inout) :: force(3)               !< (3): force on the whole surface, in the unit of weight K velocity,
                                                           !! N in SI units.
   real(c_double), intent(inout) :: moment(3)              !< (3): moment on the whole surface.
@@ -4151,8 +4147,7 @@ subroutine riisf_add_leaflet_reaction_components(marks, R, half_thickness, rim, 
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
   real(c_double), intent(in) :: about(3)                  !< The reference point of moment and leaflet_moment; magnitude at
                                                           !! most 1e60. Usually 0.
-  integer(int32), intent(in) :: n_leaflets                !< The number of columns of leaflet_force and leaflet_moment, which
-                                                          !! must be more than riis_surface_info.largest_leaflet_id. Usually 0.
+  integer(int32), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
   real(c_double), intent(inout) :: force(3)               !< (3): force on the whole surface, in the unit of weight K velocity,
                                                           !! N in SI units.
   real(c_double), intent(inout) :: moment(3)              !< (3): moment on the whole surface.
@@ -4209,8 +4204,7 @@ subroutine riisf_add_leaflet_reaction_components_64(marks, R, half_thickness, ri
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
   real(c_double), intent(in) :: about(3)                  !< The reference point of moment and leaflet_moment; magnitude at
                                                           !! most 1e60. Usually 0.
-  integer(int32), intent(in) :: n_leaflets                !< The number of columns of leaflet_force and leaflet_moment, which
-                                                          !! must be more than riis_surface_info.largest_leaflet_id. Usually 0.
+  integer(int32), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
   real(c_double), intent(inout) :: force(3)               !< (3): force on the whole surface, in the unit of weight K velocity,
                                                           !! N in SI units.
   real(c_double), intent(inout) :: moment(3)              !< (3): moment on the whole surface.
@@ -4266,8 +4260,7 @@ subroutine riisf_add_edge_reaction(marks, R, half_thickness, rim, n_nodes, veloc
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
-  integer(int32), intent(in) :: n_edges                   !< Number of edges, at least 1 if edge_force or edge_moment is given;
-                                                          !! else unused. Usually 0.
+  integer(int32), intent(in) :: n_edges                   !< At least 1.
   real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge, for example
                                                           !! riis_attachment.edges; magnitude at most 1e60. An edge may have
                                                           !! length 0.
@@ -4323,8 +4316,7 @@ subroutine riisf_add_edge_reaction_64(marks, R, half_thickness, rim, n_nodes, ve
   integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
-  integer(int64), intent(in) :: n_edges                   !< Number of edges, at least 1 if edge_force or edge_moment is given;
-                                                          !! else unused. Usually 0.
+  integer(int64), intent(in) :: n_edges                   !< At least 1.
   real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge, for example
                                                           !! riis_attachment.edges; magnitude at most 1e60. An edge may have
                                                           !! length 0.
@@ -4387,8 +4379,7 @@ subroutine riisf_add_edge_reaction_components(marks, R, half_thickness, rim, n_n
   real(c_double), intent(in) :: vy(*)                     !< (n_nodes), the y component.
   real(c_double), intent(in) :: vz(*)                     !< (n_nodes), the z component.
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
-  integer(int32), intent(in) :: n_edges                   !< Number of edges, at least 1 if edge_force or edge_moment is given;
-                                                          !! else unused. Usually 0.
+  integer(int32), intent(in) :: n_edges                   !< At least 1.
   real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge, for example
                                                           !! riis_attachment.edges; magnitude at most 1e60. An edge may have
                                                           !! length 0.
@@ -4446,8 +4437,7 @@ subroutine riisf_add_edge_reaction_components_64(marks, R, half_thickness, rim, 
   real(c_double), intent(in) :: vy(*)                     !< (n_nodes), the y component.
   real(c_double), intent(in) :: vz(*)                     !< (n_nodes), the z component.
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
-  integer(int64), intent(in) :: n_edges                   !< Number of edges, at least 1 if edge_force or edge_moment is given;
-                                                          !! else unused. Usually 0.
+  integer(int64), intent(in) :: n_edges                   !< At least 1.
   real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge, for example
                                                           !! riis_attachment.edges; magnitude at most 1e60. An edge may have
                                                           !! length 0.
@@ -4675,10 +4665,9 @@ subroutine riisf_band_sums(marks, inner, outer, n_nodes, value, weight, sum_of_v
   use riis_c, only: RIIS_OK, riis_band, riis_band_init, riis_band_sums, riis_marks_get_band_sums, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_SIDE and _RIM.
-  real(c_double), intent(in) :: inner                     !< Distances d with 0 <= inner <= d <= outer. outer + |o| eps is at
-                                                          !! most the marking's distance limit, with the offset o. Usually 0.
-  real(c_double), intent(in) :: outer                     !< Distances d with 0 <= inner <= d <= outer. outer + |o| eps is at
-                                                          !! most the marking's distance limit, with the offset o. Usually 0.
+  real(c_double), intent(in) :: inner                     !< Mesh units, from 0 to outer.
+  real(c_double), intent(in) :: outer                     !< Mesh units. With the offset o, outer + |o| eps is at most the
+                                                          !! distance limit of the marking.
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(in) :: value(*)                  !< (n_nodes), such as the pressure.
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
@@ -4711,10 +4700,9 @@ subroutine riisf_band_sums_64(marks, inner, outer, n_nodes, value, weight, sum_o
   use riis_c, only: RIIS_OK, riis_band, riis_band_init, riis_band_sums, riis_marks_get_band_sums, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_SIDE and _RIM.
-  real(c_double), intent(in) :: inner                     !< Distances d with 0 <= inner <= d <= outer. outer + |o| eps is at
-                                                          !! most the marking's distance limit, with the offset o. Usually 0.
-  real(c_double), intent(in) :: outer                     !< Distances d with 0 <= inner <= d <= outer. outer + |o| eps is at
-                                                          !! most the marking's distance limit, with the offset o. Usually 0.
+  real(c_double), intent(in) :: inner                     !< Mesh units, from 0 to outer.
+  real(c_double), intent(in) :: outer                     !< Mesh units. With the offset o, outer + |o| eps is at most the
+                                                          !! distance limit of the marking.
   integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(in) :: value(*)                  !< (n_nodes), such as the pressure.
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
@@ -4753,7 +4741,7 @@ subroutine riisf_loads_sums(radius, n_edges, edges, edge_leaflet_id, n_nodes, xy
   implicit none
   real(c_double), intent(in) :: radius                    !< Mesh units, 1e-50 to 1e50. A leaflet's force acts at the nodes
                                                           !! that are nearer to the leaflet's edges than the radius.
-  integer(int32), intent(in) :: n_edges                   !< 1 to 2^40. Usually 0.
+  integer(int32), intent(in) :: n_edges                   !< At least 1.
   real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge, for example
                                                           !! riis_attachment.edges; magnitude at most 1e60. An edge may have
                                                           !! length 0.
@@ -4795,7 +4783,7 @@ subroutine riisf_loads_sums_64(radius, n_edges, edges, edge_leaflet_id, n_nodes,
   implicit none
   real(c_double), intent(in) :: radius                    !< Mesh units, 1e-50 to 1e50. A leaflet's force acts at the nodes
                                                           !! that are nearer to the leaflet's edges than the radius.
-  integer(int64), intent(in) :: n_edges                   !< 1 to 2^40. Usually 0.
+  integer(int64), intent(in) :: n_edges                   !< At least 1.
   real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge, for example
                                                           !! riis_attachment.edges; magnitude at most 1e60. An edge may have
                                                           !! length 0.
@@ -4843,7 +4831,7 @@ subroutine riisf_loads_forces(radius, n_edges, edges, edge_leaflet_id, n_nodes, 
   implicit none
   real(c_double), intent(in) :: radius                    !< Mesh units, 1e-50 to 1e50. A leaflet's force acts at the nodes
                                                           !! that are nearer to the leaflet's edges than the radius.
-  integer(int32), intent(in) :: n_edges                   !< 1 to 2^40. Usually 0.
+  integer(int32), intent(in) :: n_edges                   !< At least 1.
   real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge, for example
                                                           !! riis_attachment.edges; magnitude at most 1e60. An edge may have
                                                           !! length 0.
@@ -4895,7 +4883,7 @@ subroutine riisf_loads_forces_64(radius, n_edges, edges, edge_leaflet_id, n_node
   implicit none
   real(c_double), intent(in) :: radius                    !< Mesh units, 1e-50 to 1e50. A leaflet's force acts at the nodes
                                                           !! that are nearer to the leaflet's edges than the radius.
-  integer(int64), intent(in) :: n_edges                   !< 1 to 2^40. Usually 0.
+  integer(int64), intent(in) :: n_edges                   !< At least 1.
   real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge, for example
                                                           !! riis_attachment.edges; magnitude at most 1e60. An edge may have
                                                           !! length 0.
@@ -5528,12 +5516,9 @@ subroutine riisf_surface_gap(surface, wall, least, mean, most, missed, status)
   implicit none
   integer(int64), intent(in) :: surface                   !< Must be created.
   integer(int64), intent(in) :: wall                      !< A surface in the same frame, usually by riisf_surface_from_arrays.
-  real(c_double), intent(inout) :: least                  !< The gap at the ends of the edges; the mean is weighted by the
-                                                          !! edges' lengths. 0 without a wall at any end.
-  real(c_double), intent(inout) :: mean                   !< The gap at the ends of the edges; the mean is weighted by the
-                                                          !! edges' lengths. 0 without a wall at any end.
-  real(c_double), intent(inout) :: most                   !< The gap at the ends of the edges; the mean is weighted by the
-                                                          !! edges' lengths. 0 without a wall at any end.
+  real(c_double), intent(inout) :: least                  !< The least gap; negative where the wall is inside.
+  real(c_double), intent(inout) :: mean                   !< The mean along the attachment.
+  real(c_double), intent(inout) :: most                   !< The widest gap.
   integer(int32), intent(inout) :: missed                 !< The number of ends whose line misses the wall. These ends count in
                                                           !! no other field.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -5620,13 +5605,10 @@ subroutine riisf_cells_across(marks, mesh, least, mean, most, mean_edge, status)
   implicit none
   integer(int64), intent(in) :: marks                     !< Marks from riisf_mark_nodes.
   integer(int64), intent(in) :: mesh                      !< The mesh of the marking, with an adjacency.
-  real(c_double), intent(inout) :: least                  !< 2 * half_thickness over the longest, the mean and the shortest
-                                                          !! length.
-  real(c_double), intent(inout) :: mean                   !< 2 * half_thickness over the longest, the mean and the shortest
-                                                          !! length.
-  real(c_double), intent(inout) :: most                   !< 2 * half_thickness over the longest, the mean and the shortest
-                                                          !! length.
-  real(c_double), intent(inout) :: mean_edge              !< The lengths of the mesh edges with a marked node.
+  real(c_double), intent(inout) :: least                  !< 2 half thicknesses / longest edge; 0 without an edge.
+  real(c_double), intent(inout) :: mean                   !< 2 half thicknesses / mean edge.
+  real(c_double), intent(inout) :: most                   !< 2 half thicknesses / shortest edge.
+  real(c_double), intent(inout) :: mean_edge              !< The mean length of the edges.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_cells_across) :: cells
   status = riis_marks_get_cells_across(c_handle_of(marks), c_handle_of(mesh), cells, c_sizeof(cells))
@@ -5696,8 +5678,8 @@ subroutine riisf_find_by_area(valve, name, n_areas, areas, half_thickness, toler
   integer(int32), intent(in) :: area_kind                 !< RIIS_AREA_*, usually RIIS_AREA_GEOMETRIC.
   real(c_double), intent(inout) :: values(*)              !< (n_areas): the openings or sizes.
   real(c_double), intent(inout) :: reached(*)             !< (n_areas): the areas at these values.
-  real(c_double), intent(inout) :: least                  !< The least and the largest area.
-  real(c_double), intent(inout) :: most                   !< The least and the largest area.
+  real(c_double), intent(inout) :: least                  !< The least area that can be reached.
+  real(c_double), intent(inout) :: most                   !< The largest area that can be reached.
   integer(int32), intent(inout) :: n_turns                !< The number of turns. Without a turn, the area only grows or only
                                                           !! falls.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -5756,8 +5738,8 @@ subroutine riisf_find_by_area_64(valve, name, n_areas, areas, half_thickness, to
   integer(int32), intent(in) :: area_kind                 !< RIIS_AREA_*, usually RIIS_AREA_GEOMETRIC.
   real(c_double), intent(inout) :: values(*)              !< (n_areas): the openings or sizes.
   real(c_double), intent(inout) :: reached(*)             !< (n_areas): the areas at these values.
-  real(c_double), intent(inout) :: least                  !< The least and the largest area.
-  real(c_double), intent(inout) :: most                   !< The least and the largest area.
+  real(c_double), intent(inout) :: least                  !< The least area that can be reached.
+  real(c_double), intent(inout) :: most                   !< The largest area that can be reached.
   integer(int64), intent(inout) :: n_turns                !< The number of turns. Without a turn, the area only grows or only
                                                           !! falls.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
