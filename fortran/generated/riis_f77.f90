@@ -29,6 +29,7 @@
 !!   array is copied except the marks of riisf_dense_mark, the nodes of passages, listed points and labels of INTEGER*4.
 !! - Nodes that the library gives count from 1. Anything called *_id counts from 0, as in C. Ids that the caller gives count
 !!   from index_base.
+!! - The comments are those of riis.h, which says more about each call.
 !! - A subroutine whose name ends in _64 does the same as the one without _64, with counts and ids of INTEGER*8.
 !! - Threads: any number of threads may read an object at once. One thread may write it while no other reads it.
 
