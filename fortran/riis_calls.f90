@@ -5,12 +5,26 @@ module riis_calls
   use, intrinsic :: iso_c_binding, only: c_double, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int8, int32, int64
   use riis_c
-  use riis_support, only: location_of
+  use riis_support, only: get_integer, location_of
   implicit none
   private
-  public :: write_dense, add_resistance_to, add_reaction_to, add_vertex_reaction_to, band_sums_of, describe_ends
+  public :: write_dense, add_resistance_to, add_reaction_to, add_vertex_reaction_to, band_sums_of, describe_ends, &
+    get_resistance
 
 contains
+
+  !> Makes the library's struct of a resistance. The procedure does nothing after an error.
+  subroutine get_resistance(R, half_thickness, rim, made, code)
+    real(c_double), intent(in), optional :: R               !< Default NaN, which is refused where it counts.
+    real(c_double), intent(in), optional :: half_thickness  !< Default RIIS_AUTO.
+    class(*), intent(in), optional :: rim                   !< integer, RIIS_RIM_*. Default RIIS_RIM_ROUND.
+    type(riis_resistance), intent(inout) :: made            !< Written on success.
+    integer(riis_status), intent(inout) :: code             !< Unchanged on success.
+    if (code == RIIS_OK) code = riis_resistance_init(made, c_sizeof(made))
+    if (present(R)) made%R = R
+    if (present(half_thickness)) made%half_thickness = half_thickness
+    call get_integer(rim, 'rim', made%rim, code)
+  end subroutine get_resistance
 
   !> Calls riis_marks_get_dense.
   function write_dense(marks, n_nodes, far_distance, mark, distance, triangle_id, leaflet_id) result(code)

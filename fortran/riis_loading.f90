@@ -118,17 +118,4 @@ contains
     nodes%stride = points%stride
     call get_integer(n_threads, 'n_threads', loads%n_threads, code)
   end subroutine describe
-
-  ! Checks the shape of an array (rows, columns). Does nothing after an error.
-  subroutine check_columns(array, rows, columns, name, code)
-    real(c_double), intent(in) :: array(:, :)
-    integer, intent(in) :: rows
-    integer(int64), intent(in) :: columns
-    character(len=*), intent(in) :: name
-    integer(riis_status), intent(inout) :: code
-    if (code == RIIS_OK .and. (size(array, 1) /= rows .or. size(array, 2, int64) /= columns)) code = refuse('the shape of ' // &
-      name // ' is (' // text_of(size(array, 1)) // ', ' // text_of(size(array, 2, int64)) // '); it must be (' // &
-      text_of(rows) // ', ' // text_of(columns) // ')')
-  end subroutine check_columns
-
 end module riis_loading

@@ -13,6 +13,7 @@ module riis_support
   public :: strided_points, points_of, describe_points, address_of, text_of
   public :: c_handle_of, handle_of, location_of
   public :: finish, fail, refuse, out_of_memory, check_created, check_not_created, refuse_copy, get_integer, check_size
+  public :: check_columns, set_vector
   public :: get_faces, set_skirt, get_mask, end_for_c
 
   !> The location of points in the form of riis.h: point i is x[i * stride], y[i * stride], z[i * stride].
@@ -138,6 +139,32 @@ contains
     if (n /= expected) code = refuse('the size of ' // name // ' is ' // text_of(n) // '; there are ' // &
       text_of(expected) // ' ' // of)
   end function check_size
+
+  !> Checks the shape of an array (rows, columns). The procedure does nothing after an error.
+  subroutine check_columns(array, rows, columns, name, code)
+    real(c_double), intent(in) :: array(:, :)               !< Any array.
+    integer, intent(in) :: rows                             !< The expected first extent.
+    integer(int64), intent(in) :: columns                   !< The expected second extent.
+    character(len=*), intent(in) :: name                    !< The argument's name.
+    integer(riis_status), intent(inout) :: code             !< Unchanged on success.
+    if (code == RIIS_OK .and. (size(array, 1) /= rows .or. size(array, 2, int64) /= columns)) code = refuse('the shape of ' // &
+      name // ' is (' // text_of(size(array, 1)) // ', ' // text_of(size(array, 2, int64)) // '); it must be (' // &
+      text_of(rows) // ', ' // text_of(columns) // ')')
+  end subroutine check_columns
+
+  !> Sets an option of three reals, if the values are present. The procedure does nothing after an error.
+  subroutine set_vector(values, name, option, code)
+    real(c_double), intent(in), optional :: values(:)       !< (3).
+    character(len=*), intent(in) :: name                    !< The argument's name.
+    real(c_double), intent(inout) :: option(3)              !< Gets the values.
+    integer(riis_status), intent(inout) :: code             !< Unchanged on success.
+    if (code /= RIIS_OK .or. .not. present(values)) return
+    if (size(values) == 3) then
+      option = values
+    else
+      code = refuse('the size of ' // name // ' is ' // text_of(size(values)) // '; it must be 3')
+    end if
+  end subroutine set_vector
 
   !> Works like riis_c_string, but writes to the caller's memory, because gfortran would allocate a function's text in every call.
   subroutine end_for_c(text, c_text)

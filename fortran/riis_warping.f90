@@ -67,20 +67,6 @@ contains
     call finish(code, status)
   end subroutine warp_create
 
-  ! Sets three reals.
-  subroutine set_vector(values, name, option, code)
-    real(c_double), intent(in), optional :: values(:)
-    character(len=*), intent(in) :: name
-    real(c_double), intent(inout) :: option(3)
-    integer(riis_status), intent(inout) :: code
-    if (code /= RIIS_OK .or. .not. present(values)) return
-    if (size(values) == 3) then
-      option = values
-    else
-      code = refuse('the size of ' // name // ' is ' // text_of(size(values)) // '; it must be 3')
-    end if
-  end subroutine set_vector
-
   ! Describes points in an array (3, n).
   subroutine get_points(xyz, name, points, code)
     real(c_double), intent(in), contiguous, target :: xyz(:, :)

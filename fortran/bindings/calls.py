@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Writes docs/fortran_calls.md: the calls of riis.h in Fortran and Fortran 77, from riis.h, calls.table and the Fortran sources.
+"""Writes docs/fortran_calls.md: the calls of riis.h in Fortran and Fortran 77, from riis.h, the Fortran sources, riisf.table and
+calls.table, which has the calls whose procedures have other names.
 
     python3 calls.py                writes the page
     python3 calls.py --check        writes nothing; fails and shows the difference if the page is out of date
     python3 calls.py --root FOLDER  does one or the other in another copy of the sources
 """
 
-import argparse
 import difflib
 import glob
 import os
@@ -15,9 +15,12 @@ import sys
 import textwrap
 
 sys.dont_write_bytecode = True
+import generate
 from header import Header, Problem
+from table import Subroutines
 
 HEADER, TABLE, PAGE = "include/riis/riis.h", "fortran/bindings/calls.table", "docs/fortran_calls.md"
+SUBROUTINES = "fortran/bindings/riisf.table"
 SOURCES = "fortran/riis*.f90", "fortran/generated/riis*.f90"
 HEAD = """<!-- SPDX-License-Identifier: Apache-2.0 -->
 <!-- Written by ./run bindings (fortran/bindings/calls.py); edit fortran/bindings/calls.table. -->
@@ -129,10 +132,32 @@ class Fortran:
 
 
 class Calls:
-    """The entries of the table, by C call."""
+    """For each C call, its procedures in both languages, and a reason if one language has none. Names in the table take the place
+    of the language's names that follow from the call: riis_type%name, riis_name or the subroutines that riisf.table has."""
 
-    def __init__(self, root):
+    def __init__(self, root, declared, fortran):
         self.entries, self.problems = {}, []
+        self.read(root)
+        self.problems += [f"{TABLE}: {HEADER} has no {name}" for name in self.entries if name not in declared]
+        subroutines = {}
+        for entry in (entry for section in Subroutines(os.path.join(root, SUBROUTINES), SUBROUTINES).sections
+                      for entry in section[2]):
+            for name in entry.functions:
+                subroutines.setdefault(name, []).append(entry.name)
+        for call in declared:
+            names, reason = self.entries.get(call, ([], ""))
+            found = [name for name in names if not name.startswith("riisf_")] or self.of_same_name(call, fortran)
+            found += [name for name in names if name.startswith("riisf_")] or subroutines.get(call, []) * (not reason)
+            if found or reason:
+                self.entries[call] = found, reason
+
+    def of_same_name(self, call, fortran):
+        """Returns riis_type%name for riis_type_name, or riis_name, in which `get` may be left out."""
+        kind, _, name = call[len("riis_"):].partition("_")
+        names = [f"riis_{kind}%{name}", call, f"riis_{name}", f"riis_{kind}%{name.replace('get_', '')}"]
+        return next(([name] for name in names if fortran.forms(name)), [])
+
+    def read(self, root):
         text = re.sub(r"\n +", " ", read(root, TABLE))  # an indented line continues the line above
         for line in text.splitlines():
             if line.strip() and not line.startswith("#"):
@@ -160,9 +185,10 @@ def wrapped(line):
 
 def page(root):
     """Returns the text of the page."""
-    header, fortran, table = Header(os.path.join(root, HEADER), HEADER), Fortran(root), Calls(root)
-    problems, groups = table.problems, contents(root)
+    header, fortran, groups = Header(os.path.join(root, HEADER), HEADER), Fortran(root), contents(root)
     declared = [function.name for function in header.functions]
+    table = Calls(root, [name for name in declared if not name.endswith("_init")], fortran)
+    problems = table.problems
     listed = [name for _, _, calls in groups for name, _ in calls]
     if listed != declared:
         changes = difflib.unified_diff(declared, listed, "the headers", "the contents of riis.h", n=0, lineterm="")
@@ -170,7 +196,6 @@ def page(root):
     told = {name for names, _ in table.entries.values() for name in names}
     problems += [f"{TABLE}: there is no line for {name}" for name in declared
                  if not name.endswith("_init") and name not in table.entries]
-    problems += [f"{TABLE}: {HEADER} has no {name}" for name in table.entries if name not in declared]
     problems += [f"{TABLE}: the Fortran sources have no {name}" for name in sorted(told) if not fortran.forms(name)]
     problems += [f"{TABLE}: {name} belongs to no call" for name in sorted(fortran.wanted() - told)]
     for call, (names, reason) in table.entries.items():
@@ -195,29 +220,7 @@ def page(root):
 
 
 def main(words):
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--check", action="store_true", help="write nothing, compare")
-    parser.add_argument("--root", default=os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."),
-                        help="the folder of the sources; this script's by default")
-    arguments = parser.parse_args(words)
-    try:
-        text = page(arguments.root)
-    except Problem as problem:
-        print(problem, file=sys.stderr)
-        return 1
-    path = os.path.join(arguments.root, PAGE)
-    found = read(arguments.root, PAGE) if os.path.exists(path) else ""
-    if found == text:
-        print(f"{PAGE} is as it should be")
-        return 0
-    if arguments.check:
-        sys.stdout.writelines(difflib.unified_diff(found.splitlines(True), text.splitlines(True), PAGE, "generated anew", n=1))
-        print(f"{PAGE} is out of date; ./run bindings writes it anew", file=sys.stderr)
-        return 1
-    with open(path, "w", encoding="utf-8") as file:
-        file.write(text)
-    print(f"written: {PAGE}")
-    return 0
+    return generate.main(words, lambda root: {PAGE: page(root)}, __doc__)
 
 
 if __name__ == "__main__":

@@ -12,7 +12,6 @@ NUMBERS = {"uint8_t": "integer(c_int8_t)", "int32_t": "integer(c_int32_t)", "int
            "double": "real(c_double)"}
 EITHER_INTEGER = "integer(c_int32_t) or (c_int64_t)"  # an array behind void *
 EITHER_REAL = "real(c_double) or (c_float)"  # an array behind void * with the word "real"
-AS_IN_C = "as in riis.h"  # the table's text for a struct whose comments come from the header
 WIDTH = 120  # of wrapped lines
 RULE = "! " + "-" * 113
 
@@ -194,16 +193,17 @@ class Bindings:
 
     def struct(self, struct):
         entry, fields = self.entry(struct.name), []
+        as_in_c = self.line_of(self.entry("as in riis.h"), struct.name)
         for field_line in struct.lines:
             of_table = [self.line_of(entry, field.name) for field in field_line.fields]
             if any(line is not of_table[0] for line in of_table):
                 self.problems.append(f"{of_table[0].place if of_table[0] else self.table.shown}: {struct.name}: "
                                      + ", ".join(field.name for field in field_line.fields) + " belong into one line, as in C")
-            type_, text = self.field_text(struct, of_table[0], field_line, entry.text == AS_IN_C)
+            type_, text = self.field_text(struct, of_table[0], field_line, as_in_c)
             names = ", ".join(field.name + (f"({field.extent})" if field.extent else "") for field in field_line.fields)
             fields.append((f"    {type_} :: {names}", text))
         column = min(max([len(code) for code, text in fields if text], default=0), 45)
-        text = struct.text if entry.text == AS_IN_C else entry.text
+        text = struct.text if as_in_c else entry.text
         lines = comment("  ", prose("  ", text)) + [f"  type, bind(c) :: {struct.name}"]
         for code, text in fields:
             parts = textwrap.wrap(text, WIDTH - column - 4, break_on_hyphens=False) or [""]

@@ -15,8 +15,7 @@ sys.dont_write_bytecode = True
 from fortran import Bindings
 from header import Header, Problem
 from riisf import Writer
-from riisf_table import Table as SubroutineTable
-from table import Table
+from table import Subroutines, Table
 
 HEADER = "include/riis/riis.h"
 TABLE = "fortran/bindings/bindings.table"
@@ -50,12 +49,13 @@ def fill(template, shown, parts):
 def generate(root):
     """Returns the contents of the generated files, by path."""
     header, table = Header(os.path.join(root, HEADER), HEADER), Table(os.path.join(root, TABLE), TABLE)
+    table.add_from(header)
     bindings = Bindings(header, table)
     parts = {"constants": bindings.constants(), "structs": bindings.structs(), "callbacks": bindings.callbacks(),
              "functions": bindings.functions()}
     fixed = {"constants": bindings.fixed_form_constants()}
     bindings.finish()
-    subroutines, interfaces = Writer(header, table, SubroutineTable(os.path.join(root, SUBROUTINES), SUBROUTINES)).write()
+    subroutines, interfaces = Writer(header, table, Subroutines(os.path.join(root, SUBROUTINES), SUBROUTINES)).write()
     files, problems = {}, []
     for (path, width), part in zip(WIDTHS.items(), (parts, fixed, {"subroutines": subroutines}, {"interfaces": interfaces})):
         template = template_of(path)
@@ -75,8 +75,9 @@ def read(path):
         return file.read()
 
 
-def main(words):
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+def main(words, generate=generate, description=__doc__):
+    """Writes or checks the files of a function that returns their contents by path. Returns the exit status."""
+    parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--check", action="store_true", help="write nothing, compare")
     parser.add_argument("--root", default=os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."),
                         help="the folder of the sources; this script's by default")

@@ -19,7 +19,7 @@ CType = namedtuple("CType", "base const stars")  # for const double **: ("double
 Argument = namedtuple("Argument", "name type")
 Field = namedtuple("Field", "name type extent")  # extent: "3" for double lower[3], else ""
 FieldLine = namedtuple("FieldLine", "fields text line")  # fields that C declares in one line, and their comment
-Function = namedtuple("Function", "name result arguments line")
+Function = namedtuple("Function", "name result arguments line text")
 Struct = namedtuple("Struct", "name lines line text")
 Constant = namedtuple("Constant", "name value type line")  # value: as C writes it; type: the integer type, or double
 Section = namedtuple("Section", "title line")
@@ -30,6 +30,26 @@ class Place(namedtuple("Place", "file line shown")):
 
     def __str__(self):
         return f"{self.shown}:{self.line}"
+
+
+class Text:
+    """The comment of a function: what it does, its arguments (`name`: text) and its errors. More about the function may stand
+    between the arguments and the errors, and is left out."""
+
+    def __init__(self, comment):
+        self.what, self.arguments, self.errors = "", {}, ""
+        names, lines = [], [re.sub(r"^ *\*", "", line) for line in comment[2:-2].splitlines()]
+        for line in lines:
+            item = re.match(r"   ((?:`\w+`(?:, )?)+)(?: (?=\()|: ?|, )(.*)", line)
+            if item:
+                names = re.findall(r"\w+", item[1])
+                self.arguments.update((name, item[2].strip()) for name in names)
+            elif names and line.startswith("     "):
+                self.arguments.update((name, f"{self.arguments[name]} {line.strip()}") for name in names)
+            elif self.errors or line.startswith(" Errors: "):
+                self.errors = f"{self.errors} {line.strip()}".strip()
+            elif not self.arguments:
+                self.what = f"{self.what} {line.strip()}".strip()
 
 
 COMMENT = re.compile(r"/\*.*?\*/", re.DOTALL)
@@ -126,7 +146,7 @@ class Header:
         if words.startswith("enum {"):
             self.read_enum(words, start, after_typedef)
         elif words.startswith("RIIS_API "):
-            self.read_function(words, start)
+            self.read_function(words, start, end)
         elif re.fullmatch(r"typedef struct (riis_\w+) \1", words):
             self.handles.add(words.split()[2])
         elif re.match(r"typedef struct (riis_\w+) \{.*\} \1$", words):
@@ -137,7 +157,7 @@ class Header:
         elif re.match(r"typedef void \(\*riis_\w+\)\(.*\)$", words):
             name, arguments = re.fullmatch(r"typedef void \(\*(riis_\w+)\)\((.*)\)", words).groups()
             self.callbacks.append(Function(name, CType("void", False, 0), self.arguments(arguments, name, start),
-                                           self.line(start)))
+                                           self.line(start), Text("")))
         else:
             self.refuse(start, f"this declaration is not understood: {words[:100]}")
         return None
@@ -153,13 +173,17 @@ class Header:
                 self.refuse(start, f"the value {entry.strip()!r} of this enum is not understood; NAME = NUMBER is")
         self.enums.append(values)
 
-    def read_function(self, words, start):
+    def read_function(self, words, start, end):
         match = re.fullmatch(r"RIIS_API (.*?)\b(riis_\w+)\((.*)\)", words)
         result = match and c_type(match[1])
         if not result:
             self.refuse(start, f"this declaration is not understood: {words[:100]}")
             return
-        self.functions.append(Function(match[2], result, self.arguments(match[3], match[2], start), self.line(start)))
+        behind = re.compile(r" */\*.*?\*/(?=\n)").match(self.raw, end + 1)
+        above = re.search(r"\n(/\*(?:(?!\*/).)*\*/)\n$", self.raw[:start], re.DOTALL)
+        comment = behind[0].strip() if behind else above[1] if above else ""
+        self.functions.append(Function(match[2], result, self.arguments(match[3], match[2], start), self.line(start),
+                                       Text(comment)))
 
     def arguments(self, words, of, start):
         found = []

@@ -10,7 +10,7 @@ from functools import lru_cache
 
 from fortran import WIDTH, RULE
 from header import Problem
-from riisf_table import Argument
+from table import Argument
 
 REALS = "real(c_double)"
 KINDS = {"double": REALS, "int32_t": "integer(int32)", "uint8_t": "integer(int32)", "riis_status": "integer(riis_status)"}
@@ -74,6 +74,7 @@ class Subroutine:
                     self.nested[field.name] = (field.type.base, f"{owner}%{field.name}")
         self.declarations, self.locals, self.allocated = [], [], []
         self.used = set()  # the structs that have a variable
+        self.filled = {}  # the fields that arguments fill, and these arguments
         self.set = []  # statements before the calls
         self.passed = dict(entry.fixed)  # for each argument of the functions, what is passed
         self.results, self.copied = [], []  # statements after the calls, and arguments to which arrays are copied
@@ -99,6 +100,11 @@ class Subroutine:
             if field.name == name:
                 return Place(f"{base}%{name}", field.type, field.extent, self.words_of(struct, name), struct)
         return None
+
+    def text_of(self, base, name):
+        """Returns the text that riis.h has for a struct's field."""
+        struct = (self.nested.get(base) or self.structs[base])[0]
+        return next(line.text for line in self.writer.structs[struct].lines if name in [field.name for field in line.fields])
 
     def find(self, argument, target):
         """Returns the place of an argument: the one that the table names, or the one with the argument's name."""
@@ -152,24 +158,32 @@ class Subroutine:
         text = argument.text or usual or self.writer.table.texts.get(argument.name) or self.refuse(f"{argument.name} has no text")
         self.declarations.append((f"{type_}, intent({intent}) :: {argument.name}{argument.shape}", text))
 
+    def told(self, text):
+        """Returns a text of riis.h as it holds here: with the names of subroutines, and without sentences about C's pointers."""
+        sentences = [sentence for sentence in re.split("(?<=[.;]) ", text) if not re.search(r"\bNULL\b|->|[*]now", sentence)]
+        text = re.sub(r" [*](?=\w)", " ", " ".join(sentences).rstrip(".; ").replace('"', "'"))
+        text = re.sub(r"\briis_\w+", lambda match: self.writer.subroutines.get(match[0], match[0]), text)
+        return text and text[:1].upper() + text[1:] + "."
+
     def described(self, argument, place):
-        """Returns the text that riis.h has for a field, as it holds for a caller who passes all arguments."""
+        """Returns the text that riis.h has for an argument or a field, as it holds for a caller who passes all arguments."""
+        name, told = place.path.partition("%")[2], {}
+        if not name:
+            for function in reversed(self.functions):
+                told.update(function.text.arguments)
+            text = self.told(told.get(place.path, ""))
+            return text and text + " Counted from 1." * argument.name.endswith("_num")
         if argument.name in self.writer.table.texts:
             return ""
-        name = place.path.partition("%")[2]
-        lines = self.writer.structs[place.struct].lines
-        text = next(line.text for line in lines if name in [field.name for field in line.fields])
-        text = re.sub("Default NaN.*", "", text)
+        text = re.sub("Default NaN.*", "", self.text_of(place.path.partition("%")[0], name))
         text = re.sub(r"Default (\S+?)(:| stands)", r"\1\2", text.replace("0, the default:", "0:"))
-        text = re.sub(r"Default(?= [0-9R])", "Usually", re.sub("[,;] default ", ", usually ", text))
-        sentences = [sentence for sentence in re.split("(?<=[.;]) ", text) if not re.match("(All )?NULL", sentence)]
-        text = " ".join(sentences).rstrip(".; ") + "."
+        text = self.told(re.sub(r"Default(?= [0-9R])", "Usually", re.sub("[,;] default ", ", usually ", text)))
         if place.type.stars and not place.extent and not text.startswith("("):
-            text = f"({', '.join(self.shape_of(place))}): {text}"
+            text = f"({', '.join(self.shape_of(place))}): {text[:1].lower()}{text[1:]}"
         if self.entry.counted and place.type.stars:
             count = self.shape_of(place)[-1]
-            text = f"{text[:-1].replace(count, 'length')}{', from 1' * argument.name.endswith('_num')}; written up to n."
-        return text[:1].upper() + text[1:]
+            return f"{text[:-1].replace(count, 'length')}{', from 1' * argument.name.endswith('_num')}; written up to n."
+        return text + " Counted from 1." * argument.name.endswith("_num")
 
     def take(self, argument):
         """Declares an argument, and notes what becomes of it."""
@@ -177,7 +191,8 @@ class Subroutine:
         if name in ("n", "length") and self.entry.counted:
             usual = f"The number of {self.entry.counted}, even if an array is too short."
             if name == "length":
-                usual = "The number of entries for which the arrays have room."
+                usual = ("The number of entries for which the arrays have room. RIIS_INVALID_ARGUMENT if n is larger; only n is "
+                         "then written.")
             self.declare(argument, f"integer({self.kind})", "in" if name == "length" else "inout", usual)
             return
         target, size = re.fullmatch(r"(.*?)(?:\((\w+)\))?", argument.target).groups()
@@ -234,6 +249,7 @@ class Subroutine:
     def set_field(self, argument, type_, place, size):
         """An argument that goes into a field of a struct that is read."""
         name, path, base = argument.name, self.path(place.path), place.path.partition("%")[0]
+        self.filled[place.path] = name
         next_state = self.after(base) if base in self.structs else base
         writes = place.type.stars and not place.type.const or next_state != base
         self.declare(argument, type_, "inout" if writes else "in", self.described(argument, place))
@@ -276,10 +292,10 @@ class Subroutine:
                 self.declare(argument, type_, "inout", CREATED if stars == 2 else MADE)
                 self.passed[key] = "c_handle"
             else:
-                self.declare(argument, type_, "in")
+                self.declare(argument, type_, "in", self.described(argument, place))
                 self.passed[key] = f"c_handle_of({name})"
             return
-        self.declare(argument, type_, "inout" if writes else "in")
+        self.declare(argument, type_, "inout" if writes else "in", self.described(argument, place))
         self.passed[key] = name
         if base == "char":
             self.locals.append(f"character(len=len_trim({name}) + 1, kind=c_char) :: c_{name}")
@@ -320,8 +336,19 @@ class Subroutine:
                 parts.append(keyword.format(name) + part)
         return f"{function.name}({', '.join(parts)})"
 
+    def bits(self):
+        """Returns statements for fields such as id_bits, whose text in riis.h is "of" an array: the kind of the argument."""
+        lines = []
+        for base in [*self.nested, *self.structs]:
+            for field in self.fields((self.nested.get(base) or self.structs[base])[0]) if base in self.used else []:
+                array = re.match(r"of (\w+)", self.text_of(base, field.name))
+                given = array and self.filled.get(f"{base}%{array[1]}")
+                if given and field.name in ("id_bits", "offset_bits", "column_bits"):
+                    lines.append(f"{self.path(f'{base}%{field.name}')} = storage_size({given})")
+        return lines
+
     def statements(self):
-        before = [re.sub(r"\b(\w+)%", lambda match: self.path(match[0]), line) for line in self.entry.before]
+        before = self.bits() + [re.sub(r"\b(\w+)%", lambda match: self.path(match[0]), line) for line in self.entry.before]
         for base in [base for base in self.nested if base in self.used]:
             before.append(f"{self.path(self.nested[base][1])} = c_loc({self.local(base)})")
         calls = [f"status = {self.call_of(function)}" for function in self.functions]
@@ -441,16 +468,22 @@ class Subroutine:
         self.declare(Argument("status", "", "", "", ""), "integer(riis_status)", "out")
         return self.statements()
 
+    def comment(self):
+        """Returns what the subroutine does and its errors, by the table or by riis.h."""
+        if self.kind == "int64":
+            return f"Does the same as {self.entry.name}, with counts and ids of INTEGER*8."
+        text = self.functions[0].text
+        what = self.entry.comment or self.told(text.what) or self.refuse(f"{self.functions[0].name} has no comment")
+        if self.functions[0].result.base == "void":
+            what += " The handle becomes 0. Nothing happens to a handle that is 0."
+        return what if "Errors" in what else f"{what} {self.told(text.errors)}".strip()
+
     def lines(self):
         """Returns the subroutine, and its interface without comments."""
         body = self.body()
         names = [re.search(r":: (\w+)", code)[1] for code, _ in self.declarations]
         head = f"subroutine {self.name}({', '.join(names)})"
-        what = re.sub("riisf_|_destroy", "", self.name)
-        text = self.entry.comment or f"Destroys the {what} and sets its handle to 0. Nothing happens to a handle that is 0."
-        if self.kind == "int64":
-            text = f"Does the same as {self.entry.name}, with counts and ids of INTEGER*8."
-        comment = wrapped(text, 126)
+        comment = wrapped(self.comment(), 126)
         lines = [f"{'!!' if i else '!>'} {line}" for i, line in enumerate(comment)] + folded(head, "")
         lines += self.uses([code for code, _ in self.declarations] + self.locals + body, "  ") + ["  implicit none"]
         for code, text in self.declarations:
@@ -482,6 +515,9 @@ class Writer:
         self.header, self.words, self.table = header, words, table
         self.functions = {function.name: function for function in header.functions}
         self.structs = {struct.name: struct for struct in header.structs}
+        self.subroutines = {}  # for each function, the name of the first subroutine that the table has for it
+        for entry in (entry for _, _, entries in table.sections for entry in entries):
+            self.subroutines.setdefault(entry.functions[0], entry.name)
         constants = [constant.name for block in [*header.enums, header.macros] for constant in block]
         self.names = sorted({*self.functions, *self.structs, *constants, "riis_status", "riis_c_text"})
 

@@ -506,28 +506,28 @@ contains
 
   !> Returns whether the adjacency was created and not destroyed.
   pure function adjacency_is_created(this) result(is_created)
-    class(riis_adjacency), intent(in) :: this                     !< May be empty.
+    class(riis_adjacency), intent(in) :: this               !< May be empty.
     logical :: is_created                                   !< .false. for an empty one.
     is_created = c_associated(this%handle)
   end function adjacency_is_created
 
   !> Returns the C handle, for calls of module riis_c. It belongs to this variable: do not destroy it.
   function adjacency_c_handle(this) result(handle)
-    class(riis_adjacency), intent(in) :: this                     !< May be empty.
+    class(riis_adjacency), intent(in) :: this               !< May be empty.
     type(c_ptr) :: handle                                   !< c_null_ptr for an empty one.
     handle = this%handle
   end function adjacency_c_handle
 
   !> Frees the memory of the adjacency, which is then empty and can be created again. Nothing happens to an empty one.
   subroutine adjacency_destroy(this)
-    class(riis_adjacency), intent(inout) :: this                  !< May be empty.
+    class(riis_adjacency), intent(inout) :: this            !< May be empty.
     call riis_adjacency_destroy(this%handle)
   end subroutine adjacency_destroy
 
   !> Stops the program unless both objects are empty.
   impure elemental subroutine adjacency_assign(left, right)
-    class(riis_adjacency), intent(inout) :: left                  !< Must be empty.
-    class(riis_adjacency), intent(in) :: right                    !< Must be empty.
+    class(riis_adjacency), intent(inout) :: left            !< Must be empty.
+    class(riis_adjacency), intent(in) :: right              !< Must be empty.
     call refuse_copy(left%handle, right%handle, 'riis_adjacency')
   end subroutine adjacency_assign
 end module riis_adjacencies

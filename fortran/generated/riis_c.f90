@@ -158,23 +158,23 @@ module riis_c
   type, bind(c) :: riis_points
     integer(c_int64_t) :: struct_size
     integer(c_int64_t) :: n_points
-    type(c_ptr) :: x, y, z          !< real(c_double) or (c_float), (n_points), or xyz(3, n_points): c_loc(xyz(1, 1)),
-                                    !! c_loc(xyz(2, 1)), ...
-    integer(c_int64_t) :: stride    !< 3 for xyz(3, n_points)
-    integer(c_int32_t) :: real_bits !< storage_size(xyz)
+    type(c_ptr) :: x, y, z       !< real(c_double) or (c_float), (n_points), or xyz(3, n_points): c_loc(xyz(1, 1)),
+                                 !! c_loc(xyz(2, 1)), ...
+    integer(c_int64_t) :: stride !< 3 for xyz(3, n_points)
+    integer(c_int32_t) :: real_bits
     integer(c_int32_t) :: reserved
   end type riis_points
 
   type, bind(c) :: riis_patches
     integer(c_int64_t) :: struct_size
     integer(c_int64_t) :: n_curves
-    type(c_ptr) :: degree            !< integer(c_int32_t), (n_curves)
-    type(c_ptr) :: control           !< real(c_double), (3, sum(degree + 1))
+    type(c_ptr) :: degree     !< integer(c_int32_t), (n_curves)
+    type(c_ptr) :: control    !< real(c_double), (3, sum(degree + 1))
     integer(c_int64_t) :: n_patches
-    type(c_ptr) :: curve_id          !< integer(c_int32_t), (4, n_patches)
-    type(c_ptr) :: reversed          !< integer(c_int32_t), (4, n_patches), or c_null_ptr
-    type(c_ptr) :: leaflet_id        !< integer(c_int32_t), (n_patches), or c_null_ptr
-    integer(c_int32_t) :: index_base !< 1 for curves that count from 1
+    type(c_ptr) :: curve_id   !< integer(c_int32_t), (4, n_patches)
+    type(c_ptr) :: reversed   !< integer(c_int32_t), (4, n_patches), or c_null_ptr
+    type(c_ptr) :: leaflet_id !< integer(c_int32_t), (n_patches), or c_null_ptr
+    integer(c_int32_t) :: index_base
     integer(c_int32_t) :: reserved
   end type riis_patches
 
@@ -194,11 +194,11 @@ module riis_c
   type, bind(c) :: riis_valve_patches
     integer(c_int64_t) :: n_curves
     integer(c_int64_t) :: n_pieces
-    type(c_ptr) :: first_piece !< integer(c_int64_t), (n_curves + 1), from 0
+    type(c_ptr) :: first_piece !< integer(c_int64_t), (n_curves + 1)
     type(c_ptr) :: degree      !< integer(c_int32_t), (n_pieces)
     type(c_ptr) :: control     !< real(c_double), (3, sum(degree + 1))
     integer(c_int64_t) :: n_patches
-    type(c_ptr) :: curve_id    !< integer(c_int32_t), (4, n_patches), from 0
+    type(c_ptr) :: curve_id    !< integer(c_int32_t), (4, n_patches)
     type(c_ptr) :: reversed    !< integer(c_int32_t), (4, n_patches)
     type(c_ptr) :: leaflet_id  !< integer(c_int32_t), (n_patches)
     type(c_ptr) :: patch_id    !< integer(c_int32_t), (n_patches)
@@ -212,7 +212,7 @@ module riis_c
     real(c_double) :: tolerance
     real(c_double) :: scale
     real(c_double) :: rotation_axis(3)
-    real(c_double) :: rotation_angle !< degrees
+    real(c_double) :: rotation_angle
     real(c_double) :: translation(3)
     real(c_double) :: measure_tolerance
     integer(c_int32_t) :: measure
@@ -227,21 +227,21 @@ module riis_c
   type, bind(c) :: riis_surface_arrays
     integer(c_int64_t) :: struct_size
     integer(c_int64_t) :: n_vertices
-    type(c_ptr) :: x, y, z                !< real(c_double) or (c_float), (n_vertices), or xyz(3, n_vertices):
-                                          !! c_loc(xyz(1, 1)), c_loc(xyz(2, 1)), ...
-    integer(c_int64_t) :: stride          !< 3 for xyz(3, n_vertices)
-    type(c_ptr) :: vx, vy, vz             !< real(c_double) or (c_float), (n_vertices), or like x, y, z; or c_null_ptr
-    integer(c_int64_t) :: velocity_stride !< 3 for (3, n_vertices)
+    type(c_ptr) :: x, y, z       !< real(c_double) or (c_float), (n_vertices), or xyz(3, n_vertices): c_loc(xyz(1, 1)),
+                                 !! c_loc(xyz(2, 1)), ...
+    integer(c_int64_t) :: stride
+    type(c_ptr) :: vx, vy, vz    !< real(c_double) or (c_float), (n_vertices), or like x, y, z; or c_null_ptr
+    integer(c_int64_t) :: velocity_stride
     integer(c_int64_t) :: n_faces
-    type(c_ptr) :: vertex_ids             !< integer(c_int32_t) or (c_int64_t), (corners_per_face, n_faces)
-    type(c_ptr) :: leaflet_id             !< integer(c_int32_t), (n_faces), or c_null_ptr
+    type(c_ptr) :: vertex_ids    !< integer(c_int32_t) or (c_int64_t), (corners_per_face, n_faces)
+    type(c_ptr) :: leaflet_id    !< integer(c_int32_t), (n_faces), or c_null_ptr
     integer(c_int32_t) :: corners_per_face
-    integer(c_int32_t) :: id_bits         !< storage_size(vertex_ids)
-    integer(c_int32_t) :: index_base      !< 1 for ids that count from 1
-    integer(c_int32_t) :: real_bits       !< storage_size(xyz)
+    integer(c_int32_t) :: id_bits
+    integer(c_int32_t) :: index_base
+    integer(c_int32_t) :: real_bits
     real(c_double) :: skirt_length
-    type(c_ptr) :: attached               !< integer(c_int8_t), (n_vertices), or c_null_ptr
-    type(c_ptr) :: skirt_lengths          !< real(c_double), (n_vertices), or c_null_ptr
+    type(c_ptr) :: attached      !< integer(c_int8_t), (n_vertices), or c_null_ptr
+    type(c_ptr) :: skirt_lengths !< real(c_double), (n_vertices), or c_null_ptr
   end type riis_surface_arrays
 
   !> The size of a surface, and the wall times of the last call that made or updated it.
@@ -271,11 +271,11 @@ module riis_c
   type, bind(c) :: riis_triangles
     integer(c_int64_t) :: n_vertices
     type(c_ptr) :: xyz         !< real(c_double), (3, n_vertices)
-    type(c_ptr) :: uv          !< real(c_double), (2, n_vertices), c_null_ptr for a surface from arrays
-    type(c_ptr) :: velocity    !< real(c_double), (3, n_vertices), c_null_ptr unless the last update gave velocities
+    type(c_ptr) :: uv          !< real(c_double), (2, n_vertices), or c_null_ptr
+    type(c_ptr) :: velocity    !< real(c_double), (3, n_vertices), or c_null_ptr
     integer(c_int64_t) :: n_triangles
-    type(c_ptr) :: vertex_id   !< integer(c_int64_t), (3, n_triangles), from 0
-    type(c_ptr) :: triangle_id !< integer(c_int64_t), (n_triangles), from 0
+    type(c_ptr) :: vertex_id   !< integer(c_int64_t), (3, n_triangles)
+    type(c_ptr) :: triangle_id !< integer(c_int64_t), (n_triangles)
     type(c_ptr) :: leaflet_id  !< integer(c_int32_t), (n_triangles)
     type(c_ptr) :: patch_id    !< integer(c_int32_t), (n_triangles)
   end type riis_triangles
@@ -284,7 +284,7 @@ module riis_c
   type, bind(c) :: riis_attachment
     integer(c_int64_t) :: n_edges
     type(c_ptr) :: edges      !< real(c_double), (3, 2, n_edges)
-    type(c_ptr) :: vertex_id  !< integer(c_int64_t), (2, n_edges), from 0
+    type(c_ptr) :: vertex_id  !< integer(c_int64_t), (2, n_edges)
     type(c_ptr) :: leaflet_id !< integer(c_int32_t), (n_edges)
     type(c_ptr) :: patch_id   !< integer(c_int32_t), (n_edges)
   end type riis_attachment
@@ -293,11 +293,11 @@ module riis_c
     integer(c_int64_t) :: struct_size
     integer(c_int64_t) :: n_keys
     integer(c_int64_t) :: n_vertices
-    type(c_ptr) :: time             !< real(c_double), (n_keys)
-    type(c_ptr) :: xyz              !< real(c_double) or (c_float), (3, n_vertices, n_keys)
+    type(c_ptr) :: time !< real(c_double), (n_keys)
+    type(c_ptr) :: xyz  !< real(c_double) or (c_float), (3, n_vertices, n_keys)
     real(c_double) :: period
     integer(c_int32_t) :: interpolation
-    integer(c_int32_t) :: real_bits !< storage_size(xyz)
+    integer(c_int32_t) :: real_bits
   end type riis_keyframe_arrays
 
   !> The closest point of the surface to one point. For closest points by sampling or minimisation, see RIIS_MEASURE_*.
@@ -347,7 +347,7 @@ module riis_c
   !> c_null_ptr for arrays without pairs
   type, bind(c) :: riis_crossing_list
     integer(c_int64_t) :: n_pairs
-    type(c_ptr) :: triangle_id !< integer(c_int64_t), (2, n_pairs), from 0, the lower id first
+    type(c_ptr) :: triangle_id !< integer(c_int64_t), (2, n_pairs)
     type(c_ptr) :: point       !< real(c_double), (3, n_pairs)
     type(c_ptr) :: depth       !< real(c_double), (n_pairs)
     type(c_ptr) :: length      !< real(c_double), (n_pairs)
@@ -362,15 +362,15 @@ module riis_c
   type, bind(c) :: riis_grid
     integer(c_int64_t) :: struct_size
     integer(c_int64_t) :: ni, nj, nk
-    type(c_ptr) :: x                !< real(c_double) or (c_float), (ni), or c_null_ptr
-    type(c_ptr) :: y                !< real(c_double) or (c_float), (nj), or c_null_ptr
-    type(c_ptr) :: z                !< real(c_double) or (c_float), (nk), or c_null_ptr
+    type(c_ptr) :: x !< real(c_double) or (c_float), (ni), or c_null_ptr
+    type(c_ptr) :: y !< real(c_double) or (c_float), (nj), or c_null_ptr
+    type(c_ptr) :: z !< real(c_double) or (c_float), (nk), or c_null_ptr
     real(c_double) :: origin(3)
     real(c_double) :: spacing(3)
-    integer(c_int64_t) :: first     !< from 0
+    integer(c_int64_t) :: first
     integer(c_int64_t) :: stride(3)
     integer(c_int64_t) :: n_nodes
-    integer(c_int32_t) :: real_bits !< storage_size(x)
+    integer(c_int32_t) :: real_bits
     integer(c_int32_t) :: reserved
   end type riis_grid
 
@@ -378,11 +378,11 @@ module riis_c
     integer(c_int64_t) :: struct_size
     integer(c_int64_t) :: n_rows
     integer(c_int64_t) :: n_all
-    type(c_ptr) :: offsets            !< integer(c_int32_t) or (c_int64_t), (n_rows + 1)
-    type(c_ptr) :: columns            !< integer(c_int32_t) or (c_int64_t), (offsets(n_rows + 1) - index_base)
-    integer(c_int32_t) :: offset_bits !< storage_size(offsets)
-    integer(c_int32_t) :: column_bits !< storage_size(columns)
-    integer(c_int32_t) :: index_base  !< 1 for offsets and columns that count from 1
+    type(c_ptr) :: offsets !< integer(c_int32_t) or (c_int64_t), (n_rows + 1)
+    type(c_ptr) :: columns !< integer(c_int32_t) or (c_int64_t), (offsets(n_rows + 1) - index_base)
+    integer(c_int32_t) :: offset_bits
+    integer(c_int32_t) :: column_bits
+    integer(c_int32_t) :: index_base
     integer(c_int32_t) :: reserved
   end type riis_csr
 
@@ -390,12 +390,12 @@ module riis_c
     integer(c_int64_t) :: struct_size
     integer(c_int64_t) :: n_nodes
     integer(c_int64_t) :: n_cells
-    type(c_ptr) :: node_ids          !< integer(c_int32_t) or (c_int64_t), (nodes_per_cell, n_cells)
-    type(c_ptr) :: offsets           !< integer(c_int32_t) or (c_int64_t), (n_cells + 1), of the same kind as node_ids,
-                                     !! from 0 or from index_base; or c_null_ptr
+    type(c_ptr) :: node_ids !< integer(c_int32_t) or (c_int64_t), (nodes_per_cell, n_cells)
+    type(c_ptr) :: offsets  !< integer(c_int32_t) or (c_int64_t), (n_cells + 1), of the same kind as node_ids, from 0 or
+                            !! from index_base; or c_null_ptr
     integer(c_int32_t) :: nodes_per_cell
-    integer(c_int32_t) :: id_bits    !< storage_size(node_ids)
-    integer(c_int32_t) :: index_base !< 1 for node_ids that count from 1
+    integer(c_int32_t) :: id_bits
+    integer(c_int32_t) :: index_base
     integer(c_int32_t) :: n_threads
   end type riis_mesh_cells
 
@@ -403,12 +403,12 @@ module riis_c
     integer(c_int64_t) :: struct_size
     integer(c_int64_t) :: n_cells
     integer(c_int64_t) :: n_faces
-    type(c_ptr) :: owner             !< integer(c_int32_t) or (c_int64_t), (n_faces), or c_loc(face_cells(1, 1)) of
-                                     !! face_cells(2, n_faces)
-    type(c_ptr) :: neighbor          !< integer(c_int32_t) or (c_int64_t), (n_faces), or c_loc(face_cells(2, 1))
-    integer(c_int64_t) :: stride     !< 2 for face_cells(2, n_faces)
-    integer(c_int32_t) :: id_bits    !< storage_size(face_cells)
-    integer(c_int32_t) :: index_base !< 1 for cells that count from 1; neighbor is then 0 at the boundary
+    type(c_ptr) :: owner    !< integer(c_int32_t) or (c_int64_t), (n_faces), or c_loc(face_cells(1, 1)) of face_cells(2,
+                            !! n_faces)
+    type(c_ptr) :: neighbor !< integer(c_int32_t) or (c_int64_t), (n_faces), or c_loc(face_cells(2, 1))
+    integer(c_int64_t) :: stride
+    integer(c_int32_t) :: id_bits
+    integer(c_int32_t) :: index_base
     integer(c_int32_t) :: n_threads
     integer(c_int32_t) :: reserved
   end type riis_mesh_faces
@@ -435,27 +435,24 @@ module riis_c
   !> c_null_ptr for arrays that were not requested or have no nodes
   type, bind(c) :: riis_mark_list
     integer(c_int64_t) :: n_nodes
-    type(c_ptr) :: node_id           !< integer(c_int64_t), (n_nodes), ascending, from 0
+    type(c_ptr) :: node_id           !< integer(c_int64_t), (n_nodes)
     type(c_ptr) :: distance          !< real(c_double), (n_nodes)
-    type(c_ptr) :: triangle_id       !< integer(c_int64_t), (n_nodes), from 0
+    type(c_ptr) :: triangle_id       !< integer(c_int64_t), (n_nodes)
     type(c_ptr) :: leaflet_id        !< integer(c_int32_t), (n_nodes)
-    type(c_ptr) :: K                 !< real(c_double), (n_nodes), by the resistance of the options
-    type(c_ptr) :: K_u_surface       !< real(c_double), (3, n_nodes), by the resistance of the options
-    type(c_ptr) :: point             !< real(c_double), (3, n_nodes), the closest point of the surface
-    type(c_ptr) :: normal            !< real(c_double), (3, n_nodes), the unit normal of its triangle
-    type(c_ptr) :: barycentric       !< real(c_double), (3, n_nodes), the point's barycentric coordinates
-    type(c_ptr) :: uv                !< real(c_double), (2, n_nodes), the point's u and v on its patch
-    type(c_ptr) :: velocity          !< real(c_double), (3, n_nodes), the surface's velocity at the point
-    type(c_ptr) :: side              !< integer(c_int32_t), (n_nodes), 1 downstream, -1 upstream, 0 on the surface or
-                                     !! level with its rim
-    type(c_ptr) :: rim               !< integer(c_int32_t), (n_nodes), 1 if the point lies on the rim of the surface,
-                                     !! else 0
-    type(c_ptr) :: patch_id          !< integer(c_int32_t), (n_nodes), from 0
+    type(c_ptr) :: K                 !< real(c_double), (n_nodes), or c_null_ptr
+    type(c_ptr) :: K_u_surface       !< real(c_double), (3, n_nodes), or c_null_ptr
+    type(c_ptr) :: point             !< real(c_double), (3, n_nodes)
+    type(c_ptr) :: normal            !< real(c_double), (3, n_nodes)
+    type(c_ptr) :: barycentric       !< real(c_double), (3, n_nodes)
+    type(c_ptr) :: uv                !< real(c_double), (2, n_nodes)
+    type(c_ptr) :: velocity          !< real(c_double), (3, n_nodes)
+    type(c_ptr) :: side              !< integer(c_int32_t), (n_nodes)
+    type(c_ptr) :: rim               !< integer(c_int32_t), (n_nodes)
+    type(c_ptr) :: patch_id          !< integer(c_int32_t), (n_nodes)
     integer(c_int64_t) :: n_directions
-    type(c_ptr) :: distance_gradient !< real(c_double), (n_directions, n_nodes), the derivative of the distance in each
-                                     !! direction
-    type(c_ptr) :: K_gradient        !< real(c_double), (n_directions, n_nodes), the derivative of K in each direction
-    type(c_ptr) :: height            !< real(c_double), (n_nodes), the signed distance, with an offset
+    type(c_ptr) :: distance_gradient !< real(c_double), (n_directions, n_nodes)
+    type(c_ptr) :: K_gradient        !< real(c_double), (n_directions, n_nodes), or c_null_ptr
+    type(c_ptr) :: height            !< real(c_double), (n_nodes), or c_null_ptr
   end type riis_mark_list
 
   !> c_null_ptr for arrays that are not wanted
@@ -488,20 +485,20 @@ module riis_c
   type, bind(c) :: riis_resistance_arrays
     integer(c_int64_t) :: struct_size
     integer(c_int64_t) :: n_nodes
-    type(c_ptr) :: K                         !< real(c_double), (n_nodes), or c_null_ptr
+    type(c_ptr) :: K              !< real(c_double), (n_nodes), or c_null_ptr
     integer(c_int64_t) :: K_stride
-    type(c_ptr) :: K_u_surface(3)            !< real(c_double), (n_nodes), for each component: c_loc(u(1, 1)),
-                                             !! c_loc(u(2, 1)), c_loc(u(3, 1)); or c_null_ptr
-    integer(c_int64_t) :: K_u_surface_stride !< 3 for u(3, n_nodes)
+    type(c_ptr) :: K_u_surface(3) !< real(c_double), (n_nodes), for each component: c_loc(u(1, 1)), c_loc(u(2, 1)),
+                                  !! c_loc(u(3, 1)); or c_null_ptr
+    integer(c_int64_t) :: K_u_surface_stride
   end type riis_resistance_arrays
 
   type, bind(c) :: riis_flow_arrays
     integer(c_int64_t) :: struct_size
     integer(c_int64_t) :: n_nodes
-    type(c_ptr) :: velocity(3)            !< real(c_double), (n_nodes), for each component: c_loc(u(1, 1)), c_loc(u(2,
-                                          !! 1)), c_loc(u(3, 1))
-    integer(c_int64_t) :: velocity_stride !< 3 for u(3, n_nodes)
-    type(c_ptr) :: weight                 !< real(c_double), (n_nodes)
+    type(c_ptr) :: velocity(3) !< real(c_double), (n_nodes), for each component: c_loc(u(1, 1)), c_loc(u(2, 1)),
+                               !! c_loc(u(3, 1))
+    integer(c_int64_t) :: velocity_stride
+    type(c_ptr) :: weight      !< real(c_double), (n_nodes)
   end type riis_flow_arrays
 
   !> c_null_ptr for sums that are not wanted
@@ -552,7 +549,7 @@ module riis_c
   !> c_null_ptr for arrays without edges
   type, bind(c) :: riis_leak_list
     integer(c_int64_t) :: n_edges
-    type(c_ptr) :: node_id  !< integer(c_int64_t), (2, n_edges), from 0, the lower id first
+    type(c_ptr) :: node_id  !< integer(c_int64_t), (2, n_edges)
     type(c_ptr) :: length   !< real(c_double), (n_edges)
     type(c_ptr) :: distance !< real(c_double), (n_edges)
     real(c_double) :: half_thickness
@@ -580,9 +577,9 @@ module riis_c
   type, bind(c) :: riis_passage_ends
     integer(c_int64_t) :: struct_size
     integer(c_int64_t) :: n_from
-    type(c_ptr) :: from !< integer(c_int64_t), (n_from), from 0
+    type(c_ptr) :: from !< integer(c_int64_t), (n_from)
     integer(c_int64_t) :: n_to
-    type(c_ptr) :: to   !< integer(c_int64_t), (n_to), from 0
+    type(c_ptr) :: to   !< integer(c_int64_t), (n_to)
   end type riis_passage_ends
 
   !> A leaflet of a surface. Lengths are in mesh units.
@@ -689,15 +686,15 @@ module riis_c
   type, bind(c) :: riis_landmarks
     integer(c_int64_t) :: struct_size
     integer(c_int64_t) :: n_landmarks
-    type(c_ptr) :: x, y, z          !< real(c_double) or (c_float), (n_landmarks), or xyz(3, n_landmarks): c_loc(xyz(1,
-                                    !! 1)), c_loc(xyz(2, 1)), ...
-    integer(c_int64_t) :: stride    !< 3 for xyz(3, n_landmarks)
-    type(c_ptr) :: role             !< integer(c_int32_t), (n_landmarks), RIIS_LANDMARK_*
-    type(c_ptr) :: leaflet_id       !< integer(c_int32_t), (2, n_landmarks), or c_null_ptr
+    type(c_ptr) :: x, y, z    !< real(c_double) or (c_float), (n_landmarks), or xyz(3, n_landmarks): c_loc(xyz(1, 1)),
+                              !! c_loc(xyz(2, 1)), ...
+    integer(c_int64_t) :: stride
+    type(c_ptr) :: role       !< integer(c_int32_t), (n_landmarks)
+    type(c_ptr) :: leaflet_id !< integer(c_int32_t), (2, n_landmarks), or c_null_ptr
     real(c_double) :: scale
     real(c_double) :: noise
     real(c_double) :: flow(3)
-    integer(c_int32_t) :: real_bits !< storage_size(xyz)
+    integer(c_int32_t) :: real_bits
     integer(c_int32_t) :: reserved
   end type riis_landmarks
 
@@ -916,7 +913,7 @@ module riis_c
     end subroutine riis_valve_destroy
 
     !>   name    riis_c_string('right.rotation')
-    !!   values  (n_values), copied; lengths in the unit of the valve, angles in degrees
+    !!   values  (n_values)
     function riis_valve_set(valve, name, n_values, values) result(status) bind(c, name='riis_valve_set')
       import :: c_char, c_double, c_int64_t, c_ptr, riis_status
       implicit none
@@ -1064,7 +1061,7 @@ module riis_c
       integer(riis_status) :: status
     end function riis_surface_create_from_arrays
 
-    !>   options  if left out: the surface's own options
+    !>   options  if left out: the surface's own options, not the defaults
     function riis_surface_update(surface, valve, options) result(status) bind(c, name='riis_surface_update')
       import :: c_ptr, riis_status, riis_surface_options
       implicit none
@@ -1128,7 +1125,7 @@ module riis_c
     ! -----------------------------------------------------------------------------------------------------------------
 
     !>   options         if left out: the surface's own options
-    !!   options_before  if left out: the present options
+    !!   options_before  if left out: as now
     function riis_surface_update_moving(surface, valve, valve_before, dt, options, options_before) result(status) &
         bind(c, name='riis_surface_update_moving')
       import :: c_double, c_ptr, riis_status, riis_surface_options
@@ -1222,7 +1219,6 @@ module riis_c
     end function riis_closest_arrays_init
 
     !>   options  if left out: all defaults
-    !!   arrays   its arrays are written
     function riis_closest_points(surface, points, options, arrays) result(status) bind(c, name='riis_closest_points')
       import :: c_ptr, riis_closest_arrays, riis_closest_options, riis_points, riis_status
       implicit none
@@ -1394,7 +1390,6 @@ module riis_c
       integer(riis_status) :: status
     end function riis_mesh_cells_init
 
-    !>   cells  its arrays are read during the call only
     function riis_adjacency_create_from_cells(cells, adjacency) result(status) &
         bind(c, name='riis_adjacency_create_from_cells')
       import :: c_ptr, riis_mesh_cells, riis_status
@@ -1413,7 +1408,6 @@ module riis_c
       integer(riis_status) :: status
     end function riis_mesh_faces_init
 
-    !>   faces  its arrays are read during the call only
     function riis_adjacency_create_from_faces(faces, adjacency) result(status) &
         bind(c, name='riis_adjacency_create_from_faces')
       import :: c_ptr, riis_mesh_faces, riis_status
@@ -1423,7 +1417,6 @@ module riis_c
       integer(riis_status) :: status
     end function riis_adjacency_create_from_faces
 
-    !>   ni, nj, nk  the extents of xyz(3, ni, nj, nk)
     function riis_adjacency_create_from_grid(ni, nj, nk, n_threads, adjacency) result(status) &
         bind(c, name='riis_adjacency_create_from_grid')
       import :: c_int32_t, c_int64_t, c_ptr, riis_status
@@ -1499,8 +1492,7 @@ module riis_c
       integer(riis_status) :: status
     end function riis_mark_nodes
 
-    !>   which        RIIS_LIST_*
-    !!   struct_size  c_sizeof(list)
+    !>   struct_size  c_sizeof(list)
     function riis_marks_get_list(marks, which, list, struct_size) result(status) bind(c, name='riis_marks_get_list')
       import :: c_int32_t, c_int64_t, c_ptr, riis_mark_list, riis_status
       implicit none
@@ -1520,7 +1512,6 @@ module riis_c
       integer(riis_status) :: status
     end function riis_dense_arrays_init
 
-    !>   arrays  every entry of its arrays is written
     function riis_marks_get_dense(marks, arrays) result(status) bind(c, name='riis_marks_get_dense')
       import :: c_ptr, riis_dense_arrays, riis_status
       implicit none
@@ -1552,7 +1543,6 @@ module riis_c
       integer(riis_status) :: status
     end function riis_resistance_arrays_init
 
-    !>   arrays  values are added to its arrays, at the nodes of the band
     function riis_marks_add_resistance(marks, resistance, arrays) result(status) &
         bind(c, name='riis_marks_add_resistance')
       import :: c_ptr, riis_resistance, riis_resistance_arrays, riis_status
@@ -1581,7 +1571,6 @@ module riis_c
       integer(riis_status) :: status
     end function riis_reaction_init
 
-    !>   reaction  values are added to its sums
     function riis_marks_add_reaction(marks, resistance, flow, reaction) result(status) &
         bind(c, name='riis_marks_add_reaction')
       import :: c_ptr, riis_flow_arrays, riis_reaction, riis_resistance, riis_status
@@ -1593,7 +1582,7 @@ module riis_c
       integer(riis_status) :: status
     end function riis_marks_add_reaction
 
-    !>   vertex_force  (3, n_vertices); values are added
+    !>   vertex_force  (3, n_vertices)
     function riis_marks_add_vertex_reaction(marks, surface, resistance, flow, n_vertices, vertex_force) result(status) &
         bind(c, name='riis_marks_add_vertex_reaction')
       import :: c_double, c_int64_t, c_ptr, riis_flow_arrays, riis_resistance, riis_status
@@ -1641,8 +1630,8 @@ module riis_c
       integer(riis_status) :: status
     end function riis_loads_init
 
-    !>   weight  (n_points)
-    !!   sums    (11, n_leaflets); values are added
+    !>   weight  (n_points), if left out: 1 for each node
+    !!   sums    (11, n_leaflets)
     function riis_loads_add_sums(loads, nodes, weight, sums) result(status) bind(c, name='riis_loads_add_sums')
       import :: c_double, riis_loads, riis_points, riis_status
       implicit none
@@ -1655,7 +1644,7 @@ module riis_c
 
     !>   weight      (n_points)
     !!   sums        (11, n_leaflets)
-    !!   node_force  (3, n_points); values are added
+    !!   node_force  (3, n_points)
     function riis_loads_add_forces(loads, nodes, weight, sums, node_force) result(status) &
         bind(c, name='riis_loads_add_forces')
       import :: c_double, riis_loads, riis_points, riis_status
@@ -1712,7 +1701,7 @@ module riis_c
     ! -----------------------------------------------------------------------------------------------------------------
 
     !>   options  if left out: all defaults
-    !!   label    (n_nodes), contiguous, from 0; nodes in no region get -1
+    !!   label    (n_nodes)
     function riis_label_open_regions(mesh, marks, options, n_nodes, label, n_regions) result(status) &
         bind(c, name='riis_label_open_regions')
       import :: c_int64_t, c_ptr, riis_mark_options, riis_status
@@ -1774,7 +1763,7 @@ module riis_c
       integer(riis_status) :: status
     end function riis_surface_get_leaflet
 
-    !>   resistance   if left out: all defaults
+    !>   resistance   if left out: the defaults
     !!   struct_size  c_sizeof(orifice)
     function riis_surface_get_orifice(surface, resistance, orifice, struct_size) result(status) &
         bind(c, name='riis_surface_get_orifice')
@@ -1809,10 +1798,12 @@ module riis_c
       integer(riis_status) :: status
     end function riis_area_search_init
 
-    !>   search           if left out: all defaults
-    !!   values, reached  if left out: not wanted
-    !!   range            if left out: not wanted
-    !!   struct_size      c_sizeof(range)
+    !>   areas        (n_areas)
+    !!   search       if left out: the defaults
+    !!   values       (n_areas), if left out: not wanted
+    !!   reached      (n_areas), if left out: not wanted
+    !!   range        if left out: not wanted
+    !!   struct_size  c_sizeof(range)
     function riis_find_by_area(valve, name, n_areas, areas, search, values, reached, range, struct_size) &
         result(status) bind(c, name='riis_find_by_area')
       import :: c_char, c_double, c_int64_t, c_ptr, riis_area_range, riis_area_search, riis_status
@@ -1888,7 +1879,7 @@ module riis_c
       integer(riis_status) :: status
     end function riis_marks_get_cells_across
 
-    !>   options  if left out: all defaults
+    !>   options  if left out: the defaults
     function riis_valve_get_swept_volume(valve, opening_from, opening_to, options, leaflet_id, volume) result(status) &
         bind(c, name='riis_valve_get_swept_volume')
       import :: c_double, c_int32_t, c_ptr, riis_status, riis_surface_options
@@ -1924,7 +1915,7 @@ module riis_c
     end function riis_placement_arrays_init
 
     !>   held         riis_c_string('') for none
-    !!   arrays       its arrays are written; if left out: none
+    !!   arrays       if left out: not wanted
     !!   struct_size  c_sizeof(placement)
     function riis_place(valve, landmarks, held, arrays, placement, struct_size) result(status) &
         bind(c, name='riis_place')
@@ -1995,6 +1986,7 @@ module riis_c
       integer(riis_status) :: status
     end function riis_warp_get_info
 
+    !>   mapped  (3, n_points)
     function riis_warp_map(warp, points, mapped) result(status) bind(c, name='riis_warp_map')
       import :: c_double, c_ptr, riis_points, riis_status
       implicit none
@@ -2016,7 +2008,7 @@ module riis_c
     ! Skirt
     ! -----------------------------------------------------------------------------------------------------------------
 
-    !>   distance     (2, riis_attachment%n_edges)
+    !>   distance     (2, n_edges)
     !!   struct_size  c_sizeof(gap)
     function riis_surface_get_gap(surface, wall, distance, gap, struct_size) result(status) &
         bind(c, name='riis_surface_get_gap')
@@ -2029,7 +2021,7 @@ module riis_c
       integer(riis_status) :: status
     end function riis_surface_get_gap
 
-    !>   options  if left out: all defaults
+    !>   options  if left out: the defaults
     function riis_valve_set_skirt_to_wall(valve, wall, longest, options) result(status) &
         bind(c, name='riis_valve_set_skirt_to_wall')
       import :: c_double, c_ptr, riis_status, riis_surface_options
@@ -2045,8 +2037,8 @@ module riis_c
     ! Gradients
     ! -----------------------------------------------------------------------------------------------------------------
 
-    !>   options_after   if left out: the surface's own options
-    !!   options_before  if left out: the surface's own options
+    !>   options_after   if left out: the surface's options
+    !!   options_before  if left out: the surface's options
     function riis_surface_add_direction(surface, valve_after, valve_before, dp, options_after, options_before) &
         result(status) bind(c, name='riis_surface_add_direction')
       import :: c_double, c_ptr, riis_status, riis_surface_options

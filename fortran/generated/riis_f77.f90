@@ -29,21 +29,29 @@
 !!   array is copied except the marks of riisf_dense_mark, the nodes of passages, listed points and labels of INTEGER*4.
 !! - Nodes that the library gives count from 1. Anything called *_id counts from 0, as in C. Ids that the caller gives count
 !!   from index_base.
+!! - The comments are those of riis.h, which says more about each call.
 !! - A subroutine whose name ends in _64 does the same as the one without _64, with counts and ids of INTEGER*8.
 !! - Threads: any number of threads may read an object at once. One thread may write it while no other reads it.
 
 ! -----------------------------------------------------------------------------------------------------------------
 ! Valves and surfaces
+! A placement is x -> scale * rotation * x + translation.
 ! -----------------------------------------------------------------------------------------------------------------
 
-!> Makes a valve with the paper's parameter values. Errors: RIIS_INVALID_PARAMETER for an unknown kind.
+!> Makes a valve with the default parameter values. The defaults of 'aortic' and 'mitral' are the paper's.
 subroutine riisf_valve_create(kind, valve, status)
   use, intrinsic :: iso_c_binding, only: c_char, c_null_ptr, c_ptr
   use, intrinsic :: iso_fortran_env, only: int64
   use riis_support, only: end_for_c, handle_of
   use riis_c, only: RIIS_OK, riis_status, riis_valve_create
   implicit none
-  character(len=*), intent(in) :: kind                    !< 'aortic', 'tricuspid' or another kind of riis.h.
+  character(len=*), intent(in) :: kind                    !< One of these (docs/theory.md); any other is
+                                                          !! RIIS_INVALID_PARAMETER: 'aortic' and 'mitral', the paper's three
+                                                          !! cusps and two leaflets 'coapting', 'bicuspid' and 'quadricuspid',
+                                                          !! three, two and four cusps with a zone of coaptation 'tricuspid'
+                                                          !! and 'mitral_coapting', three and two leaflets of an annulus, with
+                                                          !! a zone of coaptation 'trileaflet', three equal cusps that close in
+                                                          !! straight lines 'bileaflet', a mechanical prosthesis.
   integer(int64), intent(inout) :: valve                  !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   character(len=len_trim(kind) + 1, kind=c_char) :: c_kind
@@ -55,7 +63,7 @@ subroutine riisf_valve_create(kind, valve, status)
   valve = handle_of(c_handle)
 end subroutine riisf_valve_create
 
-!> Makes a copy with the same parameters and states. Each valve is destroyed separately.
+!> Makes a second valve with the same parameters, patches and states. The caller destroys both valves.
 subroutine riisf_valve_copy(valve, copy, status)
   use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr
   use, intrinsic :: iso_fortran_env, only: int64
@@ -72,7 +80,7 @@ subroutine riisf_valve_copy(valve, copy, status)
   copy = handle_of(c_handle)
 end subroutine riisf_valve_copy
 
-!> Sets a parameter, which has 1 or 3 values. Every valve has the parameter 'opening', from 0 to 1. Errors:
+!> Sets a parameter by its name in the paper. Whether all values fit together is checked by riisf_surface_create. Errors:
 !! RIIS_INVALID_PARAMETER naming the parameter and the value.
 subroutine riisf_valve_set(valve, name, n_values, values, status)
   use, intrinsic :: iso_c_binding, only: c_char, c_double
@@ -81,8 +89,10 @@ subroutine riisf_valve_set(valve, name, n_values, values, status)
   use riis_c, only: riis_status, riis_valve_set
   implicit none
   integer(int64), intent(in) :: valve                     !< Must be created.
-  character(len=*), intent(in) :: name                    !< Such as 'leaflet_angle', 'right.rotation'.
-  integer(int32), intent(in) :: n_values                  !< 1 or 3, as the parameter has.
+  character(len=*), intent(in) :: name                    !< Such as 'leaflet_angle', 'right.rotation', and for each valve
+                                                          !! 'opening', from 0 to 1.
+  integer(int32), intent(in) :: n_values                  !< 3 for rotation, translation (x, y, z), t0_* and t3_* (right, left,
+                                                          !! non-coronary cusp); 1 for others.
   real(c_double), intent(in) :: values(*)                 !< Lengths in the valve's unit, angles in degrees.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   character(len=len_trim(name) + 1, kind=c_char) :: c_name
@@ -90,7 +100,8 @@ subroutine riisf_valve_set(valve, name, n_values, values, status)
   status = riis_valve_set(c_handle_of(valve), c_name, int(n_values, int64), values)
 end subroutine riisf_valve_set
 
-!> Gets a parameter's values.
+!> Copies a parameter's values to the caller's array. Arguments as riisf_valve_set. Errors: RIIS_INVALID_PARAMETER, also for a
+!! name that means all cusps.
 subroutine riisf_valve_get(valve, name, n_values, values, status)
   use, intrinsic :: iso_c_binding, only: c_char, c_double
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -98,16 +109,17 @@ subroutine riisf_valve_get(valve, name, n_values, values, status)
   use riis_c, only: riis_status, riis_valve_get
   implicit none
   integer(int64), intent(in) :: valve                     !< Must be created.
-  character(len=*), intent(in) :: name                    !< As in riisf_valve_set, but always with the cusp's name.
+  character(len=*), intent(in) :: name                    !< The parameter, as in riisf_valve_set.
   integer(int32), intent(in) :: n_values                  !< 1 or 3, as the parameter has.
-  real(c_double), intent(inout) :: values(*)              !< Unchanged on an error.
+  real(c_double), intent(inout) :: values(*)              !< The parameter's values.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   character(len=len_trim(name) + 1, kind=c_char) :: c_name
   call end_for_c(name, c_name)
   status = riis_valve_get(c_handle_of(valve), c_name, int(n_values, int64), values)
 end subroutine riisf_valve_get
 
-!> Returns a parameter to the value of a valve on which it was not set: its rule's value, or its default.
+!> Returns a parameter to the value that its rule gives, or to its default if it has no rule. Errors: RIIS_INVALID_PARAMETER for
+!! another name.
 subroutine riisf_valve_unset(valve, name, status)
   use, intrinsic :: iso_c_binding, only: c_char
   use, intrinsic :: iso_fortran_env, only: int64
@@ -122,7 +134,7 @@ subroutine riisf_valve_unset(valve, name, status)
   status = riis_valve_unset(c_handle_of(valve), c_name)
 end subroutine riisf_valve_unset
 
-!> Says whether a parameter was set.
+!> Says whether a parameter was set. Errors: RIIS_INVALID_PARAMETER, also for a name that means all cusps.
 subroutine riisf_valve_is_set(valve, name, is_set, status)
   use, intrinsic :: iso_c_binding, only: c_char
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -131,27 +143,32 @@ subroutine riisf_valve_is_set(valve, name, is_set, status)
   implicit none
   integer(int64), intent(in) :: valve                     !< Must be created.
   character(len=*), intent(in) :: name                    !< As in riisf_valve_get.
-  integer(int32), intent(inout) :: is_set                 !< 1, or 0 for a default or a rule. Unchanged on an error.
+  integer(int32), intent(inout) :: is_set                 !< 1, or 0 if the parameter has its default or follows its rule.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   character(len=len_trim(name) + 1, kind=c_char) :: c_name
   call end_for_c(name, c_name)
   status = riis_valve_is_set(c_handle_of(valve), c_name, is_set)
 end subroutine riisf_valve_is_set
 
-!> Gives the valve an open state at 'opening' 1. Its own state is the closed state. Errors: RIIS_INVALID_PARAMETER for a valve of
-!! another kind.
+!> Gives the valve a second state. At opening 0 the valve then has its own state, and at opening 1 the state of the valve `open`.
+!! Errors: RIIS_INVALID_PARAMETER for another kind, or other curves, degrees or sides.
 subroutine riisf_valve_set_open_state(valve, open, status)
   use, intrinsic :: iso_fortran_env, only: int64
   use riis_support, only: c_handle_of
   use riis_c, only: riis_status, riis_valve_set_open_state
   implicit none
   integer(int64), intent(in) :: valve                     !< Must be created.
-  integer(int64), intent(in) :: open                      !< Must be created. It is copied, so it may be destroyed.
+  integer(int64), intent(in) :: open                      !< A valve of the same kind, which is copied. The opening, leaflet
+                                                          !! ids and open state of the second valve are ignored. Two valves
+                                                          !! from patches must have the same curves, sides and degrees (degree
+                                                          !! 1 may stand for degree 2). Two bileaflet valves must both have a
+                                                          !! ring, or both lack it.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   status = riis_valve_set_open_state(c_handle_of(valve), c_handle_of(open))
 end subroutine riisf_valve_set_open_state
 
-!> Destroys the valve and sets its handle to 0. Nothing happens to a handle that is 0.
+!> Destroys the valve. Surfaces made from this valve do not change, and valves whose open state is this valve do not change. The
+!! handle becomes 0. Nothing happens to a handle that is 0.
 subroutine riisf_valve_destroy(handle)
   use, intrinsic :: iso_c_binding, only: c_ptr
   use, intrinsic :: iso_fortran_env, only: int64
@@ -165,8 +182,10 @@ subroutine riisf_valve_destroy(handle)
   handle = handle_of(c_handle)
 end subroutine riisf_valve_destroy
 
-!> Makes the surface of a valve, placed by x -> scale * rotation * x + translation. Errors: RIIS_INVALID_ARGUMENT for an option
-!! out of range, RIIS_INVALID_PARAMETER for parameters that do not fit together.
+!> Makes the surface of a valve, by way of curves, polylines, Coons patches, quads and triangles (paper, 3 and 4.1;
+!! docs/theory.md). Errors: RIIS_INVALID_PARAMETER for parameters that do not fit together or that put a curve out of range.
+!! RIIS_INVALID_SURFACE with an offset, for two triangles that run along a shared edge in the same direction. RIIS_LIMIT_EXCEEDED
+!! if a tolerance needs more than 16,777,216 triangles, quads or samples, or is smaller than the rounding of coordinates.
 subroutine riisf_surface_create(valve, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
     surface, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_null_ptr, c_ptr, c_sizeof
@@ -174,14 +193,19 @@ subroutine riisf_surface_create(valve, half_thickness, tolerance, scale, rotatio
   use riis_support, only: c_handle_of, handle_of
   use riis_c, only: RIIS_OK, riis_status, riis_surface_create, riis_surface_options, riis_surface_options_init
   implicit none
-  integer(int64), intent(in) :: valve                     !< Must be created; read during the call only.
-  real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
-  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most
+  integer(int64), intent(in) :: valve                     !< Its parameters must fit together.
+  real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
+                                                          !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
+                                                          !! its smooth surface differ by at most tolerance * half_thickness
+                                                          !! (docs/theory.md).
+  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
+  real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
+                                                          !! usually 0.
+  real(c_double), intent(in) :: translation(3)            !< Mesh units; -1e50 to 1e50, usually 0. Refused for a valve if
+                                                          !! coordinates would be rounded by more than a thousandth of
                                                           !! tolerance * half_thickness.
-  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
-  real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
-  real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
-  real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for no translation.
   integer(int64), intent(inout) :: surface                !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_options) :: options
@@ -200,20 +224,20 @@ subroutine riisf_surface_create(valve, half_thickness, tolerance, scale, rotatio
   surface = handle_of(c_handle)
 end subroutine riisf_surface_create
 
-!> Replaces the surface by the surface of a valve that moved, with the same options. The errors are those of
-!! riisf_surface_create.
+!> Replaces the surface by the surface of a valve that moved, with the same options. Errors: as riisf_surface_create.
 subroutine riisf_surface_update(surface, valve, status)
   use, intrinsic :: iso_fortran_env, only: int64
   use riis_support, only: c_handle_of
   use riis_c, only: riis_status, riis_surface_update
   implicit none
   integer(int64), intent(in) :: surface                   !< Must be created.
-  integer(int64), intent(in) :: valve                     !< Must be created; read during the call only.
+  integer(int64), intent(in) :: valve                     !< Must be created.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   status = riis_surface_update(c_handle_of(surface), c_handle_of(valve))
 end subroutine riisf_surface_update
 
-!> Replaces the surface like riisf_surface_update, but with other options, which are those of riisf_surface_create.
+!> Replaces the surface like riisf_surface_update, but with other options, which are those of riisf_surface_create. Errors: as
+!! riisf_surface_create.
 subroutine riisf_surface_place(surface, valve, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
     translation, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -222,14 +246,19 @@ subroutine riisf_surface_place(surface, valve, half_thickness, tolerance, scale,
   use riis_c, only: RIIS_OK, riis_status, riis_surface_options, riis_surface_options_init, riis_surface_update
   implicit none
   integer(int64), intent(in) :: surface                   !< Must be created.
-  integer(int64), intent(in) :: valve                     !< Must be created; read during the call only.
-  real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
-  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most
+  integer(int64), intent(in) :: valve                     !< Must be created.
+  real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
+                                                          !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
+                                                          !! its smooth surface differ by at most tolerance * half_thickness
+                                                          !! (docs/theory.md).
+  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
+  real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
+                                                          !! usually 0.
+  real(c_double), intent(in) :: translation(3)            !< Mesh units; -1e50 to 1e50, usually 0. Refused for a valve if
+                                                          !! coordinates would be rounded by more than a thousandth of
                                                           !! tolerance * half_thickness.
-  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
-  real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
-  real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
-  real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for no translation.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_options) :: options
   status = riis_surface_options_init(options, c_sizeof(options))
@@ -244,7 +273,7 @@ subroutine riisf_surface_place(surface, valve, half_thickness, tolerance, scale,
 end subroutine riisf_surface_place
 
 !> Replaces the surface like riisf_surface_place, and sets the method of measuring distances. riisf_surface_update keeps this
-!! method.
+!! method. Errors: as riisf_surface_create.
 subroutine riisf_surface_measure(surface, valve, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
     translation, measure, measure_tolerance, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -253,14 +282,19 @@ subroutine riisf_surface_measure(surface, valve, half_thickness, tolerance, scal
   use riis_c, only: RIIS_OK, riis_status, riis_surface_options, riis_surface_options_init, riis_surface_update
   implicit none
   integer(int64), intent(in) :: surface                   !< Must be created.
-  integer(int64), intent(in) :: valve                     !< Must be created; read during the call only.
-  real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
-  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most
+  integer(int64), intent(in) :: valve                     !< Must be created.
+  real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
+                                                          !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
+                                                          !! its smooth surface differ by at most tolerance * half_thickness
+                                                          !! (docs/theory.md).
+  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
+  real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
+                                                          !! usually 0.
+  real(c_double), intent(in) :: translation(3)            !< Mesh units; -1e50 to 1e50, usually 0. Refused for a valve if
+                                                          !! coordinates would be rounded by more than a thousandth of
                                                           !! tolerance * half_thickness.
-  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
-  real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
-  real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
-  real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for no translation.
   integer(int32), intent(in) :: measure                   !< RIIS_MEASURE_*, for closest points and marking only, usually
                                                           !! RIIS_MEASURE_TRIANGLES, the only one for surfaces from arrays.
   real(c_double), intent(in) :: measure_tolerance         !< A fraction of half_thickness, 1e-6 to 1; RIIS_AUTO: tolerance. Not
@@ -280,10 +314,8 @@ subroutine riisf_surface_measure(surface, valve, half_thickness, tolerance, scal
   status = riis_surface_update(c_handle_of(surface), c_handle_of(valve), options)
 end subroutine riisf_surface_measure
 
-!> Replaces the surface like riisf_surface_place, and sets the kind of triangulation, which later updates keep. With
-!! RIIS_TRIANGULATION_FIXED, triangles keep their ids, vertices and neighbours at every opening, and only the opening may change.
-!! Errors then: RIIS_INVALID_PARAMETER naming another parameter that changed, RIIS_LIMIT_EXCEEDED for an opening at which the
-!! tolerance does not hold.
+!> Replaces the surface like riisf_surface_place, and sets the kind of triangulation, which later updates keep. Errors: as
+!! riisf_surface_create.
 subroutine riisf_surface_triangulate(surface, valve, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
     translation, triangulation, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -292,14 +324,19 @@ subroutine riisf_surface_triangulate(surface, valve, half_thickness, tolerance, 
   use riis_c, only: RIIS_OK, riis_status, riis_surface_options, riis_surface_options_init, riis_surface_update
   implicit none
   integer(int64), intent(in) :: surface                   !< Must be created.
-  integer(int64), intent(in) :: valve                     !< Must be created; read during the call only.
-  real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
-  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most
+  integer(int64), intent(in) :: valve                     !< Must be created.
+  real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
+                                                          !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
+                                                          !! its smooth surface differ by at most tolerance * half_thickness
+                                                          !! (docs/theory.md).
+  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
+  real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
+                                                          !! usually 0.
+  real(c_double), intent(in) :: translation(3)            !< Mesh units; -1e50 to 1e50, usually 0. Refused for a valve if
+                                                          !! coordinates would be rounded by more than a thousandth of
                                                           !! tolerance * half_thickness.
-  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
-  real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
-  real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
-  real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for no translation.
   integer(int32), intent(in) :: triangulation             !< RIIS_TRIANGULATION_*, usually RIIS_TRIANGULATION_ADAPTED.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_options) :: options
@@ -317,6 +354,7 @@ end subroutine riisf_surface_triangulate
 
 !> Replaces the surface like riisf_surface_place, with a band that steps aside along the normals, by `offset` half thicknesses.
 !! riisf_surface_update and riisf_surface_update_moving keep the offset. The other calls that place the surface set it to 0.
+!! Errors: as riisf_surface_create.
 subroutine riisf_surface_offset(surface, valve, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
     translation, offset, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -325,15 +363,23 @@ subroutine riisf_surface_offset(surface, valve, half_thickness, tolerance, scale
   use riis_c, only: RIIS_OK, riis_status, riis_surface_options, riis_surface_options_init, riis_surface_update
   implicit none
   integer(int64), intent(in) :: surface                   !< Must be created.
-  integer(int64), intent(in) :: valve                     !< Must be created; read during the call only.
-  real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
-  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most
+  integer(int64), intent(in) :: valve                     !< Must be created.
+  real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
+                                                          !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
+                                                          !! its smooth surface differ by at most tolerance * half_thickness
+                                                          !! (docs/theory.md).
+  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
+  real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
+                                                          !! usually 0.
+  real(c_double), intent(in) :: translation(3)            !< Mesh units; -1e50 to 1e50, usually 0. Refused for a valve if
+                                                          !! coordinates would be rounded by more than a thousandth of
                                                           !! tolerance * half_thickness.
-  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
-  real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
-  real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
-  real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for no translation.
-  real(c_double), intent(in) :: offset                    !< Above -1 and below 1.
+  real(c_double), intent(in) :: offset                    !< The offset o, in half thicknesses, above -1 and below 1, usually
+                                                          !! 0. The middle of the band lies o half thicknesses beside the
+                                                          !! surface, along the normals after flip_normals. Other measures than
+                                                          !! RIIS_MEASURE_TRIANGLES need 0.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_options) :: options
   status = riis_surface_options_init(options, c_sizeof(options))
@@ -348,9 +394,10 @@ subroutine riisf_surface_offset(surface, valve, half_thickness, tolerance, scale
   status = riis_surface_update(c_handle_of(surface), c_handle_of(valve), options)
 end subroutine riisf_surface_offset
 
-!> Replaces the surface like riisf_surface_update, and also gives every vertex a velocity. The velocity is the displacement from
-!! the point with the same patch, u and v in the earlier state, divided by dt. Errors: as for riisf_surface_create;
-!! RIIS_INVALID_ARGUMENT for dt out of range; RIIS_INVALID_PARAMETER for a valve_before of another kind or with other patches.
+!> Replaces the surface's content by a valve, and gives every vertex a velocity. The triangles are those that
+!! riisf_surface_update makes, to the last bit. For a valve at rest, also pass the valve as valve_before. Errors: as
+!! riisf_surface_update. RIIS_INVALID_PARAMETER for a valve_before of another kind or other patches, or with parameters that do
+!! not fit together.
 subroutine riisf_surface_update_moving(surface, valve, valve_before, dt, status)
   use, intrinsic :: iso_c_binding, only: c_double
   use, intrinsic :: iso_fortran_env, only: int64
@@ -358,15 +405,18 @@ subroutine riisf_surface_update_moving(surface, valve, valve_before, dt, status)
   use riis_c, only: riis_status, riis_surface_update_moving
   implicit none
   integer(int64), intent(in) :: surface                   !< Must be created.
-  integer(int64), intent(in) :: valve                     !< Must be created; read during the call only.
-  integer(int64), intent(in) :: valve_before              !< The earlier state; read during the call only.
-  real(c_double), intent(in) :: dt                        !< From valve_before to valve, 1e-30 to 1e30, or negative if time
-                                                          !! goes backwards.
+  integer(int64), intent(in) :: valve                     !< Must be created.
+  integer(int64), intent(in) :: valve_before              !< The earlier state, of the same kind. A valve from patches has the
+                                                          !! same curves and sides.
+  real(c_double), intent(in) :: dt                        !< The time from valve_before to valve, 1e-30 to 1e30, or -1e30 to
+                                                          !! -1e-30 if time runs back.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   status = riis_surface_update_moving(c_handle_of(surface), c_handle_of(valve), c_handle_of(valve_before), dt)
 end subroutine riisf_surface_update_moving
 
-!> Replaces the surface like riisf_surface_update_moving, but with another placement, now and before.
+!> Replaces the surface like riisf_surface_update_moving, but with another placement, now and before. Errors: as
+!! riisf_surface_update. RIIS_INVALID_PARAMETER for a valve_before of another kind or other patches, or with parameters that do
+!! not fit together.
 subroutine riisf_surface_place_moving(surface, valve, valve_before, dt, half_thickness, tolerance, scale, &
     rotation_axis, rotation_angle, translation, scale_before, rotation_axis_before, rotation_angle_before, &
     translation_before, status)
@@ -376,16 +426,23 @@ subroutine riisf_surface_place_moving(surface, valve, valve_before, dt, half_thi
   use riis_c, only: RIIS_OK, riis_status, riis_surface_options, riis_surface_options_init, riis_surface_update_moving
   implicit none
   integer(int64), intent(in) :: surface                   !< Must be created.
-  integer(int64), intent(in) :: valve                     !< Must be created; read during the call only.
-  integer(int64), intent(in) :: valve_before              !< The earlier state; read during the call only.
-  real(c_double), intent(in) :: dt                        !< From valve_before to valve.
-  real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
-  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most
+  integer(int64), intent(in) :: valve                     !< Must be created.
+  integer(int64), intent(in) :: valve_before              !< The earlier state, of the same kind. A valve from patches has the
+                                                          !! same curves and sides.
+  real(c_double), intent(in) :: dt                        !< The time from valve_before to valve, 1e-30 to 1e30, or -1e30 to
+                                                          !! -1e-30 if time runs back.
+  real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
+                                                          !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
+                                                          !! its smooth surface differ by at most tolerance * half_thickness
+                                                          !! (docs/theory.md).
+  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
+  real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
+                                                          !! usually 0.
+  real(c_double), intent(in) :: translation(3)            !< Mesh units; -1e50 to 1e50, usually 0. Refused for a valve if
+                                                          !! coordinates would be rounded by more than a thousandth of
                                                           !! tolerance * half_thickness.
-  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
-  real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
-  real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
-  real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for no translation.
   real(c_double), intent(in) :: scale_before              !< The placement of the earlier state.
   real(c_double), intent(in) :: rotation_axis_before(3)   !< The placement of the earlier state.
   real(c_double), intent(in) :: rotation_angle_before     !< The placement of the earlier state.
@@ -412,10 +469,9 @@ subroutine riisf_surface_place_moving(surface, valve, valve_before, dt, half_thi
       options, options_before)
 end subroutine riisf_surface_place_moving
 
-!> Adds a direction in which the surface of a valve changes, as riis_surface_add_direction does with the surface's placement.
-!! Marking with RIIS_FIELD_GRADIENT then gives the derivatives of distances and of K. The directions count from 1, in the order
-!! of the calls. An update removes them. Errors: RIIS_INVALID_ARGUMENT for a surface from arrays and for dp out of range;
-!! RIIS_INVALID_PARAMETER for a state of another kind or with other patches; RIIS_LIMIT_EXCEEDED for more than 1000.
+!> Adds a direction in which the surface of a valve changes: by a parameter, a landmark or a number of the placement. Errors:
+!! RIIS_INVALID_ARGUMENT for a surface from arrays and for a dp out of range. RIIS_INVALID_PARAMETER for a state of another kind
+!! or with other patches, and for parameters that do not fit together. RIIS_LIMIT_EXCEEDED for more than 1000 directions.
 subroutine riisf_surface_add_direction(surface, valve_after, valve_before, dp, status)
   use, intrinsic :: iso_c_binding, only: c_double
   use, intrinsic :: iso_fortran_env, only: int64
@@ -425,12 +481,15 @@ subroutine riisf_surface_add_direction(surface, valve_after, valve_before, dp, s
   integer(int64), intent(in) :: surface                   !< Must be created.
   integer(int64), intent(in) :: valve_after               !< The valve with the parameter a little larger than in the surface.
   integer(int64), intent(in) :: valve_before              !< The valve with the parameter a little smaller.
-  real(c_double), intent(in) :: dp                        !< The parameter's difference from valve_before to valve_after.
+  real(c_double), intent(in) :: dp                        !< The parameter's difference from valve_before to valve_after, 1e-30
+                                                          !! to 1e30 in magnitude.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   status = riis_surface_add_direction(c_handle_of(surface), c_handle_of(valve_after), c_handle_of(valve_before), dp)
 end subroutine riisf_surface_add_direction
 
-!> Adds a direction like riisf_surface_add_direction, in which the placement also changes.
+!> Adds a direction like riisf_surface_add_direction, in which the placement also changes. Errors: RIIS_INVALID_ARGUMENT for a
+!! surface from arrays and for a dp out of range. RIIS_INVALID_PARAMETER for a state of another kind or with other patches, and
+!! for parameters that do not fit together. RIIS_LIMIT_EXCEEDED for more than 1000 directions.
 subroutine riisf_surface_add_placed(surface, valve_after, valve_before, dp, scale_after, rotation_axis_after, &
     rotation_angle_after, translation_after, scale_before, rotation_axis_before, rotation_angle_before, &
     translation_before, status)
@@ -442,8 +501,8 @@ subroutine riisf_surface_add_placed(surface, valve_after, valve_before, dp, scal
   integer(int64), intent(in) :: surface                   !< Must be created.
   integer(int64), intent(in) :: valve_after               !< The valve with the parameter a little larger than in the surface.
   integer(int64), intent(in) :: valve_before              !< The valve with the parameter a little smaller, or the same valve.
-  real(c_double), intent(in) :: dp                        !< The parameter's difference from the state before to the state
-                                                          !! after.
+  real(c_double), intent(in) :: dp                        !< The parameter's difference from valve_before to valve_after, 1e-30
+                                                          !! to 1e30 in magnitude.
   real(c_double), intent(in) :: scale_after               !< The placement of the later state.
   real(c_double), intent(in) :: rotation_axis_after(3)    !< The placement of the later state.
   real(c_double), intent(in) :: rotation_angle_after      !< The placement of the later state.
@@ -470,7 +529,7 @@ subroutine riisf_surface_add_placed(surface, valve_after, valve_before, dp, scal
       options_after, options_before)
 end subroutine riisf_surface_add_placed
 
-!> Destroys the surface and sets its handle to 0. Nothing happens to a handle that is 0.
+!> Destroys the surface. Marks that were made with the surface stay. The handle becomes 0. Nothing happens to a handle that is 0.
 subroutine riisf_surface_destroy(handle)
   use, intrinsic :: iso_c_binding, only: c_ptr
   use, intrinsic :: iso_fortran_env, only: int64
@@ -488,15 +547,16 @@ end subroutine riisf_surface_destroy
 ! Meshes
 ! -----------------------------------------------------------------------------------------------------------------
 
-!> Makes a mesh that borrows node coordinates and checks them once. Errors: RIIS_INVALID_MESH naming the node, counted from 0,
-!! and the value.
+!> Borrows node coordinates and checks them once. The coordinates must stay in place until the mesh is updated or destroyed. A
+!! process without nodes makes the same calls as the other processes. Errors: RIIS_INVALID_MESH naming the node and the value.
+!! RIIS_LIMIT_EXCEEDED for too many nodes.
 subroutine riisf_mesh_create(n_nodes, x, y, z, stride, mesh, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_null_ptr, c_ptr
   use, intrinsic :: iso_fortran_env, only: int32, int64
   use riis_support, only: handle_of, location_of
   use riis_c, only: RIIS_OK, riis_mesh_create, riis_status
   implicit none
-  integer(int32), intent(in) :: n_nodes                   !< >= 0.
+  integer(int32), intent(in) :: n_nodes                   !< 0 to 2^40.
   real(c_double), intent(in) :: x(*)                      !< Entry i is x(1 + (i - 1) * stride): X or XYZ(1,1).
   real(c_double), intent(in) :: y(*)                      !< Entry i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
   real(c_double), intent(in) :: z(*)                      !< Entry i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
@@ -518,7 +578,7 @@ subroutine riisf_mesh_create_64(n_nodes, x, y, z, stride, mesh, status)
   use riis_support, only: handle_of, location_of
   use riis_c, only: RIIS_OK, riis_mesh_create, riis_status
   implicit none
-  integer(int64), intent(in) :: n_nodes                   !< >= 0.
+  integer(int64), intent(in) :: n_nodes                   !< 0 to 2^40.
   real(c_double), intent(in) :: x(*)                      !< Entry i is x(1 + (i - 1) * stride): X or XYZ(1,1).
   real(c_double), intent(in) :: y(*)                      !< Entry i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
   real(c_double), intent(in) :: z(*)                      !< Entry i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
@@ -532,8 +592,9 @@ subroutine riisf_mesh_create_64(n_nodes, x, y, z, stride, mesh, status)
   mesh = handle_of(c_handle)
 end subroutine riisf_mesh_create_64
 
-!> Tells the mesh that the coordinates changed, in place or to other arrays. Call it after every change of coordinates. The
-!! adjacency stays if n_nodes stays.
+!> Tells the mesh that its coordinates have changed, in the old arrays or in other arrays, and checks them again. Call this
+!! function after every change of coordinates. The adjacency stays if n_nodes is the same. A mesh with other nodes needs a new
+!! handle. Arguments and errors are as in riisf_mesh_create.
 subroutine riisf_mesh_update(mesh, n_nodes, x, y, z, stride, status)
   use, intrinsic :: iso_c_binding, only: c_double
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -541,7 +602,7 @@ subroutine riisf_mesh_update(mesh, n_nodes, x, y, z, stride, status)
   use riis_c, only: riis_mesh_update, riis_status
   implicit none
   integer(int64), intent(in) :: mesh                      !< Must be created.
-  integer(int32), intent(in) :: n_nodes                   !< >= 0.
+  integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(in) :: x(*)                      !< Entry i is x(1 + (i - 1) * stride): X or XYZ(1,1).
   real(c_double), intent(in) :: y(*)                      !< Entry i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
   real(c_double), intent(in) :: z(*)                      !< Entry i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
@@ -559,7 +620,7 @@ subroutine riisf_mesh_update_64(mesh, n_nodes, x, y, z, stride, status)
   use riis_c, only: riis_mesh_update, riis_status
   implicit none
   integer(int64), intent(in) :: mesh                      !< Must be created.
-  integer(int64), intent(in) :: n_nodes                   !< >= 0.
+  integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(in) :: x(*)                      !< Entry i is x(1 + (i - 1) * stride): X or XYZ(1,1).
   real(c_double), intent(in) :: y(*)                      !< Entry i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
   real(c_double), intent(in) :: z(*)                      !< Entry i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
@@ -568,8 +629,8 @@ subroutine riisf_mesh_update_64(mesh, n_nodes, x, y, z, stride, status)
   status = riis_mesh_update(c_handle_of(mesh), n_nodes, location_of(x), location_of(y), location_of(z), stride)
 end subroutine riisf_mesh_update_64
 
-!> Makes a mesh that copies node coordinates and checks them: REAL*4 with real_bits 32, REAL*8 with 64. The caller's arrays are
-!! not needed afterwards. Errors: RIIS_INVALID_MESH naming the node, counted from 0, and the value.
+!> Copies node coordinates and checks them. Use this call for a temporary array of Fortran, or for single precision, which is
+!! converted to double exactly. The handle keeps 24 bytes per node. Errors: as riisf_mesh_create.
 subroutine riisf_mesh_create_copy(n_nodes, x, y, z, stride, real_bits, mesh, status)
   use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -631,7 +692,7 @@ subroutine riisf_mesh_create_copy_64(n_nodes, x, y, z, stride, real_bits, mesh, 
   mesh = handle_of(c_handle)
 end subroutine riisf_mesh_create_copy_64
 
-!> Copies new coordinates into a mesh. A mesh may change between borrowed and copied coordinates.
+!> Does the same as riisf_mesh_update, but copies the coordinates. A mesh may change between borrowed and copied coordinates.
 subroutine riisf_mesh_update_copy(mesh, n_nodes, x, y, z, stride, real_bits, status)
   use, intrinsic :: iso_c_binding, only: c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -688,7 +749,7 @@ end subroutine riisf_mesh_update_copy_64
 !> Makes a mesh from the axes of a rectilinear grid, and stores nothing for each node. Node (i, j, k) is at X(i), Y(j), Z(k). Its
 !! number is first_num + (i - 1) stride_i + (j - 1) stride_j + (k - 1) stride_k. An array K(0:NI+1, 0:NJ+1, 0:NK+1) has the
 !! strides 1, NI+2 and (NI+2)(NJ+2), its first node is 1 plus their sum, and n_nodes is its length. Errors: RIIS_INVALID_MESH
-!! naming the axis, the index, counted from 0, and the value.
+!! naming the axis, the index and the value. RIIS_LIMIT_EXCEEDED for numbers from 2^40 on.
 subroutine riisf_mesh_create_grid(ni, nj, nk, x, y, z, real_bits, first_num, stride_i, stride_j, stride_k, n_nodes, &
     mesh, status)
   use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr, c_sizeof
@@ -696,7 +757,7 @@ subroutine riisf_mesh_create_grid(ni, nj, nk, x, y, z, real_bits, first_num, str
   use riis_support, only: handle_of, location_of
   use riis_c, only: RIIS_OK, riis_grid, riis_grid_init, riis_mesh_create_grid, riis_status
   implicit none
-  integer(int32), intent(in) :: ni                        !< Nodes along each axis, >= 1.
+  integer(int32), intent(in) :: ni                        !< Nodes along each axis, each >= 1.
   integer(int32), intent(in) :: nj                        !< Nodes along each axis, each >= 1.
   integer(int32), intent(in) :: nk                        !< Nodes along each axis, each >= 1.
   type(*), intent(in) :: x(*)                             !< (ni), strictly ascending; copied.
@@ -739,7 +800,7 @@ subroutine riisf_mesh_create_grid_64(ni, nj, nk, x, y, z, real_bits, first_num, 
   use riis_support, only: handle_of, location_of
   use riis_c, only: RIIS_OK, riis_grid, riis_grid_init, riis_mesh_create_grid, riis_status
   implicit none
-  integer(int64), intent(in) :: ni                        !< Nodes along each axis, >= 1.
+  integer(int64), intent(in) :: ni                        !< Nodes along each axis, each >= 1.
   integer(int64), intent(in) :: nj                        !< Nodes along each axis, each >= 1.
   integer(int64), intent(in) :: nk                        !< Nodes along each axis, each >= 1.
   type(*), intent(in) :: x(*)                             !< (ni), strictly ascending; copied.
@@ -774,7 +835,8 @@ subroutine riisf_mesh_create_grid_64(ni, nj, nk, x, y, z, real_bits, first_num, 
   mesh = handle_of(c_handle)
 end subroutine riisf_mesh_create_grid_64
 
-!> Gives a mesh other axes. A mesh may change between a grid and coordinates of nodes.
+!> Gives a mesh other axes, or turns a mesh of points into a grid. The call riisf_mesh_update turns a grid into points. Errors:
+!! as riisf_mesh_create_grid; the mesh then keeps its nodes.
 subroutine riisf_mesh_update_grid(mesh, ni, nj, nk, x, y, z, real_bits, first_num, stride_i, stride_j, stride_k, &
     n_nodes, status)
   use, intrinsic :: iso_c_binding, only: c_sizeof
@@ -783,7 +845,7 @@ subroutine riisf_mesh_update_grid(mesh, ni, nj, nk, x, y, z, real_bits, first_nu
   use riis_c, only: RIIS_OK, riis_grid, riis_grid_init, riis_mesh_update_grid, riis_status
   implicit none
   integer(int64), intent(in) :: mesh                      !< Must be created.
-  integer(int32), intent(in) :: ni                        !< Nodes along each axis, >= 1.
+  integer(int32), intent(in) :: ni                        !< Nodes along each axis, each >= 1.
   integer(int32), intent(in) :: nj                        !< Nodes along each axis, each >= 1.
   integer(int32), intent(in) :: nk                        !< Nodes along each axis, each >= 1.
   type(*), intent(in) :: x(*)                             !< (ni), strictly ascending; copied.
@@ -822,7 +884,7 @@ subroutine riisf_mesh_update_grid_64(mesh, ni, nj, nk, x, y, z, real_bits, first
   use riis_c, only: RIIS_OK, riis_grid, riis_grid_init, riis_mesh_update_grid, riis_status
   implicit none
   integer(int64), intent(in) :: mesh                      !< Must be created.
-  integer(int64), intent(in) :: ni                        !< Nodes along each axis, >= 1.
+  integer(int64), intent(in) :: ni                        !< Nodes along each axis, each >= 1.
   integer(int64), intent(in) :: nj                        !< Nodes along each axis, each >= 1.
   integer(int64), intent(in) :: nk                        !< Nodes along each axis, each >= 1.
   type(*), intent(in) :: x(*)                             !< (ni), strictly ascending; copied.
@@ -852,7 +914,9 @@ subroutine riisf_mesh_update_grid_64(mesh, ni, nj, nk, x, y, z, real_bits, first
   status = riis_mesh_update_grid(c_handle_of(mesh), grid)
 end subroutine riisf_mesh_update_grid_64
 
-!> Makes the clusters of RIIS_SEARCH_CLUSTERS now, not in the first marking that uses them.
+!> Makes the clusters of RIIS_SEARCH_CLUSTERS in advance, so that no marking has to make them. Clusters copy the coordinates:
+!! they take 41 bytes per node while the handle lives, and 32 more while they are made. A grid needs no such copy. Errors:
+!! RIIS_LIMIT_EXCEEDED for 2^32 nodes and more. RIIS_INVALID_MESH as riisf_mark_nodes.
 subroutine riisf_mesh_prepare(mesh, n_threads, status)
   use, intrinsic :: iso_fortran_env, only: int32, int64
   use riis_support, only: c_handle_of
@@ -864,7 +928,7 @@ subroutine riisf_mesh_prepare(mesh, n_threads, status)
   status = riis_mesh_prepare(c_handle_of(mesh), n_threads)
 end subroutine riisf_mesh_prepare
 
-!> Destroys the mesh, not the coordinates, and sets its handle to 0. Nothing happens to a handle that is 0.
+!> Destroys the handle. The caller's coordinates and all marks stay. The handle becomes 0. Nothing happens to a handle that is 0.
 subroutine riisf_mesh_destroy(handle)
   use, intrinsic :: iso_c_binding, only: c_ptr
   use, intrinsic :: iso_fortran_env, only: int64
@@ -911,9 +975,8 @@ end subroutine riisf_version
 ! Adjacencies
 ! -----------------------------------------------------------------------------------------------------------------
 
-!> Gives the mesh its adjacency as compressed sparse rows, which are borrowed. If index_base is 1, the neighbours of node i are
-!! columns(offsets(i)) to columns(offsets(i + 1) - 1). Errors: RIIS_INVALID_ARGUMENT for an argument out of range,
-!! RIIS_INVALID_MESH naming the row, counted from 0, and its value. The mesh then keeps its earlier rows.
+!> Gives the mesh the adjacency that the neighbour search walks along, and checks it once. Errors: RIIS_INVALID_MESH naming the
+!! row and its value.
 subroutine riisf_mesh_set_adjacency(mesh, n_rows, offsets, columns, index_base, n_all, status)
   use, intrinsic :: iso_c_binding, only: c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -923,11 +986,13 @@ subroutine riisf_mesh_set_adjacency(mesh, n_rows, offsets, columns, index_base, 
   integer(int64), intent(in) :: mesh                      !< Must be created.
   integer(int32), intent(in) :: n_rows                    !< The mesh's n_nodes.
   integer(int32), intent(in) :: offsets(*)                !< (n_rows + 1), ascending from the base; a row may be empty.
-  integer(int32), intent(in) :: columns(*)                !< (offsets(n_rows + 1) - index_base), from index_base.
+  integer(int32), intent(in) :: columns(*)                !< (offsets(n_rows + 1) - index_base), borrowed like offsets. If
+                                                          !! index_base is 1, the neighbours of node i are columns(offsets(i))
+                                                          !! to columns(offsets(i + 1) - 1).
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
-  integer(int32), intent(in) :: n_all                     !< Every column is below this number, which is at least n_rows.
-                                                          !! Columns from n_rows on are ghosts of other ranks, and are ignored.
-                                                          !! 0 stands for n_rows.
+  integer(int32), intent(in) :: n_all                     !< Columns are below this number, which is at least n_rows. Columns
+                                                          !! from n_rows on are ghosts, which belong to other ranks, and are
+                                                          !! ignored. 0 stands for n_rows.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_csr) :: csr
   status = riis_csr_init(csr, c_sizeof(csr))
@@ -952,11 +1017,13 @@ subroutine riisf_mesh_set_adjacency_64(mesh, n_rows, offsets, columns, index_bas
   integer(int64), intent(in) :: mesh                      !< Must be created.
   integer(int64), intent(in) :: n_rows                    !< The mesh's n_nodes.
   integer(int64), intent(in) :: offsets(*)                !< (n_rows + 1), ascending from the base; a row may be empty.
-  integer(int64), intent(in) :: columns(*)                !< (offsets(n_rows + 1) - index_base), from index_base.
+  integer(int64), intent(in) :: columns(*)                !< (offsets(n_rows + 1) - index_base), borrowed like offsets. If
+                                                          !! index_base is 1, the neighbours of node i are columns(offsets(i))
+                                                          !! to columns(offsets(i + 1) - 1).
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
-  integer(int64), intent(in) :: n_all                     !< Every column is below this number, which is at least n_rows.
-                                                          !! Columns from n_rows on are ghosts of other ranks, and are ignored.
-                                                          !! 0 stands for n_rows.
+  integer(int64), intent(in) :: n_all                     !< Columns are below this number, which is at least n_rows. Columns
+                                                          !! from n_rows on are ghosts, which belong to other ranks, and are
+                                                          !! ignored. 0 stands for n_rows.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_csr) :: csr
   status = riis_csr_init(csr, c_sizeof(csr))
@@ -987,7 +1054,7 @@ subroutine riisf_mesh_use_adjacency(mesh, adjacency, status)
   if (status == RIIS_OK) status = riis_mesh_set_adjacency(c_handle_of(mesh), csr)
 end subroutine riisf_mesh_use_adjacency
 
-!> Removes the mesh's adjacency. Its rows are not borrowed any more.
+!> Removes the mesh's adjacency. Its rows are not borrowed any more. Errors: none for a created mesh.
 subroutine riisf_mesh_clear_adjacency(mesh, status)
   use, intrinsic :: iso_fortran_env, only: int64
   use riis_support, only: c_handle_of
@@ -998,9 +1065,8 @@ subroutine riisf_mesh_clear_adjacency(mesh, status)
   status = riis_mesh_set_adjacency(c_handle_of(mesh))
 end subroutine riisf_mesh_clear_adjacency
 
-!> Makes an adjacency from cells that all have the same number of nodes, in VTK's order. Two nodes are neighbours if an edge of a
-!! cell joins them. Errors: RIIS_INVALID_ARGUMENT for an argument out of range, RIIS_INVALID_MESH naming the cell, counted from
-!! 0, and its value.
+!> Makes an adjacency of nodes from cells. Two nodes are neighbours if an edge of a cell joins them. Errors: RIIS_INVALID_MESH
+!! naming the cell and its value.
 subroutine riisf_adjacency_from_cells(n_nodes, nodes_per_cell, n_cells, cells, index_base, n_threads, adjacency, status)
   use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -1010,7 +1076,7 @@ subroutine riisf_adjacency_from_cells(n_nodes, nodes_per_cell, n_cells, cells, i
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   integer(int32), intent(in) :: nodes_per_cell            !< 4 tetrahedron, 5 pyramid, 6 prism, 8 hexahedron.
   integer(int32), intent(in) :: n_cells                   !< >= 0.
-  integer(int32), intent(in) :: cells(*)                  !< CELLS(nodes_per_cell, n_cells).
+  integer(int32), intent(in) :: cells(*)                  !< (nodes_per_cell, n_cells): the nodes of cell after cell.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int64), intent(inout) :: adjacency              !< Written on success.
@@ -1043,7 +1109,7 @@ subroutine riisf_adjacency_from_cells_64(n_nodes, nodes_per_cell, n_cells, cells
   integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   integer(int32), intent(in) :: nodes_per_cell            !< 4 tetrahedron, 5 pyramid, 6 prism, 8 hexahedron.
   integer(int64), intent(in) :: n_cells                   !< >= 0.
-  integer(int64), intent(in) :: cells(*)                  !< CELLS(nodes_per_cell, n_cells).
+  integer(int64), intent(in) :: cells(*)                  !< (nodes_per_cell, n_cells): the nodes of cell after cell.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int64), intent(inout) :: adjacency              !< Written on success.
@@ -1066,7 +1132,7 @@ subroutine riisf_adjacency_from_cells_64(n_nodes, nodes_per_cell, n_cells, cells
 end subroutine riisf_adjacency_from_cells_64
 
 !> Makes an adjacency from cells of several shapes. If offsets begins with 1, the nodes of cell i are node_ids(offsets(i)) to
-!! node_ids(offsets(i + 1) - 1).
+!! node_ids(offsets(i + 1) - 1). Errors: RIIS_INVALID_MESH naming the cell and its value.
 subroutine riisf_adjacency_from_mixed(n_nodes, n_cells, node_ids, offsets, index_base, n_threads, adjacency, status)
   use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -1076,8 +1142,8 @@ subroutine riisf_adjacency_from_mixed(n_nodes, n_cells, node_ids, offsets, index
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   integer(int32), intent(in) :: n_cells                   !< >= 0.
   integer(int32), intent(in) :: node_ids(*)               !< (nodes_per_cell, n_cells): the nodes of cell after cell.
-  integer(int32), intent(in) :: offsets(*)                !< (n_cells + 1), ascending from 0 or from index_base: where each
-                                                          !! cell begins in node_ids, and where the last cell ends.
+  integer(int32), intent(in) :: offsets(*)                !< (n_cells + 1), ascending from 0 or from index_base: the beginning
+                                                          !! of each cell in node_ids, and the end of the last cell.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int64), intent(inout) :: adjacency              !< Written on success.
@@ -1109,8 +1175,8 @@ subroutine riisf_adjacency_from_mixed_64(n_nodes, n_cells, node_ids, offsets, in
   integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   integer(int64), intent(in) :: n_cells                   !< >= 0.
   integer(int64), intent(in) :: node_ids(*)               !< (nodes_per_cell, n_cells): the nodes of cell after cell.
-  integer(int64), intent(in) :: offsets(*)                !< (n_cells + 1), ascending from 0 or from index_base: where each
-                                                          !! cell begins in node_ids, and where the last cell ends.
+  integer(int64), intent(in) :: offsets(*)                !< (n_cells + 1), ascending from 0 or from index_base: the beginning
+                                                          !! of each cell in node_ids, and the end of the last cell.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int64), intent(inout) :: adjacency              !< Written on success.
@@ -1132,8 +1198,8 @@ subroutine riisf_adjacency_from_mixed_64(n_nodes, n_cells, node_ids, offsets, in
   adjacency = handle_of(c_handle)
 end subroutine riisf_adjacency_from_mixed_64
 
-!> Makes an adjacency from faces, for codes that mark cell centres. Two cells are neighbours if they have a common face. The
-!! errors are those of riisf_adjacency_from_cells.
+!> Makes an adjacency of cells from faces. Two cells are neighbours if they have a common face. Errors: RIIS_INVALID_MESH naming
+!! the face and the owner or neighbor that is no cell.
 subroutine riisf_adjacency_from_faces(n_cells, n_faces, face_cells, index_base, n_threads, adjacency, status)
   use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -1156,10 +1222,10 @@ subroutine riisf_adjacency_from_faces(n_cells, n_faces, face_cells, index_base, 
   faces%n_faces = n_faces
   faces%index_base = index_base
   faces%n_threads = n_threads
+  faces%id_bits = storage_size(face_cells)
   if (n_faces > 0) faces%owner = location_of(face_cells(1))
   if (n_faces > 0) faces%neighbor = location_of(face_cells(2))
   faces%stride = 2
-  faces%id_bits = storage_size(face_cells)
   c_handle = c_null_ptr
   status = riis_adjacency_create_from_faces(faces, c_handle)
   if (status /= RIIS_OK) return
@@ -1189,26 +1255,30 @@ subroutine riisf_adjacency_from_faces_64(n_cells, n_faces, face_cells, index_bas
   faces%n_faces = n_faces
   faces%index_base = index_base
   faces%n_threads = n_threads
+  faces%id_bits = storage_size(face_cells)
   if (n_faces > 0) faces%owner = location_of(face_cells(1))
   if (n_faces > 0) faces%neighbor = location_of(face_cells(2))
   faces%stride = 2
-  faces%id_bits = storage_size(face_cells)
   c_handle = c_null_ptr
   status = riis_adjacency_create_from_faces(faces, c_handle)
   if (status /= RIIS_OK) return
   adjacency = handle_of(c_handle)
 end subroutine riisf_adjacency_from_faces_64
 
-!> Makes the adjacency of a structured grid, XYZ(3, ni, nj, nk). Neighbours differ by 1 in one of i, j, k.
+!> Makes the adjacency of a structured grid. Neighbours differ by 1 in one of i, j, k. Errors: RIIS_LIMIT_EXCEEDED for more nodes
+!! than memory can hold.
 subroutine riisf_adjacency_from_grid(ni, nj, nk, n_threads, adjacency, status)
   use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr
   use, intrinsic :: iso_fortran_env, only: int32, int64
   use riis_support, only: handle_of
   use riis_c, only: RIIS_OK, riis_adjacency_create_from_grid, riis_status
   implicit none
-  integer(int32), intent(in) :: ni                        !< >= 1.
-  integer(int32), intent(in) :: nj                        !< >= 1.
-  integer(int32), intent(in) :: nk                        !< >= 1.
+  integer(int32), intent(in) :: ni                        !< Each >= 1; node (i, j, k) has the number i + ni (j + nj k), all
+                                                          !! from 0.
+  integer(int32), intent(in) :: nj                        !< Each >= 1; node (i, j, k) has the number i + ni (j + nj k), all
+                                                          !! from 0.
+  integer(int32), intent(in) :: nk                        !< Each >= 1; node (i, j, k) has the number i + ni (j + nj k), all
+                                                          !! from 0.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int64), intent(inout) :: adjacency              !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -1219,7 +1289,8 @@ subroutine riisf_adjacency_from_grid(ni, nj, nk, n_threads, adjacency, status)
   adjacency = handle_of(c_handle)
 end subroutine riisf_adjacency_from_grid
 
-!> Destroys the adjacency and sets its handle to 0. Nothing happens to a handle that is 0.
+!> Destroys the adjacency and its arrays. First destroy the mesh that borrows them. The handle becomes 0. Nothing happens to a
+!! handle that is 0.
 subroutine riisf_adjacency_destroy(handle)
   use, intrinsic :: iso_c_binding, only: c_ptr
   use, intrinsic :: iso_fortran_env, only: int64
@@ -1238,9 +1309,14 @@ end subroutine riisf_adjacency_destroy
 ! Triangles without area are refused.
 ! -----------------------------------------------------------------------------------------------------------------
 
-!> Makes a surface from triangles or quads, placed by x -> scale * rotation * x + translation. A quad 1 2 3 4 becomes the
-!! triangles 1 2 3 and 1 3 4. Errors: RIIS_INVALID_SURFACE naming the face or vertex and its value, RIIS_INVALID_ARGUMENT for an
-!! option out of range, RIIS_LIMIT_EXCEEDED for too many faces.
+!> Makes a surface from arrays, with the caller's winding. A triangle's id is its face's number; the halves of quad q have the
+!! ids 2 q and 2 q + 1. The id of a skipped triangle is not reused. A triangle has zero area if its longest edge is shorter than
+!! 1e-60, or if its height over that edge is at most 1e-12 of the edge. A skirt leads away from an axis: the line through the
+!! attachment's centroid along the attachment's vector area (docs/theory/skirt.md). The skirt's vertices and triangles come after
+!! the caller's vertices and triangles. Without `attached`, the attachment is the closed line of open edges that encloses the
+!! largest area. The line must enclose at least 0.8 of the area of the leaflets' outline (RIIS_OUTLINE_BOUNDARY). Errors:
+!! RIIS_LIMIT_EXCEEDED for too many triangles. RIIS_INVALID_SURFACE naming the face or vertex and its value, or saying why an
+!! attachment is not found. RIIS_INVALID_ARGUMENT for a length of the skirt out of range.
 subroutine riisf_surface_from_arrays(n_vertices, x, y, z, stride, corners_per_face, n_faces, vertex_ids, index_base, &
     half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, surface, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_null_ptr, c_ptr, c_sizeof
@@ -1254,18 +1330,24 @@ subroutine riisf_surface_from_arrays(n_vertices, x, y, z, stride, corners_per_fa
   real(c_double), intent(in) :: y(*)                      !< Entry i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
   real(c_double), intent(in) :: z(*)                      !< Entry i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
   integer(int32), intent(in) :: stride                    !< 1 for separate arrays, 3 for XYZ(3,*).
-  integer(int32), intent(in) :: corners_per_face          !< 3 for triangles, 4 for quads.
+  integer(int32), intent(in) :: corners_per_face          !< 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3.
+                                                          !! Usually 3.
   integer(int32), intent(in) :: n_faces                   !< 1 to 16,777,216 triangles, half as many quads.
-  integer(int32), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces), counted from index_base. The
-                                                          !! right-hand rule makes the normal.
+  integer(int32), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces); the normal follows the right-hand
+                                                          !! rule.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
-  real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
-  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most
+  real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
+                                                          !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
+                                                          !! its smooth surface differ by at most tolerance * half_thickness
+                                                          !! (docs/theory.md).
+  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
+  real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
+                                                          !! usually 0.
+  real(c_double), intent(in) :: translation(3)            !< Mesh units; -1e50 to 1e50, usually 0. Refused for a valve if
+                                                          !! coordinates would be rounded by more than a thousandth of
                                                           !! tolerance * half_thickness.
-  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
-  real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
-  real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
-  real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for no translation.
   integer(int64), intent(inout) :: surface                !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_arrays) :: arrays
@@ -1310,18 +1392,24 @@ subroutine riisf_surface_from_arrays_64(n_vertices, x, y, z, stride, corners_per
   real(c_double), intent(in) :: y(*)                      !< Entry i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
   real(c_double), intent(in) :: z(*)                      !< Entry i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
   integer(int64), intent(in) :: stride                    !< 1 for separate arrays, 3 for XYZ(3,*).
-  integer(int32), intent(in) :: corners_per_face          !< 3 for triangles, 4 for quads.
+  integer(int32), intent(in) :: corners_per_face          !< 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3.
+                                                          !! Usually 3.
   integer(int64), intent(in) :: n_faces                   !< 1 to 16,777,216 triangles, half as many quads.
-  integer(int64), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces), counted from index_base. The
-                                                          !! right-hand rule makes the normal.
+  integer(int64), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces); the normal follows the right-hand
+                                                          !! rule.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
-  real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
-  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most
+  real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
+                                                          !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
+                                                          !! its smooth surface differ by at most tolerance * half_thickness
+                                                          !! (docs/theory.md).
+  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
+  real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
+                                                          !! usually 0.
+  real(c_double), intent(in) :: translation(3)            !< Mesh units; -1e50 to 1e50, usually 0. Refused for a valve if
+                                                          !! coordinates would be rounded by more than a thousandth of
                                                           !! tolerance * half_thickness.
-  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
-  real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
-  real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
-  real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for no translation.
   integer(int64), intent(inout) :: surface                !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_arrays) :: arrays
@@ -1352,8 +1440,9 @@ subroutine riisf_surface_from_arrays_64(n_vertices, x, y, z, stride, corners_per
   surface = handle_of(c_handle)
 end subroutine riisf_surface_from_arrays_64
 
-!> Makes a surface as riisf_surface_from_arrays does, with a skirt. Errors: also RIIS_INVALID_SURFACE if the attachment is not
-!! found, and RIIS_INVALID_ARGUMENT for a length of the skirt out of range.
+!> Makes a surface as riisf_surface_from_arrays does, with a skirt. Errors: RIIS_LIMIT_EXCEEDED for too many triangles.
+!! RIIS_INVALID_SURFACE naming the face or vertex and its value, or saying why an attachment is not found. RIIS_INVALID_ARGUMENT
+!! for a length of the skirt out of range.
 subroutine riisf_surface_with_skirt(n_vertices, x, y, z, stride, corners_per_face, n_faces, vertex_ids, index_base, &
     attached, skirt_length, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, surface, &
     status)
@@ -1368,23 +1457,29 @@ subroutine riisf_surface_with_skirt(n_vertices, x, y, z, stride, corners_per_fac
   real(c_double), intent(in) :: y(*)                      !< Entry i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
   real(c_double), intent(in) :: z(*)                      !< Entry i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
   integer(int32), intent(in) :: stride                    !< 1 for separate arrays, 3 for XYZ(3,*).
-  integer(int32), intent(in) :: corners_per_face          !< 3 for triangles, 4 for quads.
+  integer(int32), intent(in) :: corners_per_face          !< 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3.
+                                                          !! Usually 3.
   integer(int32), intent(in) :: n_faces                   !< 1 to 16,777,216 triangles, half as many quads.
-  integer(int32), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces), counted from index_base. The
-                                                          !! right-hand rule makes the normal.
+  integer(int32), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces); the normal follows the right-hand
+                                                          !! rule.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(int8), intent(in) :: attached(*)                !< INTEGER*1, (n_vertices): 1 for the vertices of the attachment, 0
                                                           !! for others. attached(1) = -1: the attachment is chosen.
-  real(c_double), intent(in) :: skirt_length              !< The length of a skirt before placement. A skirt is a strip that
-                                                          !! leads outwards from the attachment. The length is 1e-4 to 10 times
-                                                          !! the mean distance of the attachment from its axis. 0: no skirt.
-  real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
-  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most
+  real(c_double), intent(in) :: skirt_length              !< The length of a skirt before placement. A skirt is a strip from
+                                                          !! the attachment outwards. The length is 1e-4 to 10 times the mean
+                                                          !! distance of the attachment from its axis. 0: no skirt.
+  real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
+                                                          !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
+                                                          !! its smooth surface differ by at most tolerance * half_thickness
+                                                          !! (docs/theory.md).
+  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
+  real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
+                                                          !! usually 0.
+  real(c_double), intent(in) :: translation(3)            !< Mesh units; -1e50 to 1e50, usually 0. Refused for a valve if
+                                                          !! coordinates would be rounded by more than a thousandth of
                                                           !! tolerance * half_thickness.
-  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
-  real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
-  real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
-  real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for no translation.
   integer(int64), intent(inout) :: surface                !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_arrays) :: arrays
@@ -1432,23 +1527,29 @@ subroutine riisf_surface_with_skirt_64(n_vertices, x, y, z, stride, corners_per_
   real(c_double), intent(in) :: y(*)                      !< Entry i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
   real(c_double), intent(in) :: z(*)                      !< Entry i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
   integer(int64), intent(in) :: stride                    !< 1 for separate arrays, 3 for XYZ(3,*).
-  integer(int32), intent(in) :: corners_per_face          !< 3 for triangles, 4 for quads.
+  integer(int32), intent(in) :: corners_per_face          !< 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3.
+                                                          !! Usually 3.
   integer(int64), intent(in) :: n_faces                   !< 1 to 16,777,216 triangles, half as many quads.
-  integer(int64), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces), counted from index_base. The
-                                                          !! right-hand rule makes the normal.
+  integer(int64), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces); the normal follows the right-hand
+                                                          !! rule.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(int8), intent(in) :: attached(*)                !< INTEGER*1, (n_vertices): 1 for the vertices of the attachment, 0
                                                           !! for others. attached(1) = -1: the attachment is chosen.
-  real(c_double), intent(in) :: skirt_length              !< The length of a skirt before placement. A skirt is a strip that
-                                                          !! leads outwards from the attachment. The length is 1e-4 to 10 times
-                                                          !! the mean distance of the attachment from its axis. 0: no skirt.
-  real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
-  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most
+  real(c_double), intent(in) :: skirt_length              !< The length of a skirt before placement. A skirt is a strip from
+                                                          !! the attachment outwards. The length is 1e-4 to 10 times the mean
+                                                          !! distance of the attachment from its axis. 0: no skirt.
+  real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
+                                                          !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
+                                                          !! its smooth surface differ by at most tolerance * half_thickness
+                                                          !! (docs/theory.md).
+  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
+  real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
+                                                          !! usually 0.
+  real(c_double), intent(in) :: translation(3)            !< Mesh units; -1e50 to 1e50, usually 0. Refused for a valve if
+                                                          !! coordinates would be rounded by more than a thousandth of
                                                           !! tolerance * half_thickness.
-  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
-  real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
-  real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
-  real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for no translation.
   integer(int64), intent(inout) :: surface                !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_arrays) :: arrays
@@ -1497,19 +1598,28 @@ subroutine riisf_surface_offset_arrays(n_vertices, x, y, z, stride, corners_per_
   real(c_double), intent(in) :: y(*)                      !< Entry i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
   real(c_double), intent(in) :: z(*)                      !< Entry i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
   integer(int32), intent(in) :: stride                    !< 1 for separate arrays, 3 for XYZ(3,*).
-  integer(int32), intent(in) :: corners_per_face          !< 3 for triangles, 4 for quads.
+  integer(int32), intent(in) :: corners_per_face          !< 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3.
+                                                          !! Usually 3.
   integer(int32), intent(in) :: n_faces                   !< 1 to 16,777,216 triangles, half as many quads.
-  integer(int32), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces), counted from index_base. The
-                                                          !! right-hand rule makes the normal.
+  integer(int32), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces); the normal follows the right-hand
+                                                          !! rule.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
-  real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
-  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most
+  real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
+                                                          !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
+                                                          !! its smooth surface differ by at most tolerance * half_thickness
+                                                          !! (docs/theory.md).
+  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
+  real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
+                                                          !! usually 0.
+  real(c_double), intent(in) :: translation(3)            !< Mesh units; -1e50 to 1e50, usually 0. Refused for a valve if
+                                                          !! coordinates would be rounded by more than a thousandth of
                                                           !! tolerance * half_thickness.
-  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
-  real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
-  real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
-  real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for no translation.
-  real(c_double), intent(in) :: offset                    !< Above -1 and below 1.
+  real(c_double), intent(in) :: offset                    !< The offset o, in half thicknesses, above -1 and below 1, usually
+                                                          !! 0. The middle of the band lies o half thicknesses beside the
+                                                          !! surface, along the normals after flip_normals. Other measures than
+                                                          !! RIIS_MEASURE_TRIANGLES need 0.
   integer(int64), intent(inout) :: surface                !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_arrays) :: arrays
@@ -1555,19 +1665,28 @@ subroutine riisf_surface_offset_arrays_64(n_vertices, x, y, z, stride, corners_p
   real(c_double), intent(in) :: y(*)                      !< Entry i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
   real(c_double), intent(in) :: z(*)                      !< Entry i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
   integer(int64), intent(in) :: stride                    !< 1 for separate arrays, 3 for XYZ(3,*).
-  integer(int32), intent(in) :: corners_per_face          !< 3 for triangles, 4 for quads.
+  integer(int32), intent(in) :: corners_per_face          !< 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3.
+                                                          !! Usually 3.
   integer(int64), intent(in) :: n_faces                   !< 1 to 16,777,216 triangles, half as many quads.
-  integer(int64), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces), counted from index_base. The
-                                                          !! right-hand rule makes the normal.
+  integer(int64), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces); the normal follows the right-hand
+                                                          !! rule.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
-  real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
-  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most
+  real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
+                                                          !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
+                                                          !! its smooth surface differ by at most tolerance * half_thickness
+                                                          !! (docs/theory.md).
+  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
+  real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
+                                                          !! usually 0.
+  real(c_double), intent(in) :: translation(3)            !< Mesh units; -1e50 to 1e50, usually 0. Refused for a valve if
+                                                          !! coordinates would be rounded by more than a thousandth of
                                                           !! tolerance * half_thickness.
-  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
-  real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
-  real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
-  real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for no translation.
-  real(c_double), intent(in) :: offset                    !< Above -1 and below 1.
+  real(c_double), intent(in) :: offset                    !< The offset o, in half thicknesses, above -1 and below 1, usually
+                                                          !! 0. The middle of the band lies o half thicknesses beside the
+                                                          !! surface, along the normals after flip_normals. Other measures than
+                                                          !! RIIS_MEASURE_TRIANGLES need 0.
   integer(int64), intent(inout) :: surface                !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_arrays) :: arrays
@@ -1599,8 +1718,9 @@ subroutine riisf_surface_offset_arrays_64(n_vertices, x, y, z, stride, corners_p
   surface = handle_of(c_handle)
 end subroutine riisf_surface_offset_arrays_64
 
-!> Replaces the surface by triangles or quads that moved, with the same options and with the velocities of the vertices. The
-!! placement rotates and scales velocities, but does not translate them. Errors: as for riisf_surface_from_arrays.
+!> Replaces the surface by triangles or quads that moved, with the same options and with the velocities of the vertices. Errors:
+!! as riisf_surface_from_arrays. With n_faces 0, also RIIS_INVALID_ARGUMENT if n_vertices differs from the last arrays, or if the
+!! surface was not made from arrays.
 subroutine riisf_surface_update_arrays(surface, n_vertices, x, y, z, stride, vx, vy, vz, velocity_stride, &
     corners_per_face, n_faces, vertex_ids, index_base, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -1614,14 +1734,21 @@ subroutine riisf_surface_update_arrays(surface, n_vertices, x, y, z, stride, vx,
   real(c_double), intent(in) :: y(*)                      !< Entry i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
   real(c_double), intent(in) :: z(*)                      !< Entry i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
   integer(int32), intent(in) :: stride                    !< 1 for separate arrays, 3 for XYZ(3,*).
-  real(c_double), intent(in) :: vx(*)                     !< Vertex i has vx(1 + (i - 1) * velocity_stride); 0: no velocities.
-  real(c_double), intent(in) :: vy(*)                     !< Like vx.
-  real(c_double), intent(in) :: vz(*)                     !< Like vx.
-  integer(int32), intent(in) :: velocity_stride           !< 1 for separate arrays, 3 for V(3,*).
-  integer(int32), intent(in) :: corners_per_face          !< 3 for triangles, 4 for quads.
+  real(c_double), intent(in) :: vx(*)                     !< (n_vertices) by velocity_stride: velocities of the vertices, in
+                                                          !! lengths per unit of time. The placement turns and scales the
+                                                          !! velocities.
+  real(c_double), intent(in) :: vy(*)                     !< (n_vertices) by velocity_stride: velocities of the vertices, in
+                                                          !! lengths per unit of time. The placement turns and scales the
+                                                          !! velocities.
+  real(c_double), intent(in) :: vz(*)                     !< (n_vertices) by velocity_stride: velocities of the vertices, in
+                                                          !! lengths per unit of time. The placement turns and scales the
+                                                          !! velocities.
+  integer(int32), intent(in) :: velocity_stride           !< 1 for separate arrays, 3 for V(3,*), 0 for no velocities.
+  integer(int32), intent(in) :: corners_per_face          !< 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3.
+                                                          !! Usually 3.
   integer(int32), intent(in) :: n_faces                   !< 1 to 16,777,216 triangles, half as many quads.
-  integer(int32), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces), counted from index_base. The
-                                                          !! right-hand rule makes the normal.
+  integer(int32), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces); the normal follows the right-hand
+                                                          !! rule.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_arrays) :: arrays
@@ -1658,14 +1785,21 @@ subroutine riisf_surface_update_arrays_64(surface, n_vertices, x, y, z, stride, 
   real(c_double), intent(in) :: y(*)                      !< Entry i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
   real(c_double), intent(in) :: z(*)                      !< Entry i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
   integer(int64), intent(in) :: stride                    !< 1 for separate arrays, 3 for XYZ(3,*).
-  real(c_double), intent(in) :: vx(*)                     !< Vertex i has vx(1 + (i - 1) * velocity_stride); 0: no velocities.
-  real(c_double), intent(in) :: vy(*)                     !< Like vx.
-  real(c_double), intent(in) :: vz(*)                     !< Like vx.
-  integer(int64), intent(in) :: velocity_stride           !< 1 for separate arrays, 3 for V(3,*).
-  integer(int32), intent(in) :: corners_per_face          !< 3 for triangles, 4 for quads.
+  real(c_double), intent(in) :: vx(*)                     !< (n_vertices) by velocity_stride: velocities of the vertices, in
+                                                          !! lengths per unit of time. The placement turns and scales the
+                                                          !! velocities.
+  real(c_double), intent(in) :: vy(*)                     !< (n_vertices) by velocity_stride: velocities of the vertices, in
+                                                          !! lengths per unit of time. The placement turns and scales the
+                                                          !! velocities.
+  real(c_double), intent(in) :: vz(*)                     !< (n_vertices) by velocity_stride: velocities of the vertices, in
+                                                          !! lengths per unit of time. The placement turns and scales the
+                                                          !! velocities.
+  integer(int64), intent(in) :: velocity_stride           !< 1 for separate arrays, 3 for V(3,*), 0 for no velocities.
+  integer(int32), intent(in) :: corners_per_face          !< 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3.
+                                                          !! Usually 3.
   integer(int64), intent(in) :: n_faces                   !< 1 to 16,777,216 triangles, half as many quads.
-  integer(int64), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces), counted from index_base. The
-                                                          !! right-hand rule makes the normal.
+  integer(int64), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces); the normal follows the right-hand
+                                                          !! rule.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_arrays) :: arrays
@@ -1688,9 +1822,8 @@ subroutine riisf_surface_update_arrays_64(surface, n_vertices, x, y, z, stride, 
   status = riis_surface_update_from_arrays(c_handle_of(surface), arrays)
 end subroutine riisf_surface_update_arrays_64
 
-!> Makes keyframes: a surface that moves by frames in time. All frames have the same faces, but other positions of the vertices.
-!! All arrays are copied. Errors: RIIS_INVALID_ARGUMENT naming the key, counted from 0, and its value; RIIS_INVALID_SURFACE
-!! naming the frame, vertex or face.
+!> Makes keyframes from copies of arrays and frames. Errors: RIIS_INVALID_SURFACE naming the frame, vertex or face.
+!! RIIS_LIMIT_EXCEEDED for too many.
 subroutine riisf_keyframes_create(n_vertices, n_keys, time, xyz, period, interpolation, corners_per_face, n_faces, &
     vertex_ids, index_base, keyframes, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_null_ptr, c_ptr, c_sizeof
@@ -1710,10 +1843,11 @@ subroutine riisf_keyframes_create(n_vertices, n_keys, time, xyz, period, interpo
                                                           !! after the last.
   integer(int32), intent(in) :: interpolation             !< RIIS_INTERPOLATION_*, of each coordinate. Usually
                                                           !! RIIS_INTERPOLATION_LINEAR.
-  integer(int32), intent(in) :: corners_per_face          !< 3 for triangles, 4 for quads.
+  integer(int32), intent(in) :: corners_per_face          !< 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3.
+                                                          !! Usually 3.
   integer(int32), intent(in) :: n_faces                   !< 1 to 16,777,216 triangles, half as many quads.
-  integer(int32), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces), counted from index_base. The
-                                                          !! right-hand rule makes the normal.
+  integer(int32), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces); the normal follows the right-hand
+                                                          !! rule.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(int64), intent(inout) :: keyframes              !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -1761,10 +1895,11 @@ subroutine riisf_keyframes_create_64(n_vertices, n_keys, time, xyz, period, inte
                                                           !! after the last.
   integer(int32), intent(in) :: interpolation             !< RIIS_INTERPOLATION_*, of each coordinate. Usually
                                                           !! RIIS_INTERPOLATION_LINEAR.
-  integer(int32), intent(in) :: corners_per_face          !< 3 for triangles, 4 for quads.
+  integer(int32), intent(in) :: corners_per_face          !< 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3.
+                                                          !! Usually 3.
   integer(int64), intent(in) :: n_faces                   !< 1 to 16,777,216 triangles, half as many quads.
-  integer(int64), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces), counted from index_base. The
-                                                          !! right-hand rule makes the normal.
+  integer(int64), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces); the normal follows the right-hand
+                                                          !! rule.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(int64), intent(inout) :: keyframes              !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -1792,8 +1927,7 @@ subroutine riisf_keyframes_create_64(n_vertices, n_keys, time, xyz, period, inte
   keyframes = handle_of(c_handle)
 end subroutine riisf_keyframes_create_64
 
-!> Makes a surface from the frames around a time, with velocities. The placement is that of riisf_surface_create. Errors:
-!! RIIS_INVALID_ARGUMENT for a time or an option out of range, RIIS_INVALID_SURFACE for a face without area.
+!> Makes a surface from the frames around a time, with velocities. Errors: as riisf_surface_from_arrays.
 subroutine riisf_surface_from_keyframes(keyframes, time, dt, half_thickness, tolerance, scale, rotation_axis, &
     rotation_angle, translation, surface, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_null_ptr, c_ptr, c_sizeof
@@ -1802,17 +1936,22 @@ subroutine riisf_surface_from_keyframes(keyframes, time, dt, half_thickness, tol
   use riis_c, only: RIIS_OK, riis_status, riis_surface_create_from_keyframes, riis_surface_options, &
       riis_surface_options_init
   implicit none
-  integer(int64), intent(in) :: keyframes                 !< Must be created; read during the call only.
-  real(c_double), intent(in) :: time                      !< Magnitude at most 1e30.
-  real(c_double), intent(in) :: dt                        !< The velocity is the mean from time - dt to time. 0: it is the
+  integer(int64), intent(in) :: keyframes                 !< Must be created.
+  real(c_double), intent(in) :: time                      !< Finite, magnitude at most 1e30.
+  real(c_double), intent(in) :: dt                        !< The velocity is the mean from time - dt to time; for 0 it is the
                                                           !! derivative of the interpolation.
-  real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
-  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most
+  real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
+                                                          !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
+                                                          !! its smooth surface differ by at most tolerance * half_thickness
+                                                          !! (docs/theory.md).
+  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
+  real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
+                                                          !! usually 0.
+  real(c_double), intent(in) :: translation(3)            !< Mesh units; -1e50 to 1e50, usually 0. Refused for a valve if
+                                                          !! coordinates would be rounded by more than a thousandth of
                                                           !! tolerance * half_thickness.
-  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
-  real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
-  real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
-  real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for no translation.
   integer(int64), intent(inout) :: surface                !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_options) :: options
@@ -1831,7 +1970,8 @@ subroutine riisf_surface_from_keyframes(keyframes, time, dt, half_thickness, tol
   surface = handle_of(c_handle)
 end subroutine riisf_surface_from_keyframes
 
-!> Makes a surface like riisf_surface_from_keyframes, whose band steps aside as in riisf_surface_offset_arrays.
+!> Makes a surface like riisf_surface_from_keyframes, whose band steps aside as in riisf_surface_offset_arrays. Errors: as
+!! riisf_surface_from_arrays.
 subroutine riisf_surface_offset_keyframes(keyframes, time, dt, half_thickness, tolerance, scale, rotation_axis, &
     rotation_angle, translation, offset, surface, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_null_ptr, c_ptr, c_sizeof
@@ -1840,17 +1980,26 @@ subroutine riisf_surface_offset_keyframes(keyframes, time, dt, half_thickness, t
   use riis_c, only: RIIS_OK, riis_status, riis_surface_create_from_keyframes, riis_surface_options, &
       riis_surface_options_init
   implicit none
-  integer(int64), intent(in) :: keyframes                 !< Must be created; read during the call only.
-  real(c_double), intent(in) :: time                      !< Magnitude at most 1e30.
-  real(c_double), intent(in) :: dt                        !< As in riisf_surface_from_keyframes.
-  real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
-  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most
+  integer(int64), intent(in) :: keyframes                 !< Must be created.
+  real(c_double), intent(in) :: time                      !< Finite, magnitude at most 1e30.
+  real(c_double), intent(in) :: dt                        !< The velocity is the mean from time - dt to time; for 0 it is the
+                                                          !! derivative of the interpolation.
+  real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
+                                                          !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
+                                                          !! its smooth surface differ by at most tolerance * half_thickness
+                                                          !! (docs/theory.md).
+  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
+  real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
+                                                          !! usually 0.
+  real(c_double), intent(in) :: translation(3)            !< Mesh units; -1e50 to 1e50, usually 0. Refused for a valve if
+                                                          !! coordinates would be rounded by more than a thousandth of
                                                           !! tolerance * half_thickness.
-  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
-  real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
-  real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
-  real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for no translation.
-  real(c_double), intent(in) :: offset                    !< Above -1 and below 1.
+  real(c_double), intent(in) :: offset                    !< The offset o, in half thicknesses, above -1 and below 1, usually
+                                                          !! 0. The middle of the band lies o half thicknesses beside the
+                                                          !! surface, along the normals after flip_normals. Other measures than
+                                                          !! RIIS_MEASURE_TRIANGLES need 0.
   integer(int64), intent(inout) :: surface                !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_options) :: options
@@ -1870,7 +2019,8 @@ subroutine riisf_surface_offset_keyframes(keyframes, time, dt, half_thickness, t
   surface = handle_of(c_handle)
 end subroutine riisf_surface_offset_keyframes
 
-!> Replaces the surface by the surface at another time, with the same options. Errors: as for riisf_surface_from_keyframes.
+!> Replaces the surface's content by the frames around a time. Arguments and errors are as in riisf_surface_from_keyframes,
+!! options as in riisf_surface_update.
 subroutine riisf_surface_update_keyframes(surface, keyframes, time, dt, status)
   use, intrinsic :: iso_c_binding, only: c_double
   use, intrinsic :: iso_fortran_env, only: int64
@@ -1878,14 +2028,14 @@ subroutine riisf_surface_update_keyframes(surface, keyframes, time, dt, status)
   use riis_c, only: riis_status, riis_surface_update_from_keyframes
   implicit none
   integer(int64), intent(in) :: surface                   !< Must be created.
-  integer(int64), intent(in) :: keyframes                 !< Must be created; read during the call only.
+  integer(int64), intent(in) :: keyframes                 !< Must be created.
   real(c_double), intent(in) :: time                      !< Magnitude at most 1e30.
   real(c_double), intent(in) :: dt                        !< As in riisf_surface_from_keyframes.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   status = riis_surface_update_from_keyframes(c_handle_of(surface), c_handle_of(keyframes), time, dt)
 end subroutine riisf_surface_update_keyframes
 
-!> Destroys the keyframes and sets their handle to 0. Surfaces made from them stay. Nothing happens to a handle that is 0.
+!> Destroys the keyframes. Surfaces made from them stay. The handle becomes 0. Nothing happens to a handle that is 0.
 subroutine riisf_keyframes_destroy(handle)
   use, intrinsic :: iso_c_binding, only: c_ptr
   use, intrinsic :: iso_fortran_env, only: int64
@@ -1903,8 +2053,7 @@ end subroutine riisf_keyframes_destroy
 ! Vertices, velocities, closest points
 ! -----------------------------------------------------------------------------------------------------------------
 
-!> Copies the surface's vertices, after placement, into the caller's array. Errors: RIIS_INVALID_ARGUMENT if the array is too
-!! short; only n is then written.
+!> Copies the surface's vertices, after placement.
 subroutine riisf_surface_vertices(surface, length, n, xyz, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -1913,6 +2062,7 @@ subroutine riisf_surface_vertices(surface, length, n, xyz, status)
   implicit none
   integer(int64), intent(in) :: surface                   !< Must be created.
   integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
+                                                          !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
   integer(int32), intent(inout) :: n                      !< The number of vertices, even if an array is too short.
   real(c_double), intent(inout) :: xyz(*)                 !< (3, length): the vertices; written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -1940,6 +2090,7 @@ subroutine riisf_surface_vertices_64(surface, length, n, xyz, status)
   implicit none
   integer(int64), intent(in) :: surface                   !< Must be created.
   integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
+                                                          !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
   integer(int64), intent(inout) :: n                      !< The number of vertices, even if an array is too short.
   real(c_double), intent(inout) :: xyz(*)                 !< (3, length): the vertices; written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -1958,8 +2109,7 @@ subroutine riisf_surface_vertices_64(surface, length, n, xyz, status)
   xyz(:3 * triangles%n_vertices) = c_xyz
 end subroutine riisf_surface_vertices_64
 
-!> Copies the surface's triangles that answer queries into the caller's arrays. Errors: RIIS_INVALID_ARGUMENT if the arrays are
-!! too short; only n is then written.
+!> Copies the surface's triangles that answer queries.
 subroutine riisf_surface_triangles(surface, length, n, vertex_num, triangle_id, leaflet_id, patch_id, status)
   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -1969,11 +2119,13 @@ subroutine riisf_surface_triangles(surface, length, n, vertex_num, triangle_id, 
   implicit none
   integer(int64), intent(in) :: surface                   !< Must be created.
   integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
+                                                          !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
   integer(int32), intent(inout) :: n                      !< The number of triangles, even if an array is too short.
-  integer(int32), intent(inout) :: vertex_num(3, *)       !< The corners, from 1, as in riisf_surface_vertices; written up to
-                                                          !! n.
-  integer(int64), intent(inout) :: triangle_id(*)         !< The ids that queries report, from 0; written up to n. INTEGER*8.
-  integer(int32), intent(inout) :: leaflet_id(*)          !< RIIS_LEAFLET_*, or the caller's; written up to n.
+  integer(int32), intent(inout) :: vertex_num(3, *)       !< (3, length): their vertices, from 1; written up to n.
+  integer(int64), intent(inout) :: triangle_id(*)         !< (length), ascending: the id that queries report; 0, 1, 2, ... for
+                                                          !! a valve; written up to n.
+  integer(int32), intent(inout) :: leaflet_id(*)          !< (length): RIIS_LEAFLET_*, or the caller's from patches and arrays;
+                                                          !! written up to n.
   integer(int32), intent(inout) :: patch_id(*)            !< From 0; written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_triangles) :: triangles
@@ -2014,11 +2166,13 @@ subroutine riisf_surface_triangles_64(surface, length, n, vertex_num, triangle_i
   implicit none
   integer(int64), intent(in) :: surface                   !< Must be created.
   integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
+                                                          !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
   integer(int64), intent(inout) :: n                      !< The number of triangles, even if an array is too short.
-  integer(int64), intent(inout) :: vertex_num(3, *)       !< The corners, from 1, as in riisf_surface_vertices; written up to
-                                                          !! n.
-  integer(int64), intent(inout) :: triangle_id(*)         !< The ids that queries report, from 0; written up to n. INTEGER*8.
-  integer(int32), intent(inout) :: leaflet_id(*)          !< RIIS_LEAFLET_*, or the caller's; written up to n.
+  integer(int64), intent(inout) :: vertex_num(3, *)       !< (3, length): their vertices, from 1; written up to n.
+  integer(int64), intent(inout) :: triangle_id(*)         !< (length), ascending: the id that queries report; 0, 1, 2, ... for
+                                                          !! a valve; written up to n.
+  integer(int32), intent(inout) :: leaflet_id(*)          !< (length): RIIS_LEAFLET_*, or the caller's from patches and arrays;
+                                                          !! written up to n.
   integer(int32), intent(inout) :: patch_id(*)            !< From 0; written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_triangles) :: triangles
@@ -2045,8 +2199,7 @@ subroutine riisf_surface_triangles_64(surface, length, n, vertex_num, triangle_i
   patch_id(:n) = c_patch_id
 end subroutine riisf_surface_triangles_64
 
-!> Copies the velocities of the surface's vertices, after placement, into the caller's array. Errors: RIIS_INVALID_ARGUMENT if
-!! the last update gave none, or if the array is too short; only n is then written.
+!> Copies the velocities of the surface's vertices, after placement. Errors: RIIS_INVALID_ARGUMENT if the last update gave none.
 subroutine riisf_surface_vertex_velocities(surface, length, n, velocity, status)
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -2055,6 +2208,7 @@ subroutine riisf_surface_vertex_velocities(surface, length, n, velocity, status)
   implicit none
   integer(int64), intent(in) :: surface                   !< Must be created.
   integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
+                                                          !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
   integer(int32), intent(inout) :: n                      !< The number of vertices, even if an array is too short.
   real(c_double), intent(inout) :: velocity(*)            !< (3, length); written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -2086,6 +2240,7 @@ subroutine riisf_surface_vertex_velocities_64(surface, length, n, velocity, stat
   implicit none
   integer(int64), intent(in) :: surface                   !< Must be created.
   integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
+                                                          !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
   integer(int64), intent(inout) :: n                      !< The number of vertices, even if an array is too short.
   real(c_double), intent(inout) :: velocity(*)            !< (3, length); written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -2108,9 +2263,8 @@ subroutine riisf_surface_vertex_velocities_64(surface, length, n, velocity, stat
   velocity(:3 * triangles%n_vertices) = c_velocity
 end subroutine riisf_surface_vertex_velocities_64
 
-!> Copies the edges at which tissue or a stent holds the leaflets of a valve (riis_surface_get_attachment in riis.h) into the
-!! caller's arrays. Errors: RIIS_INVALID_ARGUMENT for a surface from arrays, or if the arrays are too short; only n is then
-!! written.
+!> Copies the edges at which tissue or a stent holds the leaflets of a valve (riis_surface_get_attachment in riis.h). Errors:
+!! RIIS_INVALID_ARGUMENT for other surfaces from arrays, because their attached edges are not known.
 subroutine riisf_surface_attachment(surface, length, n, edges, leaflet_id, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -2119,6 +2273,7 @@ subroutine riisf_surface_attachment(surface, length, n, edges, leaflet_id, statu
   implicit none
   integer(int64), intent(in) :: surface                   !< Must be created.
   integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
+                                                          !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
   integer(int32), intent(inout) :: n                      !< The number of edges, even if an array is too short.
   real(c_double), intent(inout) :: edges(3, 2, *)         !< (3, 2, length): both ends of each edge, in the layout of
                                                           !! riis_reaction.edges; written up to n.
@@ -2150,6 +2305,7 @@ subroutine riisf_surface_attachment_64(surface, length, n, edges, leaflet_id, st
   implicit none
   integer(int64), intent(in) :: surface                   !< Must be created.
   integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
+                                                          !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
   integer(int64), intent(inout) :: n                      !< The number of edges, even if an array is too short.
   real(c_double), intent(inout) :: edges(3, 2, *)         !< (3, 2, length): both ends of each edge, in the layout of
                                                           !! riis_reaction.edges; written up to n.
@@ -2172,8 +2328,8 @@ subroutine riisf_surface_attachment_64(surface, length, n, edges, leaflet_id, st
   leaflet_id(:n) = c_leaflet_id
 end subroutine riisf_surface_attachment_64
 
-!> Copies the rates of the surface's vertices in a direction (riis_surface_get_direction in riis.h) into the caller's array.
-!! Errors: RIIS_INVALID_ARGUMENT for a direction that the surface lacks, or if the array is too short; only n is then written.
+!> Copies the rates of the surface's vertices in a direction. Errors: RIIS_INVALID_ARGUMENT for a direction that the surface
+!! lacks.
 subroutine riisf_surface_direction(surface, direction_num, length, n, rate, area_rate, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -2183,6 +2339,7 @@ subroutine riisf_surface_direction(surface, direction_num, length, n, rate, area
   integer(int64), intent(in) :: surface                   !< Must be created.
   integer(int32), intent(in) :: direction_num             !< The direction, from 1. A message counts from 0.
   integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
+                                                          !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
   integer(int32), intent(inout) :: n                      !< The number of vertices, even if an array is too short.
   real(c_double), intent(inout) :: rate(*)                !< (3, length): the derivative of each vertex; written up to n.
   real(c_double), intent(inout) :: area_rate              !< The derivative of riis_surface_info.area. Each call computes it
@@ -2215,6 +2372,7 @@ subroutine riisf_surface_direction_64(surface, direction_num, length, n, rate, a
   integer(int64), intent(in) :: surface                   !< Must be created.
   integer(int64), intent(in) :: direction_num             !< The direction, from 1. A message counts from 0.
   integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
+                                                          !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
   integer(int64), intent(inout) :: n                      !< The number of vertices, even if an array is too short.
   real(c_double), intent(inout) :: rate(*)                !< (3, length): the derivative of each vertex; written up to n.
   real(c_double), intent(inout) :: area_rate              !< The derivative of riis_surface_info.area. Each call computes it
@@ -2237,9 +2395,8 @@ subroutine riisf_surface_direction_64(surface, direction_num, length, n, rate, a
   area_rate = direction%area_rate
 end subroutine riisf_surface_direction_64
 
-!> Finds the closest points of the surface to many points, in parallel. No array may overlap another. Errors:
-!! RIIS_INVALID_ARGUMENT naming the first bad point, counted from 0, or for a surface that measures distances by sampling or
-!! minimisation, because it has no sides. Nothing is then written.
+!> Finds the closest points of many points, in parallel. Errors: RIIS_INVALID_ARGUMENT naming the first bad point; nothing is
+!! then written.
 subroutine riisf_closest_points(surface, n_points, x, y, z, stride, distance_limit, n_threads, distance, point, &
     normal, triangle_id, leaflet_id, side, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -2338,6 +2495,7 @@ subroutine riisf_closest_points_64(surface, n_points, x, y, z, stride, distance_
 end subroutine riisf_closest_points_64
 
 !> Works like riisf_closest_points, but for a list of points. Only these points are read, and only their entries are written.
+!! Errors: RIIS_INVALID_ARGUMENT naming the first bad point; nothing is then written.
 subroutine riisf_closest_points_listed(surface, n_points, x, y, z, stride, n_listed, point_num, distance_limit, &
     n_threads, distance, point, normal, triangle_id, leaflet_id, side, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_loc, c_ptr, c_sizeof
@@ -2461,9 +2619,10 @@ end subroutine riisf_closest_points_listed_64
 ! Marking
 ! -----------------------------------------------------------------------------------------------------------------
 
-!> Finds every node whose distance to the surface is at most the half thickness (marked) or the distance limit. Use the same
-!! marks in every time step, because they keep their memory. Errors: RIIS_INVALID_ARGUMENT for an option out of range; the marks
-!! are then as they were.
+!> Finds every node near the surface: the marked nodes, which lie within the half thickness, and the nodes within the distance
+!! limit. The reported distance, in double precision, decides which nodes are near. With an offset, the marked nodes are the
+!! nodes in the band (riisf_surface_create). Errors: RIIS_INVALID_MESH for a coordinate that became non-finite after it was
+!! given.
 subroutine riisf_mark_nodes(surface, mesh, distance_limit, search, n_threads, marks, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -2494,8 +2653,7 @@ subroutine riisf_mark_nodes(surface, mesh, distance_limit, search, n_threads, ma
   marks = handle_of(c_handle)
 end subroutine riisf_mark_nodes
 
-!> Copies the marked nodes into the caller's arrays, ascending by node. Errors: RIIS_INVALID_ARGUMENT if the arrays are too
-!! short; only n is then written.
+!> Copies the marked nodes, ascending by node.
 subroutine riisf_marked(marks, length, n, node_num, distance, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -2505,10 +2663,11 @@ subroutine riisf_marked(marks, length, n, node_num, distance, status)
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
   integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
+                                                          !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
   integer(int32), intent(inout) :: n                      !< The number of nodes that are marked, even if an array is too
                                                           !! short.
   integer(int32), intent(inout) :: node_num(*)            !< (length), from 1; written up to n.
-  real(c_double), intent(inout) :: distance(*)            !< (length): mesh units; written up to n.
+  real(c_double), intent(inout) :: distance(*)            !< (length); written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_mark_list) :: list
   integer(int64), pointer :: c_node_num(:)
@@ -2542,10 +2701,11 @@ subroutine riisf_marked_64(marks, length, n, node_num, distance, status)
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
   integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
+                                                          !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
   integer(int64), intent(inout) :: n                      !< The number of nodes that are marked, even if an array is too
                                                           !! short.
   integer(int64), intent(inout) :: node_num(*)            !< (length), from 1; written up to n.
-  real(c_double), intent(inout) :: distance(*)            !< (length): mesh units; written up to n.
+  real(c_double), intent(inout) :: distance(*)            !< (length); written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_mark_list) :: list
   integer(int64), pointer :: c_node_num(:)
@@ -2565,8 +2725,7 @@ subroutine riisf_marked_64(marks, length, n, node_num, distance, status)
   distance(:n) = c_distance
 end subroutine riisf_marked_64
 
-!> Copies all nodes within the distance limit, marked or not, into the caller's arrays, ascending by node. Errors:
-!! RIIS_INVALID_ARGUMENT if the arrays are too short; only n is then written.
+!> Copies all nodes within the distance limit, marked or not, ascending by node.
 subroutine riisf_within_limit(marks, length, n, node_num, distance, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -2576,10 +2735,11 @@ subroutine riisf_within_limit(marks, length, n, node_num, distance, status)
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
   integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
+                                                          !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
   integer(int32), intent(inout) :: n                      !< The number of nodes within the distance limit, even if an array is
                                                           !! too short.
   integer(int32), intent(inout) :: node_num(*)            !< (length), from 1; written up to n.
-  real(c_double), intent(inout) :: distance(*)            !< (length): mesh units; written up to n.
+  real(c_double), intent(inout) :: distance(*)            !< (length); written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_mark_list) :: list
   integer(int64), pointer :: c_node_num(:)
@@ -2614,10 +2774,11 @@ subroutine riisf_within_limit_64(marks, length, n, node_num, distance, status)
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
   integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
+                                                          !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
   integer(int64), intent(inout) :: n                      !< The number of nodes within the distance limit, even if an array is
                                                           !! too short.
   integer(int64), intent(inout) :: node_num(*)            !< (length), from 1; written up to n.
-  real(c_double), intent(inout) :: distance(*)            !< (length): mesh units; written up to n.
+  real(c_double), intent(inout) :: distance(*)            !< (length); written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_mark_list) :: list
   integer(int64), pointer :: c_node_num(:)
@@ -2637,7 +2798,7 @@ subroutine riisf_within_limit_64(marks, length, n, node_num, distance, status)
   distance(:n) = c_distance
 end subroutine riisf_within_limit_64
 
-!> Writes every node's distance. Errors: RIIS_INVALID_ARGUMENT for a far_distance within the distance limit.
+!> Writes every node's distance. Errors: RIIS_INVALID_ARGUMENT naming the field.
 subroutine riisf_dense_distance(marks, n_nodes, far_distance, distance, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -2646,8 +2807,8 @@ subroutine riisf_dense_distance(marks, n_nodes, far_distance, distance, status)
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
-  real(c_double), intent(in) :: far_distance              !< The distance of other nodes, outside [0, distance_limit]; usually
-                                                          !! RIIS_FAR_DISTANCE.
+  real(c_double), intent(in) :: far_distance              !< The distance of nodes beyond the limit or masked out: NaN, or any
+                                                          !! value outside [0, distance limit]. Usually RIIS_FAR_DISTANCE.
   real(c_double), intent(inout) :: distance(*)            !< (n_nodes): the distance of nodes within the distance limit,
                                                           !! far_distance for others.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -2660,7 +2821,7 @@ subroutine riisf_dense_distance(marks, n_nodes, far_distance, distance, status)
   status = riis_marks_get_dense(c_handle_of(marks), arrays)
 end subroutine riisf_dense_distance
 
-!> Writes every node's closest triangle.
+!> Writes every node's closest triangle. Errors: RIIS_INVALID_ARGUMENT naming the field.
 subroutine riisf_dense_triangle(marks, n_nodes, triangle_id, status)
   use, intrinsic :: iso_c_binding, only: c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -2680,7 +2841,7 @@ subroutine riisf_dense_triangle(marks, n_nodes, triangle_id, status)
   status = riis_marks_get_dense(c_handle_of(marks), arrays)
 end subroutine riisf_dense_triangle
 
-!> Writes every node's closest leaflet.
+!> Writes every node's closest leaflet. Errors: RIIS_INVALID_ARGUMENT naming the field.
 subroutine riisf_dense_leaflet(marks, n_nodes, leaflet_id, status)
   use, intrinsic :: iso_c_binding, only: c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -2689,8 +2850,7 @@ subroutine riisf_dense_leaflet(marks, n_nodes, leaflet_id, status)
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
-  integer(int32), intent(inout) :: leaflet_id(*)          !< (n_nodes): RIIS_LEAFLET_* for nodes within the distance limit,
-                                                          !! else -1.
+  integer(int32), intent(inout) :: leaflet_id(*)          !< (n_nodes): the leaflet of this triangle, -1 for others.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_dense_arrays) :: arrays
   status = riis_dense_arrays_init(arrays, c_sizeof(arrays))
@@ -2700,7 +2860,7 @@ subroutine riisf_dense_leaflet(marks, n_nodes, leaflet_id, status)
   status = riis_marks_get_dense(c_handle_of(marks), arrays)
 end subroutine riisf_dense_leaflet
 
-!> Writes every node's mark.
+!> Writes every node's mark. Errors: RIIS_INVALID_ARGUMENT naming the field.
 subroutine riisf_dense_mark(marks, n_nodes, mark, status)
   use, intrinsic :: iso_c_binding, only: c_loc, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int8, int32, int64
@@ -2726,7 +2886,7 @@ subroutine riisf_dense_mark(marks, n_nodes, mark, status)
   mark(:n_nodes) = c_mark(:n_nodes)
 end subroutine riisf_dense_mark
 
-!> Destroys the marks and sets their handle to 0. Nothing happens to a handle that is 0.
+!> Destroys the marks and their lists. The handle becomes 0. Nothing happens to a handle that is 0.
 subroutine riisf_marks_destroy(handle)
   use, intrinsic :: iso_c_binding, only: c_ptr
   use, intrinsic :: iso_fortran_env, only: int64
@@ -2778,9 +2938,9 @@ subroutine riisf_mark_with_fields(surface, mesh, distance_limit, search, n_threa
   marks = handle_of(c_handle)
 end subroutine riisf_mark_with_fields
 
-!> Copies a field of the nodes that are marked into the caller's array, in the order of riisf_marked. RIIS_FIELD_POINT, _NORMAL,
-!! _BARYCENTRIC and _VELOCITY have three values per node, RIIS_FIELD_UV two, RIIS_FIELD_GRADIENT one for each direction. Errors:
-!! RIIS_INVALID_ARGUMENT for another field, or if the array is too short; only n is then written.
+!> Copies a field of the nodes that are marked, in the order of riisf_marked. RIIS_FIELD_POINT, _NORMAL, _BARYCENTRIC and
+!! _VELOCITY have three values per node, RIIS_FIELD_UV two, RIIS_FIELD_GRADIENT one for each direction. Errors:
+!! RIIS_INVALID_ARGUMENT for another field.
 subroutine riisf_marked_reals(marks, field, length, n, values, status)
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -2792,6 +2952,7 @@ subroutine riisf_marked_reals(marks, field, length, n, values, status)
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields.
   integer(int32), intent(in) :: field                     !< One of RIIS_FIELD_*.
   integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
+                                                          !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
   integer(int32), intent(inout) :: n                      !< The number of nodes that are marked, even if an array is too
                                                           !! short.
   real(c_double), intent(inout) :: values(*)              !< (3, length), (2, length) for RIIS_FIELD_UV, or (number of
@@ -2854,6 +3015,7 @@ subroutine riisf_marked_reals_64(marks, field, length, n, values, status)
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields.
   integer(int32), intent(in) :: field                     !< One of RIIS_FIELD_*.
   integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
+                                                          !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
   integer(int64), intent(inout) :: n                      !< The number of nodes that are marked, even if an array is too
                                                           !! short.
   real(c_double), intent(inout) :: values(*)              !< (3, length), (2, length) for RIIS_FIELD_UV, or (number of
@@ -2904,9 +3066,9 @@ subroutine riisf_marked_reals_64(marks, field, length, n, values, status)
   values(:n_values) = c_values
 end subroutine riisf_marked_reals_64
 
-!> Copies a field of the nodes within the distance limit into the caller's array, in the order of riisf_within_limit.
-!! RIIS_FIELD_POINT, _NORMAL, _BARYCENTRIC and _VELOCITY have three values per node, RIIS_FIELD_UV two, RIIS_FIELD_GRADIENT one
-!! for each direction. Errors: RIIS_INVALID_ARGUMENT for another field, or if the array is too short; only n is then written.
+!> Copies a field of the nodes within the distance limit, in the order of riisf_within_limit. RIIS_FIELD_POINT, _NORMAL,
+!! _BARYCENTRIC and _VELOCITY have three values per node, RIIS_FIELD_UV two, RIIS_FIELD_GRADIENT one for each direction. Errors:
+!! RIIS_INVALID_ARGUMENT for another field.
 subroutine riisf_within_limit_reals(marks, field, length, n, values, status)
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -2918,6 +3080,7 @@ subroutine riisf_within_limit_reals(marks, field, length, n, values, status)
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields.
   integer(int32), intent(in) :: field                     !< One of RIIS_FIELD_*.
   integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
+                                                          !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
   integer(int32), intent(inout) :: n                      !< The number of nodes within the distance limit, even if an array is
                                                           !! too short.
   real(c_double), intent(inout) :: values(*)              !< (3, length), (2, length) for RIIS_FIELD_UV, or (number of
@@ -2980,6 +3143,7 @@ subroutine riisf_within_limit_reals_64(marks, field, length, n, values, status)
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields.
   integer(int32), intent(in) :: field                     !< One of RIIS_FIELD_*.
   integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
+                                                          !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
   integer(int64), intent(inout) :: n                      !< The number of nodes within the distance limit, even if an array is
                                                           !! too short.
   real(c_double), intent(inout) :: values(*)              !< (3, length), (2, length) for RIIS_FIELD_UV, or (number of
@@ -3041,6 +3205,7 @@ subroutine riisf_marked_integers(marks, field, length, n, values, status)
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields.
   integer(int32), intent(in) :: field                     !< One of RIIS_FIELD_*.
   integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
+                                                          !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
   integer(int32), intent(inout) :: n                      !< The number of nodes that are marked, even if an array is too
                                                           !! short.
   integer(int32), intent(inout) :: values(*)              !< (length); written up to n.
@@ -3092,6 +3257,7 @@ subroutine riisf_marked_integers_64(marks, field, length, n, values, status)
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields.
   integer(int32), intent(in) :: field                     !< One of RIIS_FIELD_*.
   integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
+                                                          !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
   integer(int64), intent(inout) :: n                      !< The number of nodes that are marked, even if an array is too
                                                           !! short.
   integer(int32), intent(inout) :: values(*)              !< (length); written up to n.
@@ -3143,6 +3309,7 @@ subroutine riisf_within_limit_integers(marks, field, length, n, values, status)
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields.
   integer(int32), intent(in) :: field                     !< One of RIIS_FIELD_*.
   integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
+                                                          !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
   integer(int32), intent(inout) :: n                      !< The number of nodes within the distance limit, even if an array is
                                                           !! too short.
   integer(int32), intent(inout) :: values(*)              !< (length); written up to n.
@@ -3194,6 +3361,7 @@ subroutine riisf_within_limit_integers_64(marks, field, length, n, values, statu
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields.
   integer(int32), intent(in) :: field                     !< One of RIIS_FIELD_*.
   integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
+                                                          !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
   integer(int64), intent(inout) :: n                      !< The number of nodes within the distance limit, even if an array is
                                                           !! too short.
   integer(int32), intent(inout) :: values(*)              !< (length); written up to n.
@@ -3239,7 +3407,7 @@ end subroutine riisf_within_limit_integers_64
 ! -----------------------------------------------------------------------------------------------------------------
 
 !> Marks nodes like riisf_mark_with_fields, and also computes K and K u_surface of the nodes in the lists. K u_surface exists if
-!! the surface has velocities. Errors: RIIS_INVALID_ARGUMENT for an argument out of range.
+!! the surface has velocities. Errors: RIIS_INVALID_MESH for a coordinate that became non-finite after it was given.
 subroutine riisf_mark_with_resistance(surface, mesh, distance_limit, search, n_threads, fields, R, half_thickness, &
     rim, marks, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_loc, c_ptr, c_sizeof
@@ -3255,9 +3423,11 @@ subroutine riisf_mark_with_resistance(surface, mesh, distance_limit, search, n_t
   integer(int32), intent(in) :: search                    !< RIIS_SEARCH_*, usually RIIS_SEARCH_AUTO.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int32), intent(in) :: fields                    !< A sum of RIIS_FIELD_*, for the nodes of riis_mark_list. Usually 0.
-  real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+  real(c_double), intent(in) :: R                         !< 0 to 1e60, in mass / (length time), such as kg/(m s). A flat
+                                                          !! closed valve in a flow of velocity u has a pressure drop of (R /
+                                                          !! eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit; RIIS_AUTO: the half thickness.
-  integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND or RIIS_RIM_CUT.
+  integer(int32), intent(in) :: rim                       !< RIIS_RIM_*, usually RIIS_RIM_ROUND.
   integer(int64), intent(inout) :: marks                  !< 0, which creates them, or from an earlier call.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_mark_options) :: options
@@ -3283,7 +3453,7 @@ subroutine riisf_mark_with_resistance(surface, mesh, distance_limit, search, n_t
 end subroutine riisf_mark_with_resistance
 
 !> Copies K and K u_surface of the nodes that are marked, in the order of riisf_marked. Without velocities K u_surface is zero.
-!! Errors: RIIS_INVALID_ARGUMENT without riisf_mark_with_resistance, or if the arrays are too short; only n is then written.
+!! Errors: RIIS_INVALID_ARGUMENT without riisf_mark_with_resistance.
 subroutine riisf_marked_resistance(marks, length, n, K, K_u_surface, status)
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -3292,10 +3462,11 @@ subroutine riisf_marked_resistance(marks, length, n, K, K_u_surface, status)
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_resistance.
   integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
+                                                          !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
   integer(int32), intent(inout) :: n                      !< The number of nodes that are marked, even if an array is too
                                                           !! short.
-  real(c_double), intent(inout) :: K(*)                   !< (length); written up to n.
-  real(c_double), intent(inout) :: K_u_surface(3, *)      !< (3, length); written up to n.
+  real(c_double), intent(inout) :: K(*)                   !< (length): K by options.resistance; written up to n.
+  real(c_double), intent(inout) :: K_u_surface(3, *)      !< (3, length): K u_surface; written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_mark_list) :: list
   real(c_double), pointer :: c_K(:)
@@ -3332,10 +3503,11 @@ subroutine riisf_marked_resistance_64(marks, length, n, K, K_u_surface, status)
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_resistance.
   integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
+                                                          !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
   integer(int64), intent(inout) :: n                      !< The number of nodes that are marked, even if an array is too
                                                           !! short.
-  real(c_double), intent(inout) :: K(*)                   !< (length); written up to n.
-  real(c_double), intent(inout) :: K_u_surface(3, *)      !< (3, length); written up to n.
+  real(c_double), intent(inout) :: K(*)                   !< (length): K by options.resistance; written up to n.
+  real(c_double), intent(inout) :: K_u_surface(3, *)      !< (3, length): K u_surface; written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_mark_list) :: list
   real(c_double), pointer :: c_K(:)
@@ -3364,8 +3536,7 @@ subroutine riisf_marked_resistance_64(marks, length, n, K, K_u_surface, status)
 end subroutine riisf_marked_resistance_64
 
 !> Copies K and K u_surface of the nodes within the distance limit, in the order of riisf_within_limit. Without velocities K
-!! u_surface is zero. Errors: RIIS_INVALID_ARGUMENT without riisf_mark_with_resistance, or if the arrays are too short; only n is
-!! then written.
+!! u_surface is zero. Errors: RIIS_INVALID_ARGUMENT without riisf_mark_with_resistance.
 subroutine riisf_within_limit_resistance(marks, length, n, K, K_u_surface, status)
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -3375,10 +3546,11 @@ subroutine riisf_within_limit_resistance(marks, length, n, K, K_u_surface, statu
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_resistance.
   integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
+                                                          !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
   integer(int32), intent(inout) :: n                      !< The number of nodes within the distance limit, even if an array is
                                                           !! too short.
-  real(c_double), intent(inout) :: K(*)                   !< (length); written up to n.
-  real(c_double), intent(inout) :: K_u_surface(3, *)      !< (3, length); written up to n.
+  real(c_double), intent(inout) :: K(*)                   !< (length): K by options.resistance; written up to n.
+  real(c_double), intent(inout) :: K_u_surface(3, *)      !< (3, length): K u_surface; written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_mark_list) :: list
   real(c_double), pointer :: c_K(:)
@@ -3416,10 +3588,11 @@ subroutine riisf_within_limit_resistance_64(marks, length, n, K, K_u_surface, st
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_resistance.
   integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
+                                                          !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
   integer(int64), intent(inout) :: n                      !< The number of nodes within the distance limit, even if an array is
                                                           !! too short.
-  real(c_double), intent(inout) :: K(*)                   !< (length); written up to n.
-  real(c_double), intent(inout) :: K_u_surface(3, *)      !< (3, length); written up to n.
+  real(c_double), intent(inout) :: K(*)                   !< (length): K by options.resistance; written up to n.
+  real(c_double), intent(inout) :: K_u_surface(3, *)      !< (3, length): K u_surface; written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_mark_list) :: list
   real(c_double), pointer :: c_K(:)
@@ -3447,9 +3620,9 @@ subroutine riisf_within_limit_resistance_64(marks, length, n, K, K_u_surface, st
   end if
 end subroutine riisf_within_limit_resistance_64
 
-!> Adds the resistance K = (R / eps) delta(d) to the caller's array, so that several valves add up. At a distance d below eps,
-!! delta(d) is (1 + cos(pi d / eps)) / (2 eps). Errors: RIIS_INVALID_ARGUMENT for an argument out of range, another number of
-!! nodes, or a field that the marks lack.
+!> Adds the resistance K = (R / eps) delta(d), so that several valves add up. At a distance d below eps, delta(d) is (1 + cos(pi
+!! d / eps)) / (2 eps). Errors: RIIS_INVALID_ARGUMENT also for marks that no marking has filled, and for a field that the marks
+!! lack.
 subroutine riisf_add_resistance(marks, R, half_thickness, rim, n_nodes, K, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -3458,7 +3631,9 @@ subroutine riisf_add_resistance(marks, R, half_thickness, rim, n_nodes, K, statu
       riis_resistance_arrays_init, riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
-  real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+  real(c_double), intent(in) :: R                         !< 0 to 1e60, in mass / (length time), such as kg/(m s). A flat
+                                                          !! closed valve in a flow of velocity u has a pressure drop of (R /
+                                                          !! eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -3487,7 +3662,9 @@ subroutine riisf_add_resistance_64(marks, R, half_thickness, rim, n_nodes, K, st
       riis_resistance_arrays_init, riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
-  real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+  real(c_double), intent(in) :: R                         !< 0 to 1e60, in mass / (length time), such as kg/(m s). A flat
+                                                          !! closed valve in a flow of velocity u has a pressure drop of (R /
+                                                          !! eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -3508,7 +3685,7 @@ subroutine riisf_add_resistance_64(marks, R, half_thickness, rim, n_nodes, K, st
 end subroutine riisf_add_resistance_64
 
 !> Adds K like riisf_add_resistance, but for a surface that moves, and also adds K u_surface. A scheme uses (sum of K) u - (sum
-!! of K u_surface).
+!! of K u_surface). Errors: RIIS_INVALID_ARGUMENT also for marks that no marking has filled, and for a field that the marks lack.
 subroutine riisf_add_moving_resistance(marks, R, half_thickness, rim, n_nodes, K, K_u_surface, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -3517,7 +3694,9 @@ subroutine riisf_add_moving_resistance(marks, R, half_thickness, rim, n_nodes, K
       riis_resistance_arrays_init, riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_VELOCITY.
-  real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+  real(c_double), intent(in) :: R                         !< 0 to 1e60, in mass / (length time), such as kg/(m s). A flat
+                                                          !! closed valve in a flow of velocity u has a pressure drop of (R /
+                                                          !! eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -3551,7 +3730,9 @@ subroutine riisf_add_moving_resistance_64(marks, R, half_thickness, rim, n_nodes
       riis_resistance_arrays_init, riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_VELOCITY.
-  real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+  real(c_double), intent(in) :: R                         !< 0 to 1e60, in mass / (length time), such as kg/(m s). A flat
+                                                          !! closed valve in a flow of velocity u has a pressure drop of (R /
+                                                          !! eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -3577,7 +3758,7 @@ subroutine riisf_add_moving_resistance_64(marks, R, half_thickness, rim, n_nodes
 end subroutine riisf_add_moving_resistance_64
 
 !> Adds K like riisf_add_resistance, but for a surface that moves, and also adds K u_surface. A scheme uses (sum of K) u - (sum
-!! of K u_surface).
+!! of K u_surface). Errors: RIIS_INVALID_ARGUMENT also for marks that no marking has filled, and for a field that the marks lack.
 subroutine riisf_add_resistance_components(marks, R, half_thickness, rim, n_nodes, K, K_u_x, K_u_y, K_u_z, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -3586,7 +3767,9 @@ subroutine riisf_add_resistance_components(marks, R, half_thickness, rim, n_node
       riis_resistance_arrays_init, riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_VELOCITY.
-  real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+  real(c_double), intent(in) :: R                         !< 0 to 1e60, in mass / (length time), such as kg/(m s). A flat
+                                                          !! closed valve in a flow of velocity u has a pressure drop of (R /
+                                                          !! eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -3622,7 +3805,9 @@ subroutine riisf_add_resistance_components_64(marks, R, half_thickness, rim, n_n
       riis_resistance_arrays_init, riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_VELOCITY.
-  real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+  real(c_double), intent(in) :: R                         !< 0 to 1e60, in mass / (length time), such as kg/(m s). A flat
+                                                          !! closed valve in a flow of velocity u has a pressure drop of (R /
+                                                          !! eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -3650,7 +3835,9 @@ subroutine riisf_add_resistance_components_64(marks, R, half_thickness, rim, n_n
 end subroutine riisf_add_resistance_components_64
 
 !> Adds the force of the flow on the surface: the sum of weight * K * (velocity - u_surface). Ranks sum their forces by a
-!! reduction. u_surface is used if the marking had RIIS_FIELD_VELOCITY, and is 0 otherwise. Errors: as for riisf_add_resistance.
+!! reduction. u_surface is 0 without RIIS_FIELD_VELOCITY. Errors: as riisf_add_resistance. RIIS_INVALID_ARGUMENT also for an
+!! n_leaflets that is too small (the message names the leaflet id), a leaflet without an edge, a bad edge, and a reaction without
+!! any sum.
 subroutine riisf_add_reaction(marks, R, half_thickness, rim, n_nodes, velocity, weight, force, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -3659,14 +3846,17 @@ subroutine riisf_add_reaction(marks, R, half_thickness, rim, n_nodes, velocity, 
       riis_reaction_init, riis_resistance, riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes or riisf_mark_with_fields.
-  real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+  real(c_double), intent(in) :: R                         !< 0 to 1e60, in mass / (length time), such as kg/(m s). A flat
+                                                          !! closed valve in a flow of velocity u has a pressure drop of (R /
+                                                          !! eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
-  real(c_double), intent(inout) :: force(3)               !< The force is added.
+  real(c_double), intent(inout) :: force(3)               !< (3): force on the whole surface, in the unit of weight K velocity,
+                                                          !! N in SI units.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
   type(riis_flow_arrays) :: flow
@@ -3697,14 +3887,17 @@ subroutine riisf_add_reaction_64(marks, R, half_thickness, rim, n_nodes, velocit
       riis_reaction_init, riis_resistance, riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes or riisf_mark_with_fields.
-  real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+  real(c_double), intent(in) :: R                         !< 0 to 1e60, in mass / (length time), such as kg/(m s). A flat
+                                                          !! closed valve in a flow of velocity u has a pressure drop of (R /
+                                                          !! eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
   integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
-  real(c_double), intent(inout) :: force(3)               !< The force is added.
+  real(c_double), intent(inout) :: force(3)               !< (3): force on the whole surface, in the unit of weight K velocity,
+                                                          !! N in SI units.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
   type(riis_flow_arrays) :: flow
@@ -3727,7 +3920,9 @@ subroutine riisf_add_reaction_64(marks, R, half_thickness, rim, n_nodes, velocit
 end subroutine riisf_add_reaction_64
 
 !> Adds the force of the flow on the surface: the sum of weight * K * (velocity - u_surface). Ranks sum their forces by a
-!! reduction. u_surface is used if the marking had RIIS_FIELD_VELOCITY, and is 0 otherwise. Errors: as for riisf_add_resistance.
+!! reduction. u_surface is 0 without RIIS_FIELD_VELOCITY. Errors: as riisf_add_resistance. RIIS_INVALID_ARGUMENT also for an
+!! n_leaflets that is too small (the message names the leaflet id), a leaflet without an edge, a bad edge, and a reaction without
+!! any sum.
 subroutine riisf_add_reaction_components(marks, R, half_thickness, rim, n_nodes, vx, vy, vz, weight, force, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -3736,7 +3931,9 @@ subroutine riisf_add_reaction_components(marks, R, half_thickness, rim, n_nodes,
       riis_reaction_init, riis_resistance, riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes or riisf_mark_with_fields.
-  real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+  real(c_double), intent(in) :: R                         !< 0 to 1e60, in mass / (length time), such as kg/(m s). A flat
+                                                          !! closed valve in a flow of velocity u has a pressure drop of (R /
+                                                          !! eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -3746,7 +3943,8 @@ subroutine riisf_add_reaction_components(marks, R, half_thickness, rim, n_nodes,
   real(c_double), intent(in) :: vy(*)                     !< (n_nodes), the y component.
   real(c_double), intent(in) :: vz(*)                     !< (n_nodes), the z component.
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
-  real(c_double), intent(inout) :: force(3)               !< The force is added.
+  real(c_double), intent(inout) :: force(3)               !< (3): force on the whole surface, in the unit of weight K velocity,
+                                                          !! N in SI units.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
   type(riis_flow_arrays) :: flow
@@ -3776,7 +3974,9 @@ subroutine riisf_add_reaction_components_64(marks, R, half_thickness, rim, n_nod
       riis_reaction_init, riis_resistance, riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes or riisf_mark_with_fields.
-  real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+  real(c_double), intent(in) :: R                         !< 0 to 1e60, in mass / (length time), such as kg/(m s). A flat
+                                                          !! closed valve in a flow of velocity u has a pressure drop of (R /
+                                                          !! eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -3786,7 +3986,8 @@ subroutine riisf_add_reaction_components_64(marks, R, half_thickness, rim, n_nod
   real(c_double), intent(in) :: vy(*)                     !< (n_nodes), the y component.
   real(c_double), intent(in) :: vz(*)                     !< (n_nodes), the z component.
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
-  real(c_double), intent(inout) :: force(3)               !< The force is added.
+  real(c_double), intent(inout) :: force(3)               !< (3): force on the whole surface, in the unit of weight K velocity,
+                                                          !! N in SI units.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
   type(riis_flow_arrays) :: flow
@@ -3808,8 +4009,9 @@ subroutine riisf_add_reaction_components_64(marks, R, half_thickness, rim, n_nod
 end subroutine riisf_add_reaction_components_64
 
 !> Adds the force of the flow and its moment about a point, for the whole surface and for each leaflet. The force of a node acts
-!! at the closest point of the surface. Ranks pass the same point, and add their sums by a reduction. Errors: as for
-!! riisf_add_reaction; RIIS_INVALID_ARGUMENT also for too few leaflets, naming the leaflet id.
+!! at the closest point of the surface. Ranks pass the same point, and add their sums by a reduction. Errors: as
+!! riisf_add_resistance. RIIS_INVALID_ARGUMENT also for an n_leaflets that is too small (the message names the leaflet id), a
+!! leaflet without an edge, a bad edge, and a reaction without any sum.
 subroutine riisf_add_leaflet_reaction(marks, R, half_thickness, rim, n_nodes, velocity, weight, about, n_leaflets, &
     force, moment, leaflet_force, leaflet_moment, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -3819,7 +4021,9 @@ subroutine riisf_add_leaflet_reaction(marks, R, half_thickness, rim, n_nodes, ve
       riis_reaction_init, riis_resistance, riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_POINT.
-  real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+  real(c_double), intent(in) :: R                         !< 0 to 1e60, in mass / (length time), such as kg/(m s). A flat
+                                                          !! closed valve in a flow of velocity u has a pressure drop of (R /
+                                                          !! eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -3829,10 +4033,13 @@ subroutine riisf_add_leaflet_reaction(marks, R, half_thickness, rim, n_nodes, ve
   real(c_double), intent(in) :: about(3)                  !< The reference point of moment and leaflet_moment; magnitude at
                                                           !! most 1e60. Usually 0.
   integer(int32), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
-  real(c_double), intent(inout) :: force(3)               !< The force on the whole surface is added.
-  real(c_double), intent(inout) :: moment(3)              !< The moment on the whole surface is added.
-  real(c_double), intent(inout) :: leaflet_force(3, *)    !< (3, n_leaflets): forces are added; leaflet 0 has column 1.
-  real(c_double), intent(inout) :: leaflet_moment(3, *)   !< (3, n_leaflets): moments are added.
+  real(c_double), intent(inout) :: force(3)               !< (3): force on the whole surface, in the unit of weight K velocity,
+                                                          !! N in SI units.
+  real(c_double), intent(inout) :: moment(3)              !< (3): moment on the whole surface.
+  real(c_double), intent(inout) :: leaflet_force(3, *)    !< (3, n_leaflets): force on each leaflet. A node belongs to the
+                                                          !! leaflet in riis_mark_list.leaflet_id, also if two leaflets are
+                                                          !! equally near.
+  real(c_double), intent(inout) :: leaflet_moment(3, *)   !< (3, n_leaflets): moment on each leaflet.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
   type(riis_flow_arrays) :: flow
@@ -3869,7 +4076,9 @@ subroutine riisf_add_leaflet_reaction_64(marks, R, half_thickness, rim, n_nodes,
       riis_reaction_init, riis_resistance, riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_POINT.
-  real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+  real(c_double), intent(in) :: R                         !< 0 to 1e60, in mass / (length time), such as kg/(m s). A flat
+                                                          !! closed valve in a flow of velocity u has a pressure drop of (R /
+                                                          !! eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -3879,10 +4088,13 @@ subroutine riisf_add_leaflet_reaction_64(marks, R, half_thickness, rim, n_nodes,
   real(c_double), intent(in) :: about(3)                  !< The reference point of moment and leaflet_moment; magnitude at
                                                           !! most 1e60. Usually 0.
   integer(int32), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
-  real(c_double), intent(inout) :: force(3)               !< The force on the whole surface is added.
-  real(c_double), intent(inout) :: moment(3)              !< The moment on the whole surface is added.
-  real(c_double), intent(inout) :: leaflet_force(3, *)    !< (3, n_leaflets): forces are added; leaflet 0 has column 1.
-  real(c_double), intent(inout) :: leaflet_moment(3, *)   !< (3, n_leaflets): moments are added.
+  real(c_double), intent(inout) :: force(3)               !< (3): force on the whole surface, in the unit of weight K velocity,
+                                                          !! N in SI units.
+  real(c_double), intent(inout) :: moment(3)              !< (3): moment on the whole surface.
+  real(c_double), intent(inout) :: leaflet_force(3, *)    !< (3, n_leaflets): force on each leaflet. A node belongs to the
+                                                          !! leaflet in riis_mark_list.leaflet_id, also if two leaflets are
+                                                          !! equally near.
+  real(c_double), intent(inout) :: leaflet_moment(3, *)   !< (3, n_leaflets): moment on each leaflet.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
   type(riis_flow_arrays) :: flow
@@ -3910,8 +4122,9 @@ subroutine riisf_add_leaflet_reaction_64(marks, R, half_thickness, rim, n_nodes,
 end subroutine riisf_add_leaflet_reaction_64
 
 !> Adds the force of the flow and its moment about a point, for the whole surface and for each leaflet. The force of a node acts
-!! at the closest point of the surface. Ranks pass the same point, and add their sums by a reduction. Errors: as for
-!! riisf_add_reaction; RIIS_INVALID_ARGUMENT also for too few leaflets, naming the leaflet id.
+!! at the closest point of the surface. Ranks pass the same point, and add their sums by a reduction. Errors: as
+!! riisf_add_resistance. RIIS_INVALID_ARGUMENT also for an n_leaflets that is too small (the message names the leaflet id), a
+!! leaflet without an edge, a bad edge, and a reaction without any sum.
 subroutine riisf_add_leaflet_reaction_components(marks, R, half_thickness, rim, n_nodes, vx, vy, vz, weight, about, &
     n_leaflets, force, moment, leaflet_force, leaflet_moment, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -3921,7 +4134,9 @@ subroutine riisf_add_leaflet_reaction_components(marks, R, half_thickness, rim, 
       riis_reaction_init, riis_resistance, riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_POINT.
-  real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+  real(c_double), intent(in) :: R                         !< 0 to 1e60, in mass / (length time), such as kg/(m s). A flat
+                                                          !! closed valve in a flow of velocity u has a pressure drop of (R /
+                                                          !! eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -3934,10 +4149,13 @@ subroutine riisf_add_leaflet_reaction_components(marks, R, half_thickness, rim, 
   real(c_double), intent(in) :: about(3)                  !< The reference point of moment and leaflet_moment; magnitude at
                                                           !! most 1e60. Usually 0.
   integer(int32), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
-  real(c_double), intent(inout) :: force(3)               !< The force on the whole surface is added.
-  real(c_double), intent(inout) :: moment(3)              !< The moment on the whole surface is added.
-  real(c_double), intent(inout) :: leaflet_force(3, *)    !< (3, n_leaflets): forces are added; leaflet 0 has column 1.
-  real(c_double), intent(inout) :: leaflet_moment(3, *)   !< (3, n_leaflets): moments are added.
+  real(c_double), intent(inout) :: force(3)               !< (3): force on the whole surface, in the unit of weight K velocity,
+                                                          !! N in SI units.
+  real(c_double), intent(inout) :: moment(3)              !< (3): moment on the whole surface.
+  real(c_double), intent(inout) :: leaflet_force(3, *)    !< (3, n_leaflets): force on each leaflet. A node belongs to the
+                                                          !! leaflet in riis_mark_list.leaflet_id, also if two leaflets are
+                                                          !! equally near.
+  real(c_double), intent(inout) :: leaflet_moment(3, *)   !< (3, n_leaflets): moment on each leaflet.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
   type(riis_flow_arrays) :: flow
@@ -3973,7 +4191,9 @@ subroutine riisf_add_leaflet_reaction_components_64(marks, R, half_thickness, ri
       riis_reaction_init, riis_resistance, riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_POINT.
-  real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+  real(c_double), intent(in) :: R                         !< 0 to 1e60, in mass / (length time), such as kg/(m s). A flat
+                                                          !! closed valve in a flow of velocity u has a pressure drop of (R /
+                                                          !! eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -3986,10 +4206,13 @@ subroutine riisf_add_leaflet_reaction_components_64(marks, R, half_thickness, ri
   real(c_double), intent(in) :: about(3)                  !< The reference point of moment and leaflet_moment; magnitude at
                                                           !! most 1e60. Usually 0.
   integer(int32), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
-  real(c_double), intent(inout) :: force(3)               !< The force on the whole surface is added.
-  real(c_double), intent(inout) :: moment(3)              !< The moment on the whole surface is added.
-  real(c_double), intent(inout) :: leaflet_force(3, *)    !< (3, n_leaflets): forces are added; leaflet 0 has column 1.
-  real(c_double), intent(inout) :: leaflet_moment(3, *)   !< (3, n_leaflets): moments are added.
+  real(c_double), intent(inout) :: force(3)               !< (3): force on the whole surface, in the unit of weight K velocity,
+                                                          !! N in SI units.
+  real(c_double), intent(inout) :: moment(3)              !< (3): moment on the whole surface.
+  real(c_double), intent(inout) :: leaflet_force(3, *)    !< (3, n_leaflets): force on each leaflet. A node belongs to the
+                                                          !! leaflet in riis_mark_list.leaflet_id, also if two leaflets are
+                                                          !! equally near.
+  real(c_double), intent(inout) :: leaflet_moment(3, *)   !< (3, n_leaflets): moment on each leaflet.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
   type(riis_flow_arrays) :: flow
@@ -4016,9 +4239,10 @@ subroutine riisf_add_leaflet_reaction_components_64(marks, R, half_thickness, ri
 end subroutine riisf_add_leaflet_reaction_components_64
 
 !> Adds the force of the flow, and its moment about the edge's middle, to edges. The force of a node goes to the edge nearest to
-!! its closest point, or to the first of several equally near edges. The sums of edges are loads for tissue codes. They do not
-!! model how a membrane carries loads to its edges. Ranks pass the same edges, and add their sums by a reduction. Errors: as for
-!! riisf_add_reaction; RIIS_INVALID_ARGUMENT also for a bad edge, and for a leaflet without an edge.
+!! its closest point. The sums of edges are loads for tissue codes. They do not model how a membrane carries loads to its edges.
+!! Ranks pass the same edges, and add their sums by a reduction. Errors: as riisf_add_resistance. RIIS_INVALID_ARGUMENT also for
+!! an n_leaflets that is too small (the message names the leaflet id), a leaflet without an edge, a bad edge, and a reaction
+!! without any sum.
 subroutine riisf_add_edge_reaction(marks, R, half_thickness, rim, n_nodes, velocity, weight, n_edges, edges, &
     edge_leaflet_id, edge_force, edge_moment, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -4028,7 +4252,9 @@ subroutine riisf_add_edge_reaction(marks, R, half_thickness, rim, n_nodes, veloc
       riis_reaction_init, riis_resistance, riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_POINT.
-  real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+  real(c_double), intent(in) :: R                         !< 0 to 1e60, in mass / (length time), such as kg/(m s). A flat
+                                                          !! closed valve in a flow of velocity u has a pressure drop of (R /
+                                                          !! eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -4036,12 +4262,17 @@ subroutine riisf_add_edge_reaction(marks, R, half_thickness, rim, n_nodes, veloc
   real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
   integer(int32), intent(in) :: n_edges                   !< At least 1.
-  real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge.
+  real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge, for example
+                                                          !! riis_attachment.edges; magnitude at most 1e60. An edge may have
+                                                          !! length 0.
   integer(int32), intent(in) :: edge_leaflet_id(*)        !< (n_edges): a node's force goes to the nearest edge of its leaflet.
                                                           !! If the first entry is -1, the other entries are not read, and each
                                                           !! edge serves all leaflets.
-  real(c_double), intent(inout) :: edge_force(3, *)       !< (3, n_edges): forces are added.
-  real(c_double), intent(inout) :: edge_moment(3, *)      !< (3, n_edges): moments about each edge's middle are added.
+  real(c_double), intent(inout) :: edge_force(3, *)       !< (3, n_edges): force of the nodes that count for the edge. The
+                                                          !! distance of an edge is measured from the node's closest point. If
+                                                          !! edges are equally near, the first one counts.
+  real(c_double), intent(inout) :: edge_moment(3, *)      !< (3, n_edges): moment of the same nodes about the middle of the
+                                                          !! edge.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
   type(riis_flow_arrays) :: flow
@@ -4077,7 +4308,9 @@ subroutine riisf_add_edge_reaction_64(marks, R, half_thickness, rim, n_nodes, ve
       riis_reaction_init, riis_resistance, riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_POINT.
-  real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+  real(c_double), intent(in) :: R                         !< 0 to 1e60, in mass / (length time), such as kg/(m s). A flat
+                                                          !! closed valve in a flow of velocity u has a pressure drop of (R /
+                                                          !! eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -4085,12 +4318,17 @@ subroutine riisf_add_edge_reaction_64(marks, R, half_thickness, rim, n_nodes, ve
   real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
   integer(int64), intent(in) :: n_edges                   !< At least 1.
-  real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge.
+  real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge, for example
+                                                          !! riis_attachment.edges; magnitude at most 1e60. An edge may have
+                                                          !! length 0.
   integer(int32), intent(in) :: edge_leaflet_id(*)        !< (n_edges): a node's force goes to the nearest edge of its leaflet.
                                                           !! If the first entry is -1, the other entries are not read, and each
                                                           !! edge serves all leaflets.
-  real(c_double), intent(inout) :: edge_force(3, *)       !< (3, n_edges): forces are added.
-  real(c_double), intent(inout) :: edge_moment(3, *)      !< (3, n_edges): moments about each edge's middle are added.
+  real(c_double), intent(inout) :: edge_force(3, *)       !< (3, n_edges): force of the nodes that count for the edge. The
+                                                          !! distance of an edge is measured from the node's closest point. If
+                                                          !! edges are equally near, the first one counts.
+  real(c_double), intent(inout) :: edge_moment(3, *)      !< (3, n_edges): moment of the same nodes about the middle of the
+                                                          !! edge.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
   type(riis_flow_arrays) :: flow
@@ -4117,9 +4355,10 @@ subroutine riisf_add_edge_reaction_64(marks, R, half_thickness, rim, n_nodes, ve
 end subroutine riisf_add_edge_reaction_64
 
 !> Adds the force of the flow, and its moment about the edge's middle, to edges. The force of a node goes to the edge nearest to
-!! its closest point, or to the first of several equally near edges. The sums of edges are loads for tissue codes. They do not
-!! model how a membrane carries loads to its edges. Ranks pass the same edges, and add their sums by a reduction. Errors: as for
-!! riisf_add_reaction; RIIS_INVALID_ARGUMENT also for a bad edge, and for a leaflet without an edge.
+!! its closest point. The sums of edges are loads for tissue codes. They do not model how a membrane carries loads to its edges.
+!! Ranks pass the same edges, and add their sums by a reduction. Errors: as riisf_add_resistance. RIIS_INVALID_ARGUMENT also for
+!! an n_leaflets that is too small (the message names the leaflet id), a leaflet without an edge, a bad edge, and a reaction
+!! without any sum.
 subroutine riisf_add_edge_reaction_components(marks, R, half_thickness, rim, n_nodes, vx, vy, vz, weight, n_edges, &
     edges, edge_leaflet_id, edge_force, edge_moment, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -4129,7 +4368,9 @@ subroutine riisf_add_edge_reaction_components(marks, R, half_thickness, rim, n_n
       riis_reaction_init, riis_resistance, riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_POINT.
-  real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+  real(c_double), intent(in) :: R                         !< 0 to 1e60, in mass / (length time), such as kg/(m s). A flat
+                                                          !! closed valve in a flow of velocity u has a pressure drop of (R /
+                                                          !! eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -4140,12 +4381,17 @@ subroutine riisf_add_edge_reaction_components(marks, R, half_thickness, rim, n_n
   real(c_double), intent(in) :: vz(*)                     !< (n_nodes), the z component.
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
   integer(int32), intent(in) :: n_edges                   !< At least 1.
-  real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge.
+  real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge, for example
+                                                          !! riis_attachment.edges; magnitude at most 1e60. An edge may have
+                                                          !! length 0.
   integer(int32), intent(in) :: edge_leaflet_id(*)        !< (n_edges): a node's force goes to the nearest edge of its leaflet.
                                                           !! If the first entry is -1, the other entries are not read, and each
                                                           !! edge serves all leaflets.
-  real(c_double), intent(inout) :: edge_force(3, *)       !< (3, n_edges): forces are added.
-  real(c_double), intent(inout) :: edge_moment(3, *)      !< (3, n_edges): moments about each edge's middle are added.
+  real(c_double), intent(inout) :: edge_force(3, *)       !< (3, n_edges): force of the nodes that count for the edge. The
+                                                          !! distance of an edge is measured from the node's closest point. If
+                                                          !! edges are equally near, the first one counts.
+  real(c_double), intent(inout) :: edge_moment(3, *)      !< (3, n_edges): moment of the same nodes about the middle of the
+                                                          !! edge.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
   type(riis_flow_arrays) :: flow
@@ -4180,7 +4426,9 @@ subroutine riisf_add_edge_reaction_components_64(marks, R, half_thickness, rim, 
       riis_reaction_init, riis_resistance, riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_POINT.
-  real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+  real(c_double), intent(in) :: R                         !< 0 to 1e60, in mass / (length time), such as kg/(m s). A flat
+                                                          !! closed valve in a flow of velocity u has a pressure drop of (R /
+                                                          !! eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -4191,12 +4439,17 @@ subroutine riisf_add_edge_reaction_components_64(marks, R, half_thickness, rim, 
   real(c_double), intent(in) :: vz(*)                     !< (n_nodes), the z component.
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
   integer(int64), intent(in) :: n_edges                   !< At least 1.
-  real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge.
+  real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge, for example
+                                                          !! riis_attachment.edges; magnitude at most 1e60. An edge may have
+                                                          !! length 0.
   integer(int32), intent(in) :: edge_leaflet_id(*)        !< (n_edges): a node's force goes to the nearest edge of its leaflet.
                                                           !! If the first entry is -1, the other entries are not read, and each
                                                           !! edge serves all leaflets.
-  real(c_double), intent(inout) :: edge_force(3, *)       !< (3, n_edges): forces are added.
-  real(c_double), intent(inout) :: edge_moment(3, *)      !< (3, n_edges): moments about each edge's middle are added.
+  real(c_double), intent(inout) :: edge_force(3, *)       !< (3, n_edges): force of the nodes that count for the edge. The
+                                                          !! distance of an edge is measured from the node's closest point. If
+                                                          !! edges are equally near, the first one counts.
+  real(c_double), intent(inout) :: edge_moment(3, *)      !< (3, n_edges): moment of the same nodes about the middle of the
+                                                          !! edge.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
   type(riis_flow_arrays) :: flow
@@ -4221,9 +4474,9 @@ subroutine riisf_add_edge_reaction_components_64(marks, R, half_thickness, rim, 
   status = riis_marks_add_reaction(c_handle_of(marks), resistance, flow, reaction)
 end subroutine riisf_add_edge_reaction_components_64
 
-!> Adds the force of the flow on each vertex of the surface. The force of a node goes to the vertices of its closest triangle.
-!! Ranks add their forces by a reduction. Errors: as for riisf_add_reaction; RIIS_INVALID_ARGUMENT also for another number of
-!! vertices, and for a surface that is not that of the marking.
+!> Adds the force of the flow on each vertex of the surface, so that a code for shells can move the leaflets. Errors: as
+!! riisf_add_reaction. RIIS_INVALID_ARGUMENT also for marks without RIIS_FIELD_BARYCENTRIC, another number of vertices, or a
+!! closest triangle that the surface lacks.
 subroutine riisf_add_vertex_reaction(marks, surface, R, half_thickness, rim, n_nodes, velocity, weight, n_vertices, &
     vertex_force, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -4233,8 +4486,10 @@ subroutine riisf_add_vertex_reaction(marks, surface, R, half_thickness, rim, n_n
       riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_BARYCENTRIC.
-  integer(int64), intent(in) :: surface                   !< The surface of the marking.
-  real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+  integer(int64), intent(in) :: surface                   !< The surface of the marking, without an update since then.
+  real(c_double), intent(in) :: R                         !< 0 to 1e60, in mass / (length time), such as kg/(m s). A flat
+                                                          !! closed valve in a flow of velocity u has a pressure drop of (R /
+                                                          !! eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -4242,7 +4497,9 @@ subroutine riisf_add_vertex_reaction(marks, surface, R, half_thickness, rim, n_n
   real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
   integer(int32), intent(in) :: n_vertices                !< The surface's number of vertices.
-  real(c_double), intent(inout) :: vertex_force(3, *)     !< (3, n_vertices): forces are added.
+  real(c_double), intent(inout) :: vertex_force(3, *)     !< (3, n_vertices): the array to which the forces are added. A node's
+                                                          !! force goes to the three vertices of its closest triangle, in the
+                                                          !! shares of the closest point's barycentric coordinates.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
   type(riis_flow_arrays) :: flow
@@ -4272,8 +4529,10 @@ subroutine riisf_add_vertex_reaction_64(marks, surface, R, half_thickness, rim, 
       riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_BARYCENTRIC.
-  integer(int64), intent(in) :: surface                   !< The surface of the marking.
-  real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+  integer(int64), intent(in) :: surface                   !< The surface of the marking, without an update since then.
+  real(c_double), intent(in) :: R                         !< 0 to 1e60, in mass / (length time), such as kg/(m s). A flat
+                                                          !! closed valve in a flow of velocity u has a pressure drop of (R /
+                                                          !! eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -4281,7 +4540,9 @@ subroutine riisf_add_vertex_reaction_64(marks, surface, R, half_thickness, rim, 
   real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
   integer(int64), intent(in) :: n_vertices                !< The surface's number of vertices.
-  real(c_double), intent(inout) :: vertex_force(3, *)     !< (3, n_vertices): forces are added.
+  real(c_double), intent(inout) :: vertex_force(3, *)     !< (3, n_vertices): the array to which the forces are added. A node's
+                                                          !! force goes to the three vertices of its closest triangle, in the
+                                                          !! shares of the closest point's barycentric coordinates.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
   type(riis_flow_arrays) :: flow
@@ -4301,9 +4562,9 @@ subroutine riisf_add_vertex_reaction_64(marks, surface, R, half_thickness, rim, 
       vertex_force)
 end subroutine riisf_add_vertex_reaction_64
 
-!> Adds the force of the flow on each vertex of the surface. The force of a node goes to the vertices of its closest triangle.
-!! Ranks add their forces by a reduction. Errors: as for riisf_add_reaction; RIIS_INVALID_ARGUMENT also for another number of
-!! vertices, and for a surface that is not that of the marking.
+!> Adds the force of the flow on each vertex of the surface, so that a code for shells can move the leaflets. Errors: as
+!! riisf_add_reaction. RIIS_INVALID_ARGUMENT also for marks without RIIS_FIELD_BARYCENTRIC, another number of vertices, or a
+!! closest triangle that the surface lacks.
 subroutine riisf_add_vertex_reaction_components(marks, surface, R, half_thickness, rim, n_nodes, vx, vy, vz, weight, &
     n_vertices, vertex_force, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -4313,8 +4574,10 @@ subroutine riisf_add_vertex_reaction_components(marks, surface, R, half_thicknes
       riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_BARYCENTRIC.
-  integer(int64), intent(in) :: surface                   !< The surface of the marking.
-  real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+  integer(int64), intent(in) :: surface                   !< The surface of the marking, without an update since then.
+  real(c_double), intent(in) :: R                         !< 0 to 1e60, in mass / (length time), such as kg/(m s). A flat
+                                                          !! closed valve in a flow of velocity u has a pressure drop of (R /
+                                                          !! eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -4325,7 +4588,9 @@ subroutine riisf_add_vertex_reaction_components(marks, surface, R, half_thicknes
   real(c_double), intent(in) :: vz(*)                     !< (n_nodes), the z component.
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
   integer(int32), intent(in) :: n_vertices                !< The surface's number of vertices.
-  real(c_double), intent(inout) :: vertex_force(3, *)     !< (3, n_vertices): forces are added.
+  real(c_double), intent(inout) :: vertex_force(3, *)     !< (3, n_vertices): the array to which the forces are added. A node's
+                                                          !! force goes to the three vertices of its closest triangle, in the
+                                                          !! shares of the closest point's barycentric coordinates.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
   type(riis_flow_arrays) :: flow
@@ -4354,8 +4619,10 @@ subroutine riisf_add_vertex_reaction_components_64(marks, surface, R, half_thick
       riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_BARYCENTRIC.
-  integer(int64), intent(in) :: surface                   !< The surface of the marking.
-  real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+  integer(int64), intent(in) :: surface                   !< The surface of the marking, without an update since then.
+  real(c_double), intent(in) :: R                         !< 0 to 1e60, in mass / (length time), such as kg/(m s). A flat
+                                                          !! closed valve in a flow of velocity u has a pressure drop of (R /
+                                                          !! eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -4366,7 +4633,9 @@ subroutine riisf_add_vertex_reaction_components_64(marks, surface, R, half_thick
   real(c_double), intent(in) :: vz(*)                     !< (n_nodes), the z component.
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
   integer(int64), intent(in) :: n_vertices                !< The surface's number of vertices.
-  real(c_double), intent(inout) :: vertex_force(3, *)     !< (3, n_vertices): forces are added.
+  real(c_double), intent(inout) :: vertex_force(3, *)     !< (3, n_vertices): the array to which the forces are added. A node's
+                                                          !! force goes to the three vertices of its closest triangle, in the
+                                                          !! shares of the closest point's barycentric coordinates.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
   type(riis_flow_arrays) :: flow
@@ -4385,9 +4654,10 @@ subroutine riisf_add_vertex_reaction_components_64(marks, surface, R, half_thick
       vertex_force)
 end subroutine riisf_add_vertex_reaction_components_64
 
-!> Sums a value, such as the pressure, over the nodes at a distance from inner to outer, separately for each side. Nodes whose
-!! closest point is on the rim, or that are on neither side, are left out. If the valve is open, the two sides have no meaning.
-!! Errors: RIIS_INVALID_ARGUMENT for a distance out of range, another number of nodes, or a field that the marks lack.
+!> Gives the sums of the value over the nodes in the band, by side. Nodes whose closest point is on the rim, and nodes with side
+!! 0, are left out. With an open valve the two sides have no meaning. With the offset o of the surface, the distance is |s - o
+!! eps|, and the sign of s - o eps is the side. Here s is the signed distance, and eps is the half thickness of the marking.
+!! Errors: RIIS_INVALID_ARGUMENT also for a field that the marks lack.
 subroutine riisf_band_sums(marks, inner, outer, n_nodes, value, weight, sum_of_values, sum_of_weights, n_in_band, &
     status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -4397,13 +4667,14 @@ subroutine riisf_band_sums(marks, inner, outer, n_nodes, value, weight, sum_of_v
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_SIDE and _RIM.
   real(c_double), intent(in) :: inner                     !< Mesh units, from 0 to outer.
-  real(c_double), intent(in) :: outer                     !< Mesh units, at most the distance limit of the marking.
+  real(c_double), intent(in) :: outer                     !< Mesh units. With the offset o, outer + |o| eps is at most the
+                                                          !! distance limit of the marking.
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(in) :: value(*)                  !< (n_nodes), such as the pressure.
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
   real(c_double), intent(inout) :: sum_of_values(2)       !< The sum of weight * value: 1 is upstream, 2 downstream.
   real(c_double), intent(inout) :: sum_of_weights(2)      !< The sum of weight.
-  integer(int64), intent(inout) :: n_in_band(2)           !< The number of nodes. INTEGER*8.
+  integer(int64), intent(inout) :: n_in_band(2)           !< Nodes in the band.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_band) :: band
   type(riis_band_sums) :: sums
@@ -4431,13 +4702,14 @@ subroutine riisf_band_sums_64(marks, inner, outer, n_nodes, value, weight, sum_o
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_SIDE and _RIM.
   real(c_double), intent(in) :: inner                     !< Mesh units, from 0 to outer.
-  real(c_double), intent(in) :: outer                     !< Mesh units, at most the distance limit of the marking.
+  real(c_double), intent(in) :: outer                     !< Mesh units. With the offset o, outer + |o| eps is at most the
+                                                          !! distance limit of the marking.
   integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(in) :: value(*)                  !< (n_nodes), such as the pressure.
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
   real(c_double), intent(inout) :: sum_of_values(2)       !< The sum of weight * value: 1 is upstream, 2 downstream.
   real(c_double), intent(inout) :: sum_of_weights(2)      !< The sum of weight.
-  integer(int64), intent(inout) :: n_in_band(2)           !< The number of nodes. INTEGER*8.
+  integer(int64), intent(inout) :: n_in_band(2)           !< Nodes in the band.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_band) :: band
   type(riis_band_sums) :: sums
@@ -4459,8 +4731,8 @@ end subroutine riisf_band_sums_64
 ! Loads of tissue
 ! -----------------------------------------------------------------------------------------------------------------
 
-!> Adds the sums over nodes of tissue that riisf_loads_forces needs. Ranks add their sums by a reduction. Errors:
-!! RIIS_INVALID_ARGUMENT naming the argument, or the edge, node or weight, counted from 0.
+!> Adds the sums over nodes of tissue that riisf_loads_forces needs. Errors: RIIS_INVALID_ARGUMENT naming the field, or the edge,
+!! node or weight and its value.
 subroutine riisf_loads_sums(radius, n_edges, edges, edge_leaflet_id, n_nodes, xyz, weight, n_leaflets, sums, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32
@@ -4468,11 +4740,12 @@ subroutine riisf_loads_sums(radius, n_edges, edges, edge_leaflet_id, n_nodes, xy
   use riis_c, only: RIIS_OK, riis_loads, riis_loads_add_sums, riis_loads_init, riis_points, riis_points_init, &
       riis_status
   implicit none
-  real(c_double), intent(in) :: radius                    !< Mesh units: nodes nearer than this to a leaflet's edges get its
-                                                          !! force.
+  real(c_double), intent(in) :: radius                    !< Mesh units, 1e-50 to 1e50. A leaflet's force acts at the nodes
+                                                          !! that are nearer to the leaflet's edges than the radius.
   integer(int32), intent(in) :: n_edges                   !< At least 1.
-  real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge, as from
-                                                          !! riisf_surface_attachment.
+  real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge, for example
+                                                          !! riis_attachment.edges; magnitude at most 1e60. An edge may have
+                                                          !! length 0.
   integer(int32), intent(in) :: edge_leaflet_id(*)        !< (n_edges): the leaflet that the edge holds. If the first entry is
                                                           !! -1, the other entries are not read, and each edge holds all
                                                           !! leaflets.
@@ -4481,7 +4754,7 @@ subroutine riisf_loads_sums(radius, n_edges, edges, edge_leaflet_id, n_nodes, xy
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), the area or volume around a node, 0 for nodes of other
                                                           !! ranks.
   integer(int32), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
-  real(c_double), intent(inout) :: sums(11, *)            !< (11, n_leaflets): sums are added.
+  real(c_double), intent(inout) :: sums(11, *)            !< (11, n_leaflets): the array to which the sums are added.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_loads) :: loads
   type(riis_points) :: nodes
@@ -4509,11 +4782,12 @@ subroutine riisf_loads_sums_64(radius, n_edges, edges, edge_leaflet_id, n_nodes,
   use riis_c, only: RIIS_OK, riis_loads, riis_loads_add_sums, riis_loads_init, riis_points, riis_points_init, &
       riis_status
   implicit none
-  real(c_double), intent(in) :: radius                    !< Mesh units: nodes nearer than this to a leaflet's edges get its
-                                                          !! force.
+  real(c_double), intent(in) :: radius                    !< Mesh units, 1e-50 to 1e50. A leaflet's force acts at the nodes
+                                                          !! that are nearer to the leaflet's edges than the radius.
   integer(int64), intent(in) :: n_edges                   !< At least 1.
-  real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge, as from
-                                                          !! riisf_surface_attachment.
+  real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge, for example
+                                                          !! riis_attachment.edges; magnitude at most 1e60. An edge may have
+                                                          !! length 0.
   integer(int32), intent(in) :: edge_leaflet_id(*)        !< (n_edges): the leaflet that the edge holds. If the first entry is
                                                           !! -1, the other entries are not read, and each edge holds all
                                                           !! leaflets.
@@ -4522,7 +4796,7 @@ subroutine riisf_loads_sums_64(radius, n_edges, edges, edge_leaflet_id, n_nodes,
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), the area or volume around a node, 0 for nodes of other
                                                           !! ranks.
   integer(int64), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
-  real(c_double), intent(inout) :: sums(11, *)            !< (11, n_leaflets): sums are added.
+  real(c_double), intent(inout) :: sums(11, *)            !< (11, n_leaflets): the array to which the sums are added.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_loads) :: loads
   type(riis_points) :: nodes
@@ -4542,9 +4816,12 @@ subroutine riisf_loads_sums_64(radius, n_edges, edges, edge_leaflet_id, n_nodes,
   status = riis_loads_add_sums(loads, nodes, weight, sums)
 end subroutine riisf_loads_sums_64
 
-!> Adds the forces of the leaflets at nodes of tissue. Their sum and moment are those of the leaflets. Errors: as for
-!! riisf_loads_sums; RIIS_INVALID_ARGUMENT also for a leaflet with fewer than three nodes within the radius, and for one whose
-!! nodes lie nearly on a line.
+!> Adds the forces of the leaflets at nodes of tissue. The forces of a leaflet have the sum leaflet_force and the moment
+!! leaflet_moment, up to rounding. Errors: as riisf_loads_sums. RIIS_INVALID_ARGUMENT also for a leaflet with a force or a
+!! moment, if fewer than three nodes lie within the radius, or if these nodes lie nearly on a line. Nodes lie nearly on a line if
+!! their root-mean-square distance from the line is less than a hundredth of their root-mean-square distance from their middle.
+!! Nodes also lie nearly on a line if their root-mean-square distance from the line is less than a thousandth of the size of the
+!! edges (docs/theory/loads.md).
 subroutine riisf_loads_forces(radius, n_edges, edges, edge_leaflet_id, n_nodes, xyz, weight, n_leaflets, about, &
     leaflet_force, leaflet_moment, sums, node_force, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -4553,11 +4830,12 @@ subroutine riisf_loads_forces(radius, n_edges, edges, edge_leaflet_id, n_nodes, 
   use riis_c, only: RIIS_OK, riis_loads, riis_loads_add_forces, riis_loads_init, riis_points, riis_points_init, &
       riis_status
   implicit none
-  real(c_double), intent(in) :: radius                    !< Mesh units: nodes nearer than this to a leaflet's edges get its
-                                                          !! force.
+  real(c_double), intent(in) :: radius                    !< Mesh units, 1e-50 to 1e50. A leaflet's force acts at the nodes
+                                                          !! that are nearer to the leaflet's edges than the radius.
   integer(int32), intent(in) :: n_edges                   !< At least 1.
-  real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge, as from
-                                                          !! riisf_surface_attachment.
+  real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge, for example
+                                                          !! riis_attachment.edges; magnitude at most 1e60. An edge may have
+                                                          !! length 0.
   integer(int32), intent(in) :: edge_leaflet_id(*)        !< (n_edges): the leaflet that the edge holds. If the first entry is
                                                           !! -1, the other entries are not read, and each edge holds all
                                                           !! leaflets.
@@ -4571,7 +4849,7 @@ subroutine riisf_loads_forces(radius, n_edges, edges, edge_leaflet_id, n_nodes, 
                                                           !! ranks.
   real(c_double), intent(in) :: leaflet_moment(3, *)      !< (3, n_leaflets): from riisf_add_leaflet_reaction, the sum over all
                                                           !! ranks.
-  real(c_double), intent(in) :: sums(11, *)               !< (11, n_leaflets): from riisf_loads_sums, the sum over all ranks.
+  real(c_double), intent(in) :: sums(11, *)               !< (11, n_leaflets): of riisf_loads_sums, added up over all ranks.
   real(c_double), intent(inout) :: node_force(3, *)       !< (3, n_nodes): forces are added.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_loads) :: loads
@@ -4604,11 +4882,12 @@ subroutine riisf_loads_forces_64(radius, n_edges, edges, edge_leaflet_id, n_node
   use riis_c, only: RIIS_OK, riis_loads, riis_loads_add_forces, riis_loads_init, riis_points, riis_points_init, &
       riis_status
   implicit none
-  real(c_double), intent(in) :: radius                    !< Mesh units: nodes nearer than this to a leaflet's edges get its
-                                                          !! force.
+  real(c_double), intent(in) :: radius                    !< Mesh units, 1e-50 to 1e50. A leaflet's force acts at the nodes
+                                                          !! that are nearer to the leaflet's edges than the radius.
   integer(int64), intent(in) :: n_edges                   !< At least 1.
-  real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge, as from
-                                                          !! riisf_surface_attachment.
+  real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge, for example
+                                                          !! riis_attachment.edges; magnitude at most 1e60. An edge may have
+                                                          !! length 0.
   integer(int32), intent(in) :: edge_leaflet_id(*)        !< (n_edges): the leaflet that the edge holds. If the first entry is
                                                           !! -1, the other entries are not read, and each edge holds all
                                                           !! leaflets.
@@ -4622,7 +4901,7 @@ subroutine riisf_loads_forces_64(radius, n_edges, edges, edge_leaflet_id, n_node
                                                           !! ranks.
   real(c_double), intent(in) :: leaflet_moment(3, *)      !< (3, n_leaflets): from riisf_add_leaflet_reaction, the sum over all
                                                           !! ranks.
-  real(c_double), intent(in) :: sums(11, *)               !< (11, n_leaflets): from riisf_loads_sums, the sum over all ranks.
+  real(c_double), intent(in) :: sums(11, *)               !< (11, n_leaflets): of riisf_loads_sums, added up over all ranks.
   real(c_double), intent(inout) :: node_force(3, *)       !< (3, n_nodes): forces are added.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_loads) :: loads
@@ -4650,9 +4929,9 @@ end subroutine riisf_loads_forces_64
 ! Leaks
 ! -----------------------------------------------------------------------------------------------------------------
 
-!> Finds every edge of the mesh's adjacency that leaks: it crosses the surface between two unmarked nodes. Edges that are at most
-!! two half thicknesses long do not leak. Gaps of the surface itself are not found. Errors: RIIS_INVALID_ARGUMENT if the mesh has
-!! no adjacency, or if the marks do not come from a marking with this mesh and half thickness.
+!> Finds the leaking edges: edges of the mesh's adjacency between two unmarked nodes that cross or touch a triangle of the
+!! surface. Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, and for marks that no marking has filled, or that have
+!! another number of nodes or half thickness. RIIS_INVALID_MESH as riisf_mark_nodes.
 subroutine riisf_find_leaks(surface, mesh, marks, n_threads, leaks, n_edges, longest, middle, half_thickness, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -4660,16 +4939,19 @@ subroutine riisf_find_leaks(surface, mesh, marks, n_threads, leaks, n_edges, lon
   use riis_c, only: RIIS_OK, riis_find_leaks, riis_leak_list, riis_leaks_create, riis_leaks_destroy, &
       riis_leaks_get_list, riis_mark_options, riis_mark_options_init, riis_status
   implicit none
-  integer(int64), intent(in) :: surface                   !< The surface of the marking.
-  integer(int64), intent(in) :: mesh                      !< The mesh of the marking, with an adjacency.
-  integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
+  integer(int64), intent(in) :: surface                   !< The surface and the mesh of the marking. The mesh must have an
+                                                          !! adjacency.
+  integer(int64), intent(in) :: mesh                      !< The surface and the mesh of the marking. The mesh must have an
+                                                          !! adjacency.
+  integer(int64), intent(in) :: marks                     !< Marks from riisf_mark_nodes.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int64), intent(inout) :: leaks                  !< 0, which creates them, or from an earlier call.
-  integer(int64), intent(inout) :: n_edges                !< The number of edges that leak, INTEGER*8.
+  integer(int64), intent(inout) :: n_edges                !< The number of edges that leak. If this number is 0, node ids are
+                                                          !! -1, and all other fields except seconds are 0.
   real(c_double), intent(inout) :: longest                !< The length of the longest edge; 0 if none leaks.
   real(c_double), intent(inout) :: middle(3)              !< The middle of the longest edge.
-  real(c_double), intent(inout) :: half_thickness         !< The smallest half thickness that closes all edges; 0 if none
-                                                          !! leaks.
+  real(c_double), intent(inout) :: half_thickness         !< The smallest half thickness that gives each edge a marked node,
+                                                          !! for these triangles.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_mark_options) :: options
   type(riis_leak_list) :: list
@@ -4692,8 +4974,7 @@ subroutine riisf_find_leaks(surface, mesh, marks, n_threads, leaks, n_edges, lon
   half_thickness = list%half_thickness
 end subroutine riisf_find_leaks
 
-!> Copies the edges of the last riisf_find_leaks into the caller's array, ascending. Errors: RIIS_INVALID_ARGUMENT if the array
-!! is too short; only n is then written.
+!> Copies the edges of the last riisf_find_leaks, ascending.
 subroutine riisf_leaking_edges(leaks, length, n, node_num, status)
   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -4703,6 +4984,7 @@ subroutine riisf_leaking_edges(leaks, length, n, node_num, status)
   implicit none
   integer(int64), intent(in) :: leaks                     !< From riisf_find_leaks.
   integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
+                                                          !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
   integer(int32), intent(inout) :: n                      !< The number of edges that leak, even if an array is too short.
   integer(int32), intent(inout) :: node_num(2, *)         !< (2, length): the two nodes, the lower id first, from 1; written up
                                                           !! to n.
@@ -4736,6 +5018,7 @@ subroutine riisf_leaking_edges_64(leaks, length, n, node_num, status)
   implicit none
   integer(int64), intent(in) :: leaks                     !< From riisf_find_leaks.
   integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
+                                                          !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
   integer(int64), intent(inout) :: n                      !< The number of edges that leak, even if an array is too short.
   integer(int64), intent(inout) :: node_num(2, *)         !< (2, length): the two nodes, the lower id first, from 1; written up
                                                           !! to n.
@@ -4755,7 +5038,7 @@ subroutine riisf_leaking_edges_64(leaks, length, n, node_num, status)
   node_num(:, :n) = int(c_node_num + 1, int64)
 end subroutine riisf_leaking_edges_64
 
-!> Destroys the leaks and sets their handle to 0. Nothing happens to a handle that is 0.
+!> Destroys the leaks and their list. The handle becomes 0. Nothing happens to a handle that is 0.
 subroutine riisf_leaks_destroy(handle)
   use, intrinsic :: iso_c_binding, only: c_ptr
   use, intrinsic :: iso_fortran_env, only: int64
@@ -4769,9 +5052,9 @@ subroutine riisf_leaks_destroy(handle)
   handle = handle_of(c_handle)
 end subroutine riisf_leaks_destroy
 
-!> Labels the open regions. They are the connected components of unmarked nodes along the edges of the mesh's adjacency. Edges to
-!! ghost nodes are ignored. Errors: RIIS_INVALID_ARGUMENT if the mesh has no adjacency, or if the marks do not come from a
-!! marking with this mesh.
+!> Labels the open regions: the connected components of the nodes that a marking left unmarked, along mesh edges. Errors:
+!! RIIS_INVALID_ARGUMENT for a mesh without adjacency, and for marks that no marking has filled, or that have another number of
+!! nodes.
 subroutine riisf_label_open_regions(mesh, marks, n_threads, n_nodes, region_num, n_regions, status)
   use, intrinsic :: iso_c_binding, only: c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -4779,7 +5062,7 @@ subroutine riisf_label_open_regions(mesh, marks, n_threads, n_nodes, region_num,
   use riis_c, only: RIIS_OK, riis_label_open_regions, riis_mark_options, riis_mark_options_init, riis_status
   implicit none
   integer(int64), intent(in) :: mesh                      !< The mesh of the marking, with an adjacency.
-  integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
+  integer(int64), intent(in) :: marks                     !< Marks from riisf_mark_nodes.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int32), intent(in) :: n_nodes                   !< The number of nodes of the marking.
   integer(int32), intent(inout) :: region_num(*)          !< (n_nodes): the lowest node of the node's region, counted from 1; 0
@@ -4811,7 +5094,7 @@ subroutine riisf_label_open_regions_64(mesh, marks, n_threads, n_nodes, region_n
   use riis_c, only: RIIS_OK, riis_label_open_regions, riis_mark_options, riis_mark_options_init, riis_status
   implicit none
   integer(int64), intent(in) :: mesh                      !< The mesh of the marking, with an adjacency.
-  integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
+  integer(int64), intent(in) :: marks                     !< Marks from riisf_mark_nodes.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int64), intent(in) :: n_nodes                   !< The number of nodes of the marking.
   integer(int64), intent(inout) :: region_num(*)          !< (n_nodes): the lowest node of the node's region, counted from 1; 0
@@ -4827,9 +5110,9 @@ subroutine riisf_label_open_regions_64(mesh, marks, n_threads, n_nodes, region_n
   region_num(:n_nodes) = region_num(:n_nodes) + 1
 end subroutine riisf_label_open_regions_64
 
-!> Finds the widest passage from one set of nodes to another. It is the path, along the edges of the mesh's adjacency, whose
-!! smallest distance to the surface is largest. A path includes its ends. Errors: RIIS_INVALID_ARGUMENT if the mesh has no
-!! adjacency, or for a node that the mesh lacks, or that is within the half thickness.
+!> Finds the widest passage along the edges of the mesh's adjacency, whether it is open or closed. Errors: RIIS_INVALID_ARGUMENT
+!! for a mesh without adjacency; also if a node of from or to is not in the mesh, is left out by node_mask, or is within the half
+!! thickness. RIIS_INVALID_MESH as riisf_mark_nodes.
 subroutine riisf_find_passage(surface, mesh, n_from, from_num, n_to, to_num, n_threads, state, node_num, distance, &
     point, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_loc, c_ptr, c_sizeof
@@ -4838,12 +5121,14 @@ subroutine riisf_find_passage(surface, mesh, n_from, from_num, n_to, to_num, n_t
   use riis_c, only: RIIS_OK, riis_find_passage, riis_mark_options, riis_mark_options_init, riis_passage, &
       riis_passage_ends, riis_passage_ends_init, riis_status
   implicit none
-  integer(int64), intent(in) :: surface                   !< A surface.
-  integer(int64), intent(in) :: mesh                      !< A mesh with an adjacency. A marking is not needed.
+  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int64), intent(in) :: mesh                      !< Must have an adjacency, and need not have been marked.
   integer(int32), intent(in) :: n_from                    !< At least 1.
-  integer(int32), intent(in) :: from_num(n_from)          !< Nodes where paths begin, counted from 1, in any order.
+  integer(int32), intent(in) :: from_num(n_from)          !< (n_from), node ids in any order: where paths begin. Counted from
+                                                          !! 1.
   integer(int32), intent(in) :: n_to                      !< At least 1.
-  integer(int32), intent(in) :: to_num(n_to)              !< Nodes where paths end.
+  integer(int32), intent(in) :: to_num(n_to)              !< (n_to), node ids in any order: where paths end. A node in both
+                                                          !! sets is a path by itself. Counted from 1.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int32), intent(inout) :: state                  !< RIIS_PASSAGE_*.
   integer(int32), intent(inout) :: node_num               !< The path's node nearest to the surface, from 1; 0 without a path.
@@ -4887,12 +5172,14 @@ subroutine riisf_find_passage_64(surface, mesh, n_from, from_num, n_to, to_num, 
   use riis_c, only: RIIS_OK, riis_find_passage, riis_mark_options, riis_mark_options_init, riis_passage, &
       riis_passage_ends, riis_passage_ends_init, riis_status
   implicit none
-  integer(int64), intent(in) :: surface                   !< A surface.
-  integer(int64), intent(in) :: mesh                      !< A mesh with an adjacency. A marking is not needed.
+  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int64), intent(in) :: mesh                      !< Must have an adjacency, and need not have been marked.
   integer(int64), intent(in) :: n_from                    !< At least 1.
-  integer(int64), intent(in) :: from_num(n_from)          !< Nodes where paths begin, counted from 1, in any order.
+  integer(int64), intent(in) :: from_num(n_from)          !< (n_from), node ids in any order: where paths begin. Counted from
+                                                          !! 1.
   integer(int64), intent(in) :: n_to                      !< At least 1.
-  integer(int64), intent(in) :: to_num(n_to)              !< Nodes where paths end.
+  integer(int64), intent(in) :: to_num(n_to)              !< (n_to), node ids in any order: where paths end. A node in both
+                                                          !! sets is a path by itself. Counted from 1.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int32), intent(inout) :: state                  !< RIIS_PASSAGE_*.
   integer(int64), intent(inout) :: node_num               !< The path's node nearest to the surface, from 1; 0 without a path.
@@ -4931,8 +5218,7 @@ end subroutine riisf_find_passage_64
 ! Crossings
 ! -----------------------------------------------------------------------------------------------------------------
 
-!> Finds every pair of the surface's triangles that go through each other by more than a depth. Triangles of one leaflet that
-!! share a vertex do not count as a pair. Errors: RIIS_INVALID_ARGUMENT naming the depth or n_threads.
+!> Finds every pair of the surface's triangles that go through each other. Errors: RIIS_INVALID_ARGUMENT naming the field.
 subroutine riisf_find_crossings(surface, depth, n_threads, crossings, n_pairs, length, deepest, point, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -4943,12 +5229,13 @@ subroutine riisf_find_crossings(surface, depth, n_threads, crossings, n_pairs, l
   integer(int64), intent(in) :: surface                   !< Must be created.
   real(c_double), intent(in) :: depth                     !< Half thicknesses, 0 to 1, usually 1e-6: pairs up to this depth
                                                           !! count as touching.
-  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: 1 per 4096 triangles, at most 1 per processor.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int64), intent(inout) :: crossings              !< 0, which creates them, or from an earlier call.
-  integer(int64), intent(inout) :: n_pairs                !< The number of pairs that cross, INTEGER*8.
+  integer(int64), intent(inout) :: n_pairs                !< The number of pairs that cross. If this number is 0, ids are -1,
+                                                          !! and all other fields except seconds are 0.
   real(c_double), intent(inout) :: length                 !< The total length of their intersections.
-  real(c_double), intent(inout) :: deepest                !< The depth of the deepest pair. If several pairs are equally deep,
-                                                          !! the first pair counts.
+  real(c_double), intent(inout) :: deepest                !< The depth of the deepest pair. Of several equally deep pairs, the
+                                                          !! first one counts.
   real(c_double), intent(inout) :: point(3)               !< The middle of the deepest pair's intersection.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_crossing_options) :: options
@@ -4972,7 +5259,7 @@ subroutine riisf_find_crossings(surface, depth, n_threads, crossings, n_pairs, l
   point = list%deepest_point
 end subroutine riisf_find_crossings
 
-!> Destroys the crossings and sets their handle to 0. Nothing happens to a handle that is 0.
+!> Destroys the crossings and their list. The handle becomes 0. Nothing happens to a handle that is 0.
 subroutine riisf_crossings_destroy(handle)
   use, intrinsic :: iso_c_binding, only: c_ptr
   use, intrinsic :: iso_fortran_env, only: int64
@@ -4986,8 +5273,7 @@ subroutine riisf_crossings_destroy(handle)
   handle = handle_of(c_handle)
 end subroutine riisf_crossings_destroy
 
-!> Copies the pairs of the last riisf_find_crossings into the caller's arrays, ascending. Errors: RIIS_INVALID_ARGUMENT if the
-!! arrays are too short; only n is then written.
+!> Copies the pairs of the last riisf_find_crossings, ascending.
 subroutine riisf_crossing_pairs(crossings, length, n, triangle_num, point, depth, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -4997,6 +5283,7 @@ subroutine riisf_crossing_pairs(crossings, length, n, triangle_num, point, depth
   implicit none
   integer(int64), intent(in) :: crossings                 !< From riisf_find_crossings.
   integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
+                                                          !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
   integer(int32), intent(inout) :: n                      !< The number of pairs that cross, even if an array is too short.
   integer(int32), intent(inout) :: triangle_num(2, *)     !< (2, length): the two triangles, the lower id first, from 1;
                                                           !! written up to n.
@@ -5039,6 +5326,7 @@ subroutine riisf_crossing_pairs_64(crossings, length, n, triangle_num, point, de
   implicit none
   integer(int64), intent(in) :: crossings                 !< From riisf_find_crossings.
   integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
+                                                          !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
   integer(int64), intent(inout) :: n                      !< The number of pairs that cross, even if an array is too short.
   integer(int64), intent(inout) :: triangle_num(2, *)     !< (2, length): the two triangles, the lower id first, from 1;
                                                           !! written up to n.
@@ -5086,7 +5374,7 @@ subroutine riisf_surface_n_leaflets(surface, n_leaflets, status)
   n_leaflets = int(c_n_leaflets, int32)
 end subroutine riisf_surface_n_leaflets
 
-!> Gives the sizes of a leaflet. Errors: RIIS_INVALID_ARGUMENT for a leaflet that the surface lacks.
+!> Gives the sizes of a leaflet.
 subroutine riisf_surface_leaflet(surface, leaflet_num, leaflet_id, area, free_edge, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -5095,13 +5383,13 @@ subroutine riisf_surface_leaflet(surface, leaflet_num, leaflet_id, area, free_ed
   implicit none
   integer(int64), intent(in) :: surface                   !< Must be created.
   integer(int32), intent(in) :: leaflet_num               !< 1 to n_leaflets, ascending by leaflet_id.
-  integer(int32), intent(inout) :: leaflet_id             !< From 0.
+  integer(int32), intent(inout) :: leaflet_id             !< As in riis_triangles.
   real(c_double), intent(inout) :: area                   !< The area of its triangles.
-  real(c_double), intent(inout) :: free_edge              !< The length of its free edge, which consists of the sides v = 1
-                                                          !! that belong to only one patch of the leaflet. In a surface from
-                                                          !! arrays, the free edge consists of all open edges except the
-                                                          !! longest closed line of open edges. An open edge belongs to only
-                                                          !! one triangle. 0 for a skirt.
+  real(c_double), intent(inout) :: free_edge              !< The length of its free edge: the sides v = 1 that belong to only
+                                                          !! one patch of the leaflet. A surface from arrays has no patches:
+                                                          !! its free edge is all open edges except the longest closed line of
+                                                          !! open edges. An open edge belongs to only one triangle. 0 for a
+                                                          !! skirt.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_leaflet) :: sizes
   status = riis_surface_get_leaflet(c_handle_of(surface), int(leaflet_num, int64) - 1, sizes, c_sizeof(sizes))
@@ -5111,7 +5399,7 @@ subroutine riisf_surface_leaflet(surface, leaflet_num, leaflet_id, area, free_ed
   free_edge = sizes%free_edge
 end subroutine riisf_surface_leaflet
 
-!> Measures the orifice of a surface, along its axis. Errors: RIIS_INVALID_ARGUMENT for an argument out of range.
+!> Measures the orifice of a surface.
 subroutine riisf_surface_orifice(surface, half_thickness, rim, area, outline_area, perimeter, effective_area, outline, &
     status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -5129,10 +5417,10 @@ subroutine riisf_surface_orifice(surface, half_thickness, rim, area, outline_are
                                                           !! first moved inwards by a tenth of the half thickness, so that
                                                           !! narrow slits do not count. Parts of the edge on the outline are
                                                           !! walls and do not count.
-  real(c_double), intent(inout) :: effective_area         !< The area through which the flow can pass beside the band around
-                                                          !! the valve. The edge along the triangles is moved inwards by
-                                                          !! rim_reach * half_thickness. To first order the effective area is
-                                                          !! area - rim_reach * half_thickness * perimeter, but never below 0.
+  real(c_double), intent(inout) :: effective_area         !< The area that the band around the valve leaves to the flow. The
+                                                          !! edge along the triangles is moved inwards by rim_reach *
+                                                          !! half_thickness. To first order the effective area is area -
+                                                          !! rim_reach * half_thickness * perimeter, but never below 0.
   integer(int32), intent(inout) :: outline                !< RIIS_OUTLINE_*.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
@@ -5150,8 +5438,9 @@ subroutine riisf_surface_orifice(surface, half_thickness, rim, area, outline_are
   outline = orifice%outline
 end subroutine riisf_surface_orifice
 
-!> Measures the orifice of a surface inside a wall. Errors: RIIS_INVALID_ARGUMENT for an argument out of range, and for a wall
-!! whose open edges do not surround a centre.
+!> Measures the orifice inside a wall, for leaflets that do not reach it, such as the leaflets of a mechanical valve from arrays.
+!! The wall is a ring or a tube around the leaflets. The longest connected line of open edges of the wall gives the outline and
+!! the axis (docs/theory/measures.md, 'Outline'). The other arguments are as in riisf_surface_orifice.
 subroutine riisf_surface_orifice_in_wall(surface, wall, half_thickness, rim, area, outline_area, perimeter, &
     effective_area, outline, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -5161,7 +5450,8 @@ subroutine riisf_surface_orifice_in_wall(surface, wall, half_thickness, rim, are
       riis_surface_get_orifice_in_wall
   implicit none
   integer(int64), intent(in) :: surface                   !< Must be created.
-  integer(int64), intent(in) :: wall                      !< A ring or a tube in the same frame.
+  integer(int64), intent(in) :: wall                      !< In the frame of the surface. RIIS_INVALID_ARGUMENT if the wall's
+                                                          !! line does not surround a centre.
   real(c_double), intent(in) :: half_thickness            !< eps of the resistance; RIIS_AUTO: the surface's.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_*, usually RIIS_RIM_ROUND.
   real(c_double), intent(inout) :: area                   !< The area of the orifice. Without an outline, all fields but axis
@@ -5171,10 +5461,10 @@ subroutine riisf_surface_orifice_in_wall(surface, wall, half_thickness, rim, are
                                                           !! first moved inwards by a tenth of the half thickness, so that
                                                           !! narrow slits do not count. Parts of the edge on the outline are
                                                           !! walls and do not count.
-  real(c_double), intent(inout) :: effective_area         !< The area through which the flow can pass beside the band around
-                                                          !! the valve. The edge along the triangles is moved inwards by
-                                                          !! rim_reach * half_thickness. To first order the effective area is
-                                                          !! area - rim_reach * half_thickness * perimeter, but never below 0.
+  real(c_double), intent(inout) :: effective_area         !< The area that the band around the valve leaves to the flow. The
+                                                          !! edge along the triangles is moved inwards by rim_reach *
+                                                          !! half_thickness. To first order the effective area is area -
+                                                          !! rim_reach * half_thickness * perimeter, but never below 0.
   integer(int32), intent(inout) :: outline                !< RIIS_OUTLINE_*.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
@@ -5193,8 +5483,8 @@ subroutine riisf_surface_orifice_in_wall(surface, wall, half_thickness, rim, are
   outline = orifice%outline
 end subroutine riisf_surface_orifice_in_wall
 
-!> Measures the coaptation of leaflets: the area and the length of free edge that lie within reach of another leaflet. Errors:
-!! RIIS_INVALID_ARGUMENT for a leaflet that the surface lacks, and for a reach out of range.
+!> Measures the coaptation. The bileaflet housing and a skirt are no leaflets, and touch nothing. Errors: RIIS_INVALID_ARGUMENT
+!! for a leaflet that the surface lacks, and for a reach out of range.
 subroutine riisf_surface_coaptation(surface, reach, leaflet_id, area, edge, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -5202,8 +5492,9 @@ subroutine riisf_surface_coaptation(surface, reach, leaflet_id, area, edge, stat
   use riis_c, only: RIIS_OK, riis_coaptation, riis_status, riis_surface_get_coaptation
   implicit none
   integer(int64), intent(in) :: surface                   !< Must be created.
-  real(c_double), intent(in) :: reach                     !< Mesh units; RIIS_AUTO: the surface's half thickness.
-  integer(int32), intent(in) :: leaflet_id                !< From 0; RIIS_ALL_LEAFLETS: the sum over all leaflets.
+  real(c_double), intent(in) :: reach                     !< 1e-50 to 1e50. RIIS_AUTO stands for the surface's half thickness.
+  integer(int32), intent(in) :: leaflet_id                !< As in riis_triangles, or RIIS_ALL_LEAFLETS for the sum over all
+                                                          !! leaflets, which counts a contact from both sides.
   real(c_double), intent(inout) :: area                   !< The area of the leaflet's triangles within reach of another
                                                           !! leaflet.
   real(c_double), intent(inout) :: edge                   !< The length of the part of its free edge (riis_leaflet) within
@@ -5216,20 +5507,21 @@ subroutine riisf_surface_coaptation(surface, reach, leaflet_id, area, edge, stat
   edge = coaptation%edge
 end subroutine riisf_surface_coaptation
 
-!> Measures the gap between the attachment of a valve and a wall, along the direction of a skirt. Errors: RIIS_INVALID_ARGUMENT
-!! for a surface from arrays, and for one without an attachment.
+!> Measures the gap between a valve's attachment and a wall, such as a patient's vessel. Errors: RIIS_INVALID_ARGUMENT for a
+!! surface without an attachment, and for an attachment that encloses no area.
 subroutine riisf_surface_gap(surface, wall, least, mean, most, missed, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
   use riis_support, only: c_handle_of
   use riis_c, only: RIIS_OK, riis_gap, riis_status, riis_surface_get_gap
   implicit none
-  integer(int64), intent(in) :: surface                   !< A surface made from a valve.
-  integer(int64), intent(in) :: wall                      !< A surface in the same frame.
+  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int64), intent(in) :: wall                      !< A surface in the same frame, usually by riisf_surface_from_arrays.
   real(c_double), intent(inout) :: least                  !< The least gap; negative where the wall is inside.
   real(c_double), intent(inout) :: mean                   !< The mean along the attachment.
   real(c_double), intent(inout) :: most                   !< The widest gap.
-  integer(int32), intent(inout) :: missed                 !< The number of ends of edges whose line misses the wall.
+  integer(int32), intent(inout) :: missed                 !< The number of ends whose line misses the wall. These ends count in
+                                                          !! no other field.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_gap) :: gap
   status = riis_surface_get_gap(c_handle_of(surface), c_handle_of(wall), gap=gap, struct_size=c_sizeof(gap))
@@ -5240,8 +5532,9 @@ subroutine riisf_surface_gap(surface, wall, least, mean, most, missed, status)
   missed = int(gap%n_without_wall, int32)
 end subroutine riisf_surface_gap
 
-!> Gives a valve a skirt that reaches a wall, and no farther. Errors: RIIS_INVALID_ARGUMENT for a wall that is missed or farther
-!! than longest; RIIS_INVALID_PARAMETER for a bileaflet valve, and for an attachment that encloses no area.
+!> Gives a valve a skirt that just reaches a wall, and replaces the valve's skirt. Errors: RIIS_INVALID_ARGUMENT if the wall is
+!! missed or farther than longest, naming the first such point. RIIS_INVALID_PARAMETER for a bileaflet valve, and for an
+!! attachment that encloses no area.
 subroutine riisf_valve_skirt_to_wall(valve, wall, longest, half_thickness, tolerance, scale, rotation_axis, &
     rotation_angle, translation, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -5250,15 +5543,20 @@ subroutine riisf_valve_skirt_to_wall(valve, wall, longest, half_thickness, toler
   use riis_c, only: RIIS_OK, riis_status, riis_surface_options, riis_surface_options_init, riis_valve_set_skirt_to_wall
   implicit none
   integer(int64), intent(in) :: valve                     !< Must be created.
-  integer(int64), intent(in) :: wall                      !< A surface in the frame of the placed valve.
-  real(c_double), intent(in) :: longest                   !< The longest length to accept, mesh units.
-  real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
-  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most
+  integer(int64), intent(in) :: wall                      !< As in riisf_surface_gap.
+  real(c_double), intent(in) :: longest                   !< The longest length to accept, mesh units, 1e-50 to 1e50.
+  real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
+                                                          !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
+                                                          !! its smooth surface differ by at most tolerance * half_thickness
+                                                          !! (docs/theory.md).
+  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
+  real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
+                                                          !! usually 0.
+  real(c_double), intent(in) :: translation(3)            !< Mesh units; -1e50 to 1e50, usually 0. Refused for a valve if
+                                                          !! coordinates would be rounded by more than a thousandth of
                                                           !! tolerance * half_thickness.
-  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
-  real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
-  real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
-  real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for no translation.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_options) :: options
   status = riis_surface_options_init(options, c_sizeof(options))
@@ -5272,19 +5570,22 @@ subroutine riisf_valve_skirt_to_wall(valve, wall, longest, half_thickness, toler
   status = riis_valve_set_skirt_to_wall(c_handle_of(valve), c_handle_of(wall), longest, options)
 end subroutine riisf_valve_skirt_to_wall
 
-!> Tells the ideal leak of a closed surface: the volume flow through it at a pressure drop. The flow is drop * (eps / R) * area.
-!! The bileaflet housing does not count. Errors: RIIS_INVALID_ARGUMENT for an argument out of range.
+!> Gives the ideal leak of a closed surface: the volume flow drop * (eps / R) * area that a pressure drop causes. The bileaflet
+!! housing does not count in the area. With an offset o, the surface is first moved by o eps along its normals, and the area of
+!! the moved surface counts. The leak in a solver differs from the ideal (docs/solvers.md). Errors: RIIS_INVALID_ARGUMENT naming
+!! the field or argument and its value.
 subroutine riisf_surface_leak(surface, R, half_thickness, drop, flow, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int64
   use riis_support, only: c_handle_of
   use riis_c, only: RIIS_OK, riis_resistance, riis_resistance_init, riis_status, riis_surface_get_leak
   implicit none
-  integer(int64), intent(in) :: surface                   !< Must be created and closed.
+  integer(int64), intent(in) :: surface                   !< Must be created.
   real(c_double), intent(in) :: R                         !< 1e-60 to 1e60, mass / (length time): kg/(m s).
   real(c_double), intent(in) :: half_thickness            !< eps of the resistance; RIIS_AUTO: the surface's.
-  real(c_double), intent(in) :: drop                      !< Upstream minus downstream pressure, magnitude at most 1e30.
-  real(c_double), intent(inout) :: flow                   !< Written on success.
+  real(c_double), intent(in) :: drop                      !< Upstream pressure minus downstream pressure, magnitude at most
+                                                          !! 1e30.
+  real(c_double), intent(inout) :: flow                   !< In the unit of drop * area * eps / R, which is m^3/s in SI units.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
   status = riis_resistance_init(resistance, c_sizeof(resistance))
@@ -5294,15 +5595,16 @@ subroutine riisf_surface_leak(surface, R, half_thickness, drop, flow, status)
   status = riis_surface_get_leak(c_handle_of(surface), resistance, drop, flow)
 end subroutine riisf_surface_leak
 
-!> Gives the number of mesh edges across the band around the surface, from the lengths of the edges with a marked node. Errors:
-!! RIIS_INVALID_ARGUMENT for a mesh without an adjacency, and for marks that do not come from a marking with this mesh.
+!> Computes the number of mesh edges across the band. An edge counts once, whether one or both of its nodes list it. Edges to
+!! ghosts and edges of length 0 do not count. Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, for empty marks, and
+!! for marks with another number of nodes. RIIS_INVALID_MESH as riisf_mark_nodes.
 subroutine riisf_cells_across(marks, mesh, least, mean, most, mean_edge, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int64
   use riis_support, only: c_handle_of
   use riis_c, only: RIIS_OK, riis_cells_across, riis_marks_get_cells_across, riis_status
   implicit none
-  integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
+  integer(int64), intent(in) :: marks                     !< Marks from riisf_mark_nodes.
   integer(int64), intent(in) :: mesh                      !< The mesh of the marking, with an adjacency.
   real(c_double), intent(inout) :: least                  !< 2 half thicknesses / longest edge; 0 without an edge.
   real(c_double), intent(inout) :: mean                   !< 2 half thicknesses / mean edge.
@@ -5318,20 +5620,22 @@ subroutine riisf_cells_across(marks, mesh, least, mean, most, mean_edge, status)
   mean_edge = cells%mean_edge
 end subroutine riisf_cells_across
 
-!> Gives the volume that a valve sweeps between two openings: the integral of u_surface . n over surface and time, positive along
-!! the normals. Errors: RIIS_INVALID_ARGUMENT for an opening out of range and for a leaflet that the valve lacks;
-!! RIIS_INVALID_PARAMETER for parameters that do not fit together, and for a valve with one state unless both are 0.
+!> Gives the volume that the valve sweeps between two openings, in mesh units cubed. The volume is the integral of u_surface . n
+!! over surface and time, positive along the normals. In a flow the valve displaces less blood, because blood slips past the
+!! leaflets. Errors: RIIS_INVALID_ARGUMENT for an opening out of range and for a leaflet that the valve lacks.
+!! RIIS_INVALID_PARAMETER for inconsistent parameters, and for a valve with one state if an opening is above 0.
 subroutine riisf_valve_swept_volume(valve, opening_from, opening_to, scale, leaflet_id, volume, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
   use riis_support, only: c_handle_of
   use riis_c, only: RIIS_OK, riis_status, riis_surface_options, riis_surface_options_init, riis_valve_get_swept_volume
   implicit none
-  integer(int64), intent(in) :: valve                     !< Must be created. Its own opening has no effect.
-  real(c_double), intent(in) :: opening_from              !< 0 to 1.
-  real(c_double), intent(in) :: opening_to                !< 0 to 1.
+  integer(int64), intent(in) :: valve                     !< Must be created.
+  real(c_double), intent(in) :: opening_from              !< 0 to 1. The valve's own opening is ignored.
+  real(c_double), intent(in) :: opening_to                !< 0 to 1. The valve's own opening is ignored.
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
-  integer(int32), intent(in) :: leaflet_id                !< RIIS_LEAFLET_* or RIIS_ALL_LEAFLETS.
+  integer(int32), intent(in) :: leaflet_id                !< RIIS_LEAFLET_*, or the id of a patch's leaflet, or
+                                                          !! RIIS_ALL_LEAFLETS.
   real(c_double), intent(inout) :: volume                 !< Written on success, mesh units cubed.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_options) :: options
@@ -5341,10 +5645,11 @@ subroutine riisf_valve_swept_volume(valve, opening_from, opening_to, scale, leaf
   status = riis_valve_get_swept_volume(c_handle_of(valve), opening_from, opening_to, options, leaflet_id, volume)
 end subroutine riisf_valve_swept_volume
 
-!> Finds the openings, or the sizes, at which the orifice of a valve has given areas. Of several openings the least is taken, and
-!! of several sizes the one nearest to the present size. Effective areas are those of a round rim. Errors: RIIS_INVALID_ARGUMENT
-!! naming the area, counted from 0, and the range if it is out of reach; RIIS_INVALID_PARAMETER for a name that is unknown, has
-!! three values or does not change the area, and for a valve with one state or no orifice.
+!> Finds the openings, or the sizes, at which the orifice of a valve has given areas (docs/theory/measures.md, 'From an area to a
+!! valve'). Errors: RIIS_INVALID_ARGUMENT naming the area. If the area is out of reach, the message names the range.
+!! RIIS_INVALID_PARAMETER for an unknown name, for a parameter with three values, for a valve with one state or no orifice, and
+!! if the name does not change the area. If riisf_surface_create fails inside the call, the message also names the opening or
+!! size. On an error nothing is written.
 subroutine riisf_find_by_area(valve, name, n_areas, areas, half_thickness, tolerance, scale, rotation_axis, &
     rotation_angle, translation, n_threads, area_kind, values, reached, least, most, n_turns, status)
   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_loc, c_ptr, c_sizeof
@@ -5353,19 +5658,25 @@ subroutine riisf_find_by_area(valve, name, n_areas, areas, half_thickness, toler
   use riis_c, only: RIIS_OK, riis_area_range, riis_area_search, riis_area_search_init, riis_find_by_area, riis_status, &
       riis_surface_options, riis_surface_options_init
   implicit none
-  integer(int64), intent(in) :: valve                     !< Must be created. Its own opening has no effect on openings.
-  character(len=*), intent(in) :: name                    !< 'opening', 'scale' or a parameter with one value.
-  integer(int32), intent(in) :: n_areas                   !< At least 0.
-  real(c_double), intent(in) :: areas(*)                  !< (n_areas), mesh units squared.
-  real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
-  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most
+  integer(int64), intent(in) :: valve                     !< Its own opening is ignored if openings are found.
+  character(len=*), intent(in) :: name                    !< 'opening', 'scale' of the placement, or a parameter with one value
+                                                          !! in riisf_valve_get.
+  integer(int32), intent(in) :: n_areas                   !< 0 to 1,000,000.
+  real(c_double), intent(in) :: areas(*)                  !< (n_areas), 0 to 1e120, mesh units squared.
+  real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
+                                                          !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
+                                                          !! its smooth surface differ by at most tolerance * half_thickness
+                                                          !! (docs/theory.md).
+  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
+  real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
+                                                          !! usually 0.
+  real(c_double), intent(in) :: translation(3)            !< Mesh units; -1e50 to 1e50, usually 0. Refused for a valve if
+                                                          !! coordinates would be rounded by more than a thousandth of
                                                           !! tolerance * half_thickness.
-  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
-  real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
-  real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
-  real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for no translation.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
-  integer(int32), intent(in) :: area_kind                 !< RIIS_AREA_GEOMETRIC or RIIS_AREA_EFFECTIVE.
+  integer(int32), intent(in) :: area_kind                 !< RIIS_AREA_*, usually RIIS_AREA_GEOMETRIC.
   real(c_double), intent(inout) :: values(*)              !< (n_areas): the openings or sizes.
   real(c_double), intent(inout) :: reached(*)             !< (n_areas): the areas at these values.
   real(c_double), intent(inout) :: least                  !< The least area that can be reached.
@@ -5407,19 +5718,25 @@ subroutine riisf_find_by_area_64(valve, name, n_areas, areas, half_thickness, to
   use riis_c, only: RIIS_OK, riis_area_range, riis_area_search, riis_area_search_init, riis_find_by_area, riis_status, &
       riis_surface_options, riis_surface_options_init
   implicit none
-  integer(int64), intent(in) :: valve                     !< Must be created. Its own opening has no effect on openings.
-  character(len=*), intent(in) :: name                    !< 'opening', 'scale' or a parameter with one value.
-  integer(int64), intent(in) :: n_areas                   !< At least 0.
-  real(c_double), intent(in) :: areas(*)                  !< (n_areas), mesh units squared.
-  real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
-  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most
+  integer(int64), intent(in) :: valve                     !< Its own opening is ignored if openings are found.
+  character(len=*), intent(in) :: name                    !< 'opening', 'scale' of the placement, or a parameter with one value
+                                                          !! in riisf_valve_get.
+  integer(int64), intent(in) :: n_areas                   !< 0 to 1,000,000.
+  real(c_double), intent(in) :: areas(*)                  !< (n_areas), 0 to 1e120, mesh units squared.
+  real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
+                                                          !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
+                                                          !! its smooth surface differ by at most tolerance * half_thickness
+                                                          !! (docs/theory.md).
+  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
+  real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
+                                                          !! usually 0.
+  real(c_double), intent(in) :: translation(3)            !< Mesh units; -1e50 to 1e50, usually 0. Refused for a valve if
+                                                          !! coordinates would be rounded by more than a thousandth of
                                                           !! tolerance * half_thickness.
-  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
-  real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
-  real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
-  real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for no translation.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
-  integer(int32), intent(in) :: area_kind                 !< RIIS_AREA_GEOMETRIC or RIIS_AREA_EFFECTIVE.
+  integer(int32), intent(in) :: area_kind                 !< RIIS_AREA_*, usually RIIS_AREA_GEOMETRIC.
   real(c_double), intent(inout) :: values(*)              !< (n_areas): the openings or sizes.
   real(c_double), intent(inout) :: reached(*)             !< (n_areas): the areas at these values.
   real(c_double), intent(inout) :: least                  !< The least area that can be reached.
@@ -5452,8 +5769,8 @@ subroutine riisf_find_by_area_64(valve, name, n_areas, areas, half_thickness, to
   n_turns = range%n_turns
 end subroutine riisf_find_by_area_64
 
-!> Finds the opening at which riisf_find_passage first finds a passage: it tries 0, 1/8, 2/8, ... until one is open, and then
-!! halves the last step. Errors: those of riisf_surface_create and riisf_find_passage, with the opening.
+!> Finds the opening at which riisf_find_passage first finds a passage. Errors: the errors of riisf_surface_create and
+!! riisf_find_passage, with the opening. RIIS_INVALID_PARAMETER for a valve with only one state.
 subroutine riisf_find_first_passage(valve, mesh, n_from, from_num, n_to, to_num, half_thickness, tolerance, scale, &
     rotation_axis, rotation_angle, translation, opening_tolerance, n_threads, state, opening, closed_opening, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_loc, c_ptr, c_sizeof
@@ -5463,25 +5780,32 @@ subroutine riisf_find_first_passage(valve, mesh, n_from, from_num, n_to, to_num,
       riis_first_passage_options_init, riis_mark_options, riis_mark_options_init, riis_passage_ends, &
       riis_passage_ends_init, riis_status, riis_surface_options, riis_surface_options_init
   implicit none
-  integer(int64), intent(in) :: valve                     !< Must be created. Its own opening has no effect.
-  integer(int64), intent(in) :: mesh                      !< A mesh with an adjacency. A marking is not needed.
+  integer(int64), intent(in) :: valve                     !< Its own opening is ignored.
+  integer(int64), intent(in) :: mesh                      !< Must have an adjacency, and need not have been marked.
   integer(int32), intent(in) :: n_from                    !< At least 1.
-  integer(int32), intent(in) :: from_num(n_from)          !< Nodes where paths begin, counted from 1, in any order.
+  integer(int32), intent(in) :: from_num(n_from)          !< (n_from), node ids in any order: where paths begin. Counted from
+                                                          !! 1.
   integer(int32), intent(in) :: n_to                      !< At least 1.
-  integer(int32), intent(in) :: to_num(n_to)              !< Nodes where paths end.
-  real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
-  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most
+  integer(int32), intent(in) :: to_num(n_to)              !< (n_to), node ids in any order: where paths end. A node in both
+                                                          !! sets is a path by itself. Counted from 1.
+  real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
+                                                          !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
+                                                          !! its smooth surface differ by at most tolerance * half_thickness
+                                                          !! (docs/theory.md).
+  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
+  real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
+                                                          !! usually 0.
+  real(c_double), intent(in) :: translation(3)            !< Mesh units; -1e50 to 1e50, usually 0. Refused for a valve if
+                                                          !! coordinates would be rounded by more than a thousandth of
                                                           !! tolerance * half_thickness.
-  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
-  real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
-  real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
-  real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for no translation.
   real(c_double), intent(in) :: opening_tolerance         !< Tolerance of the opening, 1e-6 to 1. Usually 1e-3.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int32), intent(inout) :: state                  !< RIIS_FIRST_PASSAGE_*.
   real(c_double), intent(inout) :: opening                !< The opening that was tried and has a passage.
-  real(c_double), intent(inout) :: closed_opening         !< The largest opening below `opening` that was found closed, with
-                                                          !! FOUND; else `opening`.
+  real(c_double), intent(inout) :: closed_opening         !< FOUND: the largest opening below `opening` at which no passage was
+                                                          !! found. Else: `opening`.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   integer(int64), allocatable, target :: c_from_num(:)
   integer(int64), allocatable, target :: c_to_num(:)
@@ -5533,25 +5857,32 @@ subroutine riisf_find_first_passage_64(valve, mesh, n_from, from_num, n_to, to_n
       riis_first_passage_options_init, riis_mark_options, riis_mark_options_init, riis_passage_ends, &
       riis_passage_ends_init, riis_status, riis_surface_options, riis_surface_options_init
   implicit none
-  integer(int64), intent(in) :: valve                     !< Must be created. Its own opening has no effect.
-  integer(int64), intent(in) :: mesh                      !< A mesh with an adjacency. A marking is not needed.
+  integer(int64), intent(in) :: valve                     !< Its own opening is ignored.
+  integer(int64), intent(in) :: mesh                      !< Must have an adjacency, and need not have been marked.
   integer(int64), intent(in) :: n_from                    !< At least 1.
-  integer(int64), intent(in) :: from_num(n_from)          !< Nodes where paths begin, counted from 1, in any order.
+  integer(int64), intent(in) :: from_num(n_from)          !< (n_from), node ids in any order: where paths begin. Counted from
+                                                          !! 1.
   integer(int64), intent(in) :: n_to                      !< At least 1.
-  integer(int64), intent(in) :: to_num(n_to)              !< Nodes where paths end.
-  real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
-  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most
+  integer(int64), intent(in) :: to_num(n_to)              !< (n_to), node ids in any order: where paths end. A node in both
+                                                          !! sets is a path by itself. Counted from 1.
+  real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
+                                                          !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
+                                                          !! its smooth surface differ by at most tolerance * half_thickness
+                                                          !! (docs/theory.md).
+  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
+  real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
+                                                          !! usually 0.
+  real(c_double), intent(in) :: translation(3)            !< Mesh units; -1e50 to 1e50, usually 0. Refused for a valve if
+                                                          !! coordinates would be rounded by more than a thousandth of
                                                           !! tolerance * half_thickness.
-  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
-  real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
-  real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
-  real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for no translation.
   real(c_double), intent(in) :: opening_tolerance         !< Tolerance of the opening, 1e-6 to 1. Usually 1e-3.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int32), intent(inout) :: state                  !< RIIS_FIRST_PASSAGE_*.
   real(c_double), intent(inout) :: opening                !< The opening that was tried and has a passage.
-  real(c_double), intent(inout) :: closed_opening         !< The largest opening below `opening` that was found closed, with
-                                                          !! FOUND; else `opening`.
+  real(c_double), intent(inout) :: closed_opening         !< FOUND: the largest opening below `opening` at which no passage was
+                                                          !! found. Else: `opening`.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   integer(int64), allocatable, target :: c_from_num(:)
   integer(int64), allocatable, target :: c_to_num(:)
@@ -5596,12 +5927,12 @@ end subroutine riisf_find_first_passage_64
 ! -----------------------------------------------------------------------------------------------------------------
 ! Laws of opening
 ! The same arguments give the same bits, and nothing is kept between calls. Times, pressures and flows have the solver's units.
-! The pressure difference is upstream pressure minus downstream pressure, and flow is positive downstream, so positive values of
-! both open a valve. A state is an array. If a restart file contains it, unformatted or in full precision, the law continues
-! with the same bits. To repeat a step, start from a copy of the state. The rate is the derivative of the opening by time.
+! laws.h has the formulas. Positive values of the pressure difference and of the flow open a valve. A state is an array. If a
+! restart file contains it, unformatted or in full precision, the law continues with the same bits. To repeat a step, start from
+! a copy of the state. The rate is the derivative of the opening by time.
 ! -----------------------------------------------------------------------------------------------------------------
 
-!> Gives the opening at a time from a table of keys. Errors: RIIS_INVALID_ARGUMENT naming the key, counted from 0, and its value.
+!> Gives the opening of a table at a time. Errors: RIIS_INVALID_ARGUMENT naming the field, the key and its value.
 subroutine riisf_opening_from_table(n_keys, key_time, key_opening, period, interpolation, time, opening, rate, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32
@@ -5611,10 +5942,10 @@ subroutine riisf_opening_from_table(n_keys, key_time, key_opening, period, inter
   integer(int32), intent(in) :: n_keys                    !< 1 to 1,000,000.
   real(c_double), intent(in) :: key_time(*)               !< (n_keys), strictly ascending, magnitude at most 1e30.
   real(c_double), intent(in) :: key_opening(*)            !< (n_keys), 0 to 1.
-  real(c_double), intent(in) :: period                    !< Above 0, the table repeats with this period. All keys lie within
-                                                          !! one period of the first key. If the last key is one period after
-                                                          !! the first, it must have the same opening. 0: the opening is
-                                                          !! constant before the first key and after the last.
+  real(c_double), intent(in) :: period                    !< > 0: the table repeats. All keys lie within one period of the
+                                                          !! first key. If the last key is one period after the first, it must
+                                                          !! have the same opening. 0: the opening is constant before the first
+                                                          !! key and after the last.
   integer(int32), intent(in) :: interpolation             !< RIIS_INTERPOLATION_*, usually RIIS_INTERPOLATION_LINEAR.
   real(c_double), intent(in) :: time                      !< Magnitude at most 1e30.
   real(c_double), intent(inout) :: opening                !< Written on success.
@@ -5631,22 +5962,20 @@ subroutine riisf_opening_from_table(n_keys, key_time, key_opening, period, inter
   status = riis_opening_from_table(table, time, opening, rate)
 end subroutine riisf_opening_from_table
 
-!> Gives the opening at a time from the times of opening and closing. The ramps are of fifth degree: neither the rate nor its
-!! derivative jumps. Errors: RIIS_INVALID_ARGUMENT naming the argument and its value.
+!> Gives the opening at a time by the times of the ramps. Errors: RIIS_INVALID_ARGUMENT naming the field and its value.
 subroutine riisf_opening_from_times(opening_start, opening_duration, closing_start, closing_duration, closed, open, &
     period, time, opening, rate, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use riis_c, only: RIIS_OK, riis_opening_from_times, riis_opening_times, riis_opening_times_init, riis_status
   implicit none
-  real(c_double), intent(in) :: opening_start             !< The time at which the valve begins to open.
+  real(c_double), intent(in) :: opening_start             !< When the valve begins to open.
   real(c_double), intent(in) :: opening_duration          !< How long opening takes, > 0.
-  real(c_double), intent(in) :: closing_start             !< The time at which the valve begins to close, at least
-                                                          !! opening_start + opening_duration.
+  real(c_double), intent(in) :: closing_start             !< When the valve begins to close, at least opening_start +
+                                                          !! opening_duration.
   real(c_double), intent(in) :: closing_duration          !< How long closing takes, > 0.
-  real(c_double), intent(in) :: closed                    !< The opening when closed, 0 to 1; usually 0.
-  real(c_double), intent(in) :: open                      !< The opening when open, 0 to 1; usually 1.
-  real(c_double), intent(in) :: period                    !< Above 0, the valve opens and closes once in each period. 0: only
-                                                          !! once.
+  real(c_double), intent(in) :: closed                    !< The opening when closed and when open, 0 to 1. Usually 0 and 1.
+  real(c_double), intent(in) :: open                      !< The opening when closed and when open, 0 to 1. Usually 0 and 1.
+  real(c_double), intent(in) :: period                    !< > 0: the valve opens and closes once in each period. 0: only once.
   real(c_double), intent(in) :: time                      !< Magnitude at most 1e30.
   real(c_double), intent(inout) :: opening                !< Written on success.
   real(c_double), intent(inout) :: rate                   !< Written on success.
@@ -5664,14 +5993,14 @@ subroutine riisf_opening_from_times(opening_start, opening_duration, closing_sta
   status = riis_opening_from_times(times, time, opening, rate)
 end subroutine riisf_opening_from_times
 
-!> Fills the state of a switch with a closed valve at time 0.
+!> Fills state with a closed valve at time 0.
 subroutine riisf_opening_switch_init(state, phase, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32
   use riis_c, only: RIIS_OK, riis_opening_switch_state, riis_opening_switch_state_init, riis_status
   implicit none
   real(c_double), intent(inout) :: state(7)               !< As for riisf_opening_switch_advance.
-  integer(int32), intent(inout) :: phase                  !< RIIS_PHASE_CLOSING.
+  integer(int32), intent(inout) :: phase                  !< RIIS_PHASE_*.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_opening_switch_state) :: the_state
   status = riis_opening_switch_state_init(the_state, c_sizeof(the_state))
@@ -5681,9 +6010,9 @@ subroutine riisf_opening_switch_init(state, phase, status)
   phase = the_state%phase
 end subroutine riisf_opening_switch_init
 
-!> Advances a switch to a time. The valve opens when the pressure difference exceeds open_above, and closes when the flow falls
-!! below close_below. The phase changes at the end of the step in which this happens, so the opening is accurate to first order
-!! in the time step. Errors: RIIS_INVALID_ARGUMENT naming the argument and its value.
+!> Advances a switch to a time. The switch's phase changes at the end of the step in which the condition is met. The opening is
+!! therefore accurate to first order in the length of steps. Errors: RIIS_INVALID_ARGUMENT naming the field or argument and its
+!! value.
 subroutine riisf_opening_switch_advance(opening_duration, closing_duration, open_above, close_below, filter_time, &
     dwell_time, time, pressure_difference, flow, state, phase, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -5691,20 +6020,21 @@ subroutine riisf_opening_switch_advance(opening_duration, closing_duration, open
   use riis_c, only: RIIS_OK, riis_opening_switch, riis_opening_switch_advance, riis_opening_switch_init, &
       riis_opening_switch_state, riis_opening_switch_state_init, riis_status
   implicit none
-  real(c_double), intent(in) :: opening_duration          !< The time that the valve takes to open, > 0.
-  real(c_double), intent(in) :: closing_duration          !< The time that the valve takes to close, > 0.
+  real(c_double), intent(in) :: opening_duration          !< Time from closed to open, > 0.
+  real(c_double), intent(in) :: closing_duration          !< Time from open to closed, > 0.
   real(c_double), intent(in) :: open_above                !< Pressure difference. Usually 0.
   real(c_double), intent(in) :: close_below               !< Flow. Usually 0.
-  real(c_double), intent(in) :: filter_time               !< The time constant of the filter of pressure difference and flow,
-                                                          !! >= 0. 0: no filter.
-  real(c_double), intent(in) :: dwell_time                !< The shortest time between two changes of phase, >= 0. Usually 0.
+  real(c_double), intent(in) :: filter_time               !< Time constant of a filter of pressure difference and flow, >= 0.
+                                                          !! 0: no filter.
+  real(c_double), intent(in) :: dwell_time                !< The least time from one change of phase to the next, >= 0. Usually
+                                                          !! 0.
   real(c_double), intent(in) :: time                      !< At least state(1).
-  real(c_double), intent(in) :: pressure_difference       !< Upstream minus downstream, at the given time.
-  real(c_double), intent(in) :: flow                      !< Positive downstream, at the given time.
+  real(c_double), intent(in) :: pressure_difference       !< At that time, magnitude at most 1e30.
+  real(c_double), intent(in) :: flow                      !< At that time, magnitude at most 1e30.
   real(c_double), intent(inout) :: state(7)               !< Time, opening, rate, progress, filtered pressure difference,
                                                           !! filtered flow, time of the last change of phase (NaN: none yet).
                                                           !! Written on success.
-  integer(int32), intent(inout) :: phase                  !< RIIS_PHASE_*, a part of the state. Written on success.
+  integer(int32), intent(inout) :: phase                  !< RIIS_PHASE_*.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_opening_switch) :: law
   type(riis_opening_switch_state) :: before
@@ -5733,7 +6063,7 @@ subroutine riisf_opening_switch_advance(opening_duration, closing_duration, open
   phase = now%phase
 end subroutine riisf_opening_switch_advance
 
-!> Fills the state of an angle law with a closed valve at rest, at time 0. Its angle 0 means angle_min.
+!> Fills state with a closed valve at rest, at time 0. Until the first step, the angle 0 of this state stands for angle_min.
 subroutine riisf_opening_angle_init(state, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use riis_c, only: RIIS_OK, riis_opening_angle_state, riis_opening_angle_state_init, riis_status
@@ -5747,11 +6077,10 @@ subroutine riisf_opening_angle_init(state, status)
       the_state%pressure_difference, the_state%flow]
 end subroutine riisf_opening_angle_init
 
-!> Advances the angle law of Korakianitis and Shi (2006) to a time: angle'' = -friction angle' + (pressure_gain dp + flow_gain Q)
-!! cos(angle) - vortex_gain max(Q, 0) sin(2 angle), in radians, between stops that absorb all speed. The paper's values, for
-!! mmHg, ml and s: pressure_gain 5500, flow_gain 2, friction 50, vortex_gain 7 for the aortic and 3.5 for the mitral valve.
-!! Errors: RIIS_INVALID_ARGUMENT naming the argument and its value; RIIS_LIMIT_EXCEEDED for a step so long that it would need
-!! more than a million inner steps.
+!> Advances the angle law to a time. The law takes pressure difference and flow as linear over the step, so the angle is accurate
+!! to second order in the length of steps. The first step has no earlier pressure difference and flow, so the present values hold
+!! for the whole step. Errors: RIIS_INVALID_ARGUMENT naming the field or argument and its value. RIIS_LIMIT_EXCEEDED for a step
+!! whose integration needs more than a million smaller steps.
 subroutine riisf_opening_angle_advance(pressure_gain, flow_gain, friction, vortex_gain, angle_min, angle_max, time, &
     pressure_difference, flow, state, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -5766,8 +6095,8 @@ subroutine riisf_opening_angle_advance(pressure_gain, flow_gain, friction, vorte
   real(c_double), intent(in) :: angle_max                 !< The angle of the open valve in degrees, above angle_min, at most
                                                           !! 90. Usually 75.
   real(c_double), intent(in) :: time                      !< At least state(1).
-  real(c_double), intent(in) :: pressure_difference       !< Upstream minus downstream, at the given time.
-  real(c_double), intent(in) :: flow                      !< Positive downstream, at the given time.
+  real(c_double), intent(in) :: pressure_difference       !< At that time, magnitude at most 1e30.
+  real(c_double), intent(in) :: flow                      !< At that time, magnitude at most 1e30.
   real(c_double), intent(inout) :: state(7)               !< Time, opening, rate, angle in degrees, its rate, pressure
                                                           !! difference, flow (NaN: none yet). Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -5800,10 +6129,14 @@ end subroutine riisf_opening_angle_advance
 ! Placing and warping by a patient's landmarks
 ! -----------------------------------------------------------------------------------------------------------------
 
-!> Sets a valve's sizes, in centimetres, to a patient's sizes, and finds its placement, for riisf_surface_create. Lengths that no
-!! landmark bears on keep the valve's proportions. Errors: RIIS_INVALID_ARGUMENT naming landmarks that are missing, in one place,
-!! collinear, mirrored, or too large or small for a heart valve at this scale; RIIS_INVALID_PARAMETER for a valve from patches
-!! and for sizes that do not fit together.
+!> Sets a valve's sizes, in centimetres, to a patient's sizes, and finds its placement. Errors: RIIS_INVALID_ARGUMENT for
+!! landmarks that are missing, too many, in one place, collinear or mirrored, or that are too large or too small for a heart
+!! valve at this scale. Landmarks that do not show the flow are also refused. The message names the landmarks. The axis of a
+!! tricuspid or mitral_coapting valve must be at most 20 degrees from the annulus' normal. A mitral valve must satisfy three
+!! conditions: - The posterior horn and the trigones are on their own sides of the annulus. - The axis of the fitted valve is at
+!! most 20 degrees from the annulus' normal. - The fitted AP_diameter agrees with the depth that the horns or the annulus show.
+!! The difference is at most a twelfth of this depth, or five times the noise. RIIS_INVALID_PARAMETER for a valve from patches,
+!! an unknown name in held, and sizes that do not fit together.
 subroutine riisf_place(valve, n_landmarks, xyz, role, leaflet_id, scale, noise, flow, held, rotation_axis, &
     rotation_angle, translation, residual, size_state, status)
   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_sizeof
@@ -5812,29 +6145,30 @@ subroutine riisf_place(valve, n_landmarks, xyz, role, leaflet_id, scale, noise, 
   use riis_c, only: RIIS_OK, riis_landmarks, riis_landmarks_init, riis_place, riis_placement, riis_placement_arrays, &
       riis_placement_arrays_init, riis_status
   implicit none
-  integer(int64), intent(in) :: valve                     !< A kind of valve. Unchanged on an error.
+  integer(int64), intent(in) :: valve                     !< The template, a kind with any parameters: lengths without a
+                                                          !! landmark keep their proportions. Translation, opening and the open
+                                                          !! state of riisf_valve_set_open_state stay.
   integer(int32), intent(in) :: n_landmarks               !< 1 to 10,000.
   real(c_double), intent(in) :: xyz(3, *)                 !< (3, n_landmarks), in mesh units.
   integer(int32), intent(in) :: role(*)                   !< (n_landmarks): RIIS_LANDMARK_*.
-  integer(int32), intent(in) :: leaflet_id(2, *)          !< (2, n_landmarks): the leaflets of each landmark. A nadir or
-                                                          !! attachment point has its cusp and -1, and a commissure has its two
-                                                          !! leaflets in any order. -1 and -1 stand for unknown leaflets. For
-                                                          !! an aortic or tricuspid valve, the known leaflets must determine
-                                                          !! the names of all leaflets. For other kinds without names, the
-                                                          !! first nadir lies on cusp 0.
+  integer(int32), intent(in) :: leaflet_id(2, *)          !< (2, n_landmarks): the cusp of a nadir or attachment point, then
+                                                          !! -1; the two leaflets of a commissure, in any order. -1 and -1: not
+                                                          !! known. For an aortic or tricuspid valve, the known leaflets must
+                                                          !! determine the names of all leaflets. For other kinds without
+                                                          !! names, the first nadir lies on cusp 0.
   real(c_double), intent(in) :: scale                     !< Mesh units in a centimetre: 10 for millimetres, 1 for centimetres,
                                                           !! or 0.01 for metres. Must be set.
   real(c_double), intent(in) :: noise                     !< The scatter of the landmarks: the standard deviation of each
                                                           !! coordinate, mesh units, >= 0. RIIS_AUTO: 0.03 * scale.
   real(c_double), intent(in) :: flow(3)                   !< The direction of flow; 0 0 0: not known.
-  character(len=*), intent(in) :: held                    !< Parameters that keep their values, separated by blanks; ' ': none.
+  character(len=*), intent(in) :: held                    !< Names of parameters that keep the valve's values, separated by
+                                                          !! blanks or commas. '' stands for no name.
   real(c_double), intent(inout) :: rotation_axis(3)       !< Unit vector.
   real(c_double), intent(inout) :: rotation_angle         !< Degrees, 0 to 180.
   real(c_double), intent(inout) :: translation(3)         !< Mesh units.
   real(c_double), intent(inout) :: residual(*)            !< (n_landmarks): distances from the landmarks to their places, mesh
                                                           !! units.
-  integer(int32), intent(inout) :: size_state(*)          !< An entry for each parameter of the valve, as riis params lists
-                                                          !! them: RIIS_SIZE_*.
+  integer(int32), intent(inout) :: size_state(*)          !< (number of parameters): RIIS_SIZE_*.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   character(len=len_trim(held) + 1, kind=c_char) :: c_held
   type(riis_landmarks) :: landmarks
@@ -5863,9 +6197,9 @@ subroutine riisf_place(valve, n_landmarks, xyz, role, leaflet_id, scale, noise, 
   translation = placement%translation
 end subroutine riisf_place
 
-!> Makes a warp from landmarks on a valve, which are in mesh units: give the placement of riisf_surface_create. Until
-!! riisf_warp_set_targets, it is the identity. Errors: RIIS_INVALID_ARGUMENT naming the landmark, counted from 0. Two landmarks
-!! in one place are refused, and so are landmarks on a line.
+!> Makes a warp from landmarks on the valve at rest. Until riisf_warp_set_targets, the warp is the identity. Errors:
+!! RIIS_INVALID_ARGUMENT naming the landmark or field and its value, also for two landmarks in one place, and for landmarks on a
+!! line.
 subroutine riisf_warp_create(n_landmarks, xyz, noise, scale, rotation_axis, rotation_angle, translation, warp, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_loc, c_null_ptr, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -5874,18 +6208,19 @@ subroutine riisf_warp_create(n_landmarks, xyz, noise, scale, rotation_axis, rota
       riis_surface_options_init, riis_warp_create, riis_warp_options, riis_warp_options_init
   implicit none
   integer(int32), intent(in) :: n_landmarks               !< 3 to 1000.
-  real(c_double), intent(in) :: xyz(3, *)                 !< (3, n_landmarks).
-  real(c_double), intent(in) :: noise                     !< The standard deviation of each coordinate of the targets, 0 to
-                                                          !! 1e50. The map is smoothed until its distances from the targets are
-                                                          !! about this noise. 0: the map meets the targets exactly.
+  real(c_double), intent(in) :: xyz(3, *)                 !< (3, n_landmarks), mesh units: give the placement of
+                                                          !! riisf_surface_create.
+  real(c_double), intent(in) :: noise                     !< Standard deviation of each coordinate of the targets, 0 to 1e50.
+                                                          !! The map is smoothed until it misses the targets by about this
+                                                          !! noise. 0: the map meets the targets exactly.
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
   real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Refused for a
-                                                          !! valve if coordinates would be rounded by more than a thousandth of
+  real(c_double), intent(in) :: translation(3)            !< Mesh units; -1e50 to 1e50, usually 0. Refused for a valve if
+                                                          !! coordinates would be rounded by more than a thousandth of
                                                           !! tolerance * half_thickness.
-  integer(int64), intent(inout) :: warp                   !< Written on success. Free it with riisf_warp_destroy.
+  integer(int64), intent(inout) :: warp                   !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_points) :: sources
   type(riis_warp_options) :: options
@@ -5912,15 +6247,16 @@ subroutine riisf_warp_create(n_landmarks, xyz, noise, scale, rotation_axis, rota
   warp = handle_of(c_handle)
 end subroutine riisf_warp_create
 
-!> Takes the landmarks to these places, in each time step. Valves that have the warp keep the map until riisf_valve_set_warp.
-!! Errors: RIIS_INVALID_ARGUMENT naming the landmark; RIIS_INVALID_PARAMETER for a warp that folds, with the place.
+!> Makes the warp take the landmarks to the targets. The same targets give the same bits, whatever the earlier targets were.
+!! Errors: RIIS_INVALID_ARGUMENT naming the point. RIIS_INVALID_PARAMETER for a warp that folds: half way from some landmark to
+!! the nearest other landmark, the determinant of the map's derivative is not above 0. A warp with more noise folds less.
 subroutine riisf_warp_set_targets(warp, n_landmarks, xyz, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
   use riis_support, only: c_handle_of, location_of
   use riis_c, only: RIIS_OK, riis_points, riis_points_init, riis_status, riis_warp_set_targets
   implicit none
-  integer(int64), intent(in) :: warp                      !< Unchanged on an error.
+  integer(int64), intent(in) :: warp                      !< Must be created.
   integer(int32), intent(in) :: n_landmarks               !< As many as the warp has.
   real(c_double), intent(in) :: xyz(3, *)                 !< (3, n_landmarks), mesh units.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -5935,21 +6271,21 @@ subroutine riisf_warp_set_targets(warp, n_landmarks, xyz, status)
   status = riis_warp_set_targets(c_handle_of(warp), targets)
 end subroutine riisf_warp_set_targets
 
-!> Gives a valve copies of the maps of two warps. Errors: RIIS_INVALID_ARGUMENT for `open` without `closed`;
-!! RIIS_INVALID_PARAMETER for a bileaflet valve.
+!> Warps a valve: its curves are mapped at every opening, before the placement. The valve copies both maps. Errors:
+!! RIIS_INVALID_ARGUMENT for `open` without `closed`. RIIS_INVALID_PARAMETER for a bileaflet valve, which is rigid.
 subroutine riisf_valve_set_warp(valve, closed, open, status)
   use, intrinsic :: iso_fortran_env, only: int64
   use riis_support, only: c_handle_of
   use riis_c, only: riis_status, riis_valve_set_warp
   implicit none
-  integer(int64), intent(in) :: valve                     !< Unchanged on an error.
+  integer(int64), intent(in) :: valve                     !< Must be created.
   integer(int64), intent(in) :: closed                    !< The warp at opening 0; 0: the valve loses its warp.
   integer(int64), intent(in) :: open                      !< The warp at opening 1; 0: the same as `closed`.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   status = riis_valve_set_warp(c_handle_of(valve), c_handle_of(closed), c_handle_of(open))
 end subroutine riisf_valve_set_warp
 
-!> Frees a warp and sets its handle to 0.
+!> Destroys the warp. Valves with this warp keep their copies. The handle becomes 0. Nothing happens to a handle that is 0.
 subroutine riisf_warp_destroy(handle)
   use, intrinsic :: iso_c_binding, only: c_ptr
   use, intrinsic :: iso_fortran_env, only: int64

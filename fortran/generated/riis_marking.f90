@@ -67,9 +67,9 @@ module riis_marking
                                                                         !< Sums a value on each side of the surface.
     generic :: dense => dense_int8, dense_int32, dense_logical          !< Writes one entry per node into the caller's arrays.
     procedure, non_overridable :: get_stats => marks_get_stats         !< Gives the statistics of the last marking.
-    procedure, non_overridable :: is_created => marks_is_created       !< Returns whether the object was created.
-    procedure, non_overridable :: c_handle => marks_c_handle           !< The handle for calls of riis_c.
-    procedure, non_overridable :: destroy => marks_destroy             !< Frees its memory.
+    procedure, non_overridable :: is_created => marks_is_created        !< Returns whether the object was created.
+    procedure, non_overridable :: c_handle => marks_c_handle            !< The handle for calls of riis_c.
+    procedure, non_overridable :: destroy => marks_destroy              !< Frees its memory.
     generic :: assignment(=) => assign                                  !< Refused: a handle cannot be copied.
     procedure, private, non_overridable :: assign => marks_assign
     procedure, private, non_overridable :: marked_int32 => result_marked_int32
@@ -121,8 +121,8 @@ contains
     class(riis_marks), intent(inout) :: marks               !< Empty, or from an earlier call.
     real(c_double), intent(in), optional :: distance_limit  !< Nodes get their distance up to this limit, from the half thickness
                                                             !! to 1e60. Default RIIS_AUTO: the half thickness.
-    logical, intent(in), optional :: node_mask(:)           !< (n_nodes): nodes with .false. are left out; copied. Default:
-                                                            !! all nodes.
+    logical, intent(in), optional :: node_mask(:)           !< (n_nodes): nodes with .false. are left out;
+                                                            !! copied. Default: all nodes.
     class(*), intent(in), optional :: search                !< integer, RIIS_SEARCH_*. Default RIIS_SEARCH_AUTO.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
@@ -620,30 +620,6 @@ contains
     call finish(code, status)
   end subroutine marks_get_list
 
-  ! Makes the library's struct of the resistance. Does nothing after an error.
-  subroutine get_resistance(R, half_thickness, rim, made, code)
-    real(c_double), intent(in) :: R
-    real(c_double), intent(in), optional :: half_thickness
-    class(*), intent(in), optional :: rim
-    type(riis_resistance), intent(inout) :: made
-    integer(riis_status), intent(inout) :: code
-    if (code == RIIS_OK) code = riis_resistance_init(made, c_sizeof(made))
-    made%R = R
-    if (present(half_thickness)) made%half_thickness = half_thickness
-    call get_integer(rim, 'rim', made%rim, code)
-  end subroutine get_resistance
-
-  ! Checks an array of one vector per node: its shape must be (3, n_nodes).
-  function check_vectors(vectors, n, name) result(code)
-    real(c_double), intent(in) :: vectors(:, :)
-    integer(int64), intent(in) :: n
-    character(len=*), intent(in) :: name
-    integer(riis_status) :: code
-    code = RIIS_OK
-    if (size(vectors, 1) /= 3 .or. size(vectors, 2, int64) /= n) code = refuse('the shape of ' // name // ' is (' // &
-      text_of(size(vectors, 1)) // ', ' // text_of(size(vectors, 2, int64)) // '); it must be (3, ' // text_of(n) // ')')
-  end function check_vectors
-
   ! Checks three arrays with an entry for each node. It does nothing after an error.
   subroutine check_components(sizes, n, names, of, code)
     integer(int64), intent(in) :: sizes(3), n
@@ -678,7 +654,7 @@ contains
     if (present(K)) n = size(K, kind=int64)
     if (code == RIIS_OK .and. present(K_u_surface)) then
       if (n < 0) n = size(K_u_surface, 2, int64)
-      code = check_vectors(K_u_surface, n, 'K_u_surface')
+      call check_columns(K_u_surface, 3, n, 'K_u_surface', code)
     end if
     if (code == RIIS_OK .and. n < 0) code = refuse('none of K and K_u_surface is given')
     call get_resistance(R, half_thickness, rim, made, code)
@@ -821,7 +797,7 @@ contains
     integer(riis_status) :: code
     n = size(weight, kind=int64)
     code = check_created(this%handle, 'the object marks')
-    if (code == RIIS_OK) code = check_vectors(velocity, n, 'velocity')
+    call check_columns(velocity, 3, n, 'velocity', code)
     call react(this%handle, R, n, weight, force, half_thickness, rim, moment, about, leaflet_force, leaflet_moment, edges, &
       edge_force, edge_moment, edge_leaflet_id, code, velocity=velocity)
     call finish(code, status)
@@ -975,16 +951,16 @@ contains
     if (present(about)) call check_three(size(about, kind=int64), 'about', code)
     if (present(leaflet_force)) n_leaflets = size(leaflet_force, 2, int64)
     if (present(leaflet_moment) .and. .not. present(leaflet_force)) n_leaflets = size(leaflet_moment, 2, int64)
-    if (code == RIIS_OK .and. present(leaflet_force)) code = check_vectors(leaflet_force, n_leaflets, 'leaflet_force')
-    if (code == RIIS_OK .and. present(leaflet_moment)) code = check_vectors(leaflet_moment, n_leaflets, 'leaflet_moment')
+    if (present(leaflet_force)) call check_columns(leaflet_force, 3, n_leaflets, 'leaflet_force', code)
+    if (present(leaflet_moment)) call check_columns(leaflet_moment, 3, n_leaflets, 'leaflet_moment', code)
     if (present(edges)) then
       n_edges = size(edges, 3, int64)
       if (code == RIIS_OK .and. (size(edges, 1) /= 3 .or. size(edges, 2) /= 2)) code = refuse('the shape of edges is (' // &
         text_of(size(edges, 1)) // ', ' // text_of(size(edges, 2)) // ', ' // text_of(n_edges) // &
         '); it must be (3, 2, n_edges)')
     end if
-    if (code == RIIS_OK .and. present(edge_force)) code = check_vectors(edge_force, n_edges, 'edge_force')
-    if (code == RIIS_OK .and. present(edge_moment)) code = check_vectors(edge_moment, n_edges, 'edge_moment')
+    if (present(edge_force)) call check_columns(edge_force, 3, n_edges, 'edge_force', code)
+    if (present(edge_moment)) call check_columns(edge_moment, 3, n_edges, 'edge_moment', code)
     if (code == RIIS_OK .and. present(edge_leaflet_id)) &
       code = check_size(size(edge_leaflet_id, kind=int64), n_edges, 'edge_leaflet_id', 'edges')
     call get_resistance(R, half_thickness, rim, made, code)
@@ -1067,9 +1043,9 @@ contains
     integer(riis_status) :: code
     n = size(weight, kind=int64)
     code = check_created(this%handle, 'the object marks')
-    if (code == RIIS_OK) code = check_vectors(velocity, n, 'velocity')
+    call check_columns(velocity, 3, n, 'velocity', code)
     if (code == RIIS_OK) code = check_created(surface%c_handle(), 'the surface')
-    if (code == RIIS_OK) code = check_vectors(vertex_force, size(vertex_force, 2, int64), 'vertex_force')
+    call check_columns(vertex_force, 3, size(vertex_force, 2, int64), 'vertex_force', code)
     call get_resistance(R, half_thickness, rim, made, code)
     if (code == RIIS_OK) code = add_vertex_reaction_to(this%handle, surface%c_handle(), made, n, weight, &
       size(vertex_force, 2, int64), vertex_force, velocity=velocity)
@@ -1101,7 +1077,7 @@ contains
     call check_components([size(vx, kind=int64), size(vy, kind=int64), size(vz, kind=int64)], n, ['vx', 'vy', 'vz'], &
       'weights', code)
     if (code == RIIS_OK) code = check_created(surface%c_handle(), 'the surface')
-    if (code == RIIS_OK) code = check_vectors(vertex_force, size(vertex_force, 2, int64), 'vertex_force')
+    call check_columns(vertex_force, 3, size(vertex_force, 2, int64), 'vertex_force', code)
     call get_resistance(R, half_thickness, rim, made, code)
     if (code == RIIS_OK) code = add_vertex_reaction_to(this%handle, surface%c_handle(), made, n, weight, &
       size(vertex_force, 2, int64), vertex_force, vx=vx, vy=vy, vz=vz)
@@ -1133,7 +1109,7 @@ contains
     call check_components([size(vx, kind=int64), size(vy, kind=int64), size(vz, kind=int64)], n, ['vx', 'vy', 'vz'], &
       'weights', code)
     if (code == RIIS_OK) code = check_created(surface%c_handle(), 'the surface')
-    if (code == RIIS_OK) code = check_vectors(vertex_force, size(vertex_force, 2, int64), 'vertex_force')
+    call check_columns(vertex_force, 3, size(vertex_force, 2, int64), 'vertex_force', code)
     call get_resistance(R, half_thickness, rim, made, code)
     if (code == RIIS_OK) code = add_vertex_reaction_to(this%handle, surface%c_handle(), made, n, weight, &
       size(vertex_force, 2, int64), vertex_force, vx=vx, vy=vy, vz=vz)
@@ -1165,7 +1141,7 @@ contains
     call check_components([size(vx, kind=int64), size(vy, kind=int64), size(vz, kind=int64)], n, ['vx', 'vy', 'vz'], &
       'weights', code)
     if (code == RIIS_OK) code = check_created(surface%c_handle(), 'the surface')
-    if (code == RIIS_OK) code = check_vectors(vertex_force, size(vertex_force, 2, int64), 'vertex_force')
+    call check_columns(vertex_force, 3, size(vertex_force, 2, int64), 'vertex_force', code)
     call get_resistance(R, half_thickness, rim, made, code)
     if (code == RIIS_OK) code = add_vertex_reaction_to(this%handle, surface%c_handle(), made, n, weight, &
       size(vertex_force, 2, int64), vertex_force, vx=vx, vy=vy, vz=vz)

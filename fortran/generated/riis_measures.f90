@@ -56,18 +56,6 @@ contains
     call finish(code, status)
   end subroutine riis_get_leaflet
 
-  ! Makes a resistance of the arguments. Does nothing after an error.
-  subroutine get_resistance(R, half_thickness, rim, made, code)
-    real(c_double), intent(in), optional :: R, half_thickness
-    class(*), intent(in), optional :: rim
-    type(riis_resistance), intent(inout) :: made
-    integer(riis_status), intent(inout) :: code
-    if (code == RIIS_OK) code = riis_resistance_init(made, c_sizeof(made))
-    if (present(R)) made%R = R
-    if (present(half_thickness)) made%half_thickness = half_thickness
-    call get_integer(rim, 'rim', made%rim, code)
-  end subroutine get_resistance
-
   !> Measures the orifice of a surface along the axis: the area that its triangles do not cover, and the effective area that the
   !! band leaves to the flow. Errors: RIIS_INVALID_ARGUMENT for an argument out of range.
   subroutine riis_get_orifice(surface, orifice, half_thickness, rim, status)

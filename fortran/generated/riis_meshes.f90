@@ -815,14 +815,14 @@ contains
 
   !> Returns whether the mesh was created and not destroyed.
   pure function mesh_is_created(this) result(is_created)
-    class(riis_mesh), intent(in) :: this                     !< May be empty.
+    class(riis_mesh), intent(in) :: this                    !< May be empty.
     logical :: is_created                                   !< .false. for an empty one.
     is_created = c_associated(this%handle)
   end function mesh_is_created
 
   !> Returns the C handle, for calls of module riis_c. It belongs to this variable: do not destroy it.
   function mesh_c_handle(this) result(handle)
-    class(riis_mesh), intent(in) :: this                     !< May be empty.
+    class(riis_mesh), intent(in) :: this                    !< May be empty.
     type(c_ptr) :: handle                                   !< c_null_ptr for an empty one.
     handle = this%handle
   end function mesh_c_handle
@@ -830,15 +830,15 @@ contains
   !> Frees the memory of the mesh, not the coordinates, which are not borrowed any more. The mesh is then empty and can be created
   !! again. Nothing happens to an empty one.
   subroutine mesh_destroy(this)
-    class(riis_mesh), intent(inout) :: this                  !< May be empty.
+    class(riis_mesh), intent(inout) :: this                 !< May be empty.
     call riis_mesh_destroy(this%handle)
     this%n = 0
   end subroutine mesh_destroy
 
   !> Stops the program unless both objects are empty.
   impure elemental subroutine mesh_assign(left, right)
-    class(riis_mesh), intent(inout) :: left                  !< Must be empty.
-    class(riis_mesh), intent(in) :: right                    !< Must be empty.
+    class(riis_mesh), intent(inout) :: left                 !< Must be empty.
+    class(riis_mesh), intent(in) :: right                   !< Must be empty.
     call refuse_copy(left%handle, right%handle, 'riis_mesh')
   end subroutine mesh_assign
 end module riis_meshes

@@ -850,20 +850,6 @@ contains
     call set_vector(translation, 'translation', options%translation, code)
   end subroutine set_options
 
-  ! Sets an option of three reals.
-  subroutine set_vector(values, name, option, code)
-    real(c_double), intent(in), optional :: values(:)
-    character(len=*), intent(in) :: name
-    real(c_double), intent(inout) :: option(3)
-    integer(riis_status), intent(inout) :: code
-    if (code /= RIIS_OK .or. .not. present(values)) return
-    if (size(values) == 3) then
-      option = values
-    else
-      code = refuse('the size of ' // name // ' is ' // text_of(size(values)) // '; it must be 3')
-    end if
-  end subroutine set_vector
-
   !> Gives the surface's counts, half thickness, area and bounds, and the wall times of the last create or update.
   subroutine surface_get_info(this, info, status)
     class(riis_surface), intent(in) :: this                 !< Must be created.
@@ -1174,12 +1160,8 @@ contains
       character(len=*), intent(in) :: name
       type(c_ptr), intent(inout) :: location
       if (code /= RIIS_OK .or. .not. present(vectors)) return
-      if (size(vectors, 1) /= 3 .or. size(vectors, 2, int64) /= points%n) then
-        code = refuse('the shape of ' // name // ' is (' // text_of(size(vectors, 1)) // ', ' // &
-          text_of(size(vectors, 2, int64)) // '); it must be (3, ' // text_of(points%n) // ')')
-      else if (size(vectors, kind=int64) > 0) then
-        location = c_loc(vectors)
-      end if
+      call check_columns(vectors, 3, points%n, name, code)
+      if (code == RIIS_OK .and. size(vectors, kind=int64) > 0) location = c_loc(vectors)
     end subroutine get_vectors
   end subroutine closest_points
 

@@ -145,6 +145,12 @@ class Fields(Planted):
         self.assertRegex(self.text(MODULE),
                          r"    type\(c_ptr\) :: planted +!< real\(c_double\), \(4, n_patches\), or c_null_ptr\n")
 
+    def test_a_shape_of_the_header(self):
+        self.plant(HEADER, "} riis_patches;", "  const double *planted; /* (4, n_patches). NULL: none */\n} riis_patches;")
+        self.writes()
+        self.assertRegex(self.text(MODULE),
+                         r"    type\(c_ptr\) :: planted +!< real\(c_double\), \(4, n_patches\), or c_null_ptr\n")
+
     def test_pointers_to_texts_and_to_anything(self):
         self.plant(HEADER, "} riis_csr;", "  const char *text;\n  const void *planted;\n} riis_csr;")
         self.plant(TABLE, "riis_csr\n", "riis_csr\n  planted  (n_rows)\n")
@@ -157,7 +163,7 @@ class Fields(Planted):
         self.plant(HEADER, "/* How the last marking went. */", "/* Planted for\n * the struct. */")
         self.plant(HEADER, "} riis_mark_stats;",
                    "  double a, b; /* planted for\n         the fields */\n  double c;\n} riis_mark_stats;")
-        self.plant(TABLE, "riis_mark_stats  as in riis.h\n", "riis_mark_stats  as in riis.h\n  seconds  -  planted here\n")
+        self.plant(TABLE, "riis_csr\n", "riis_mark_stats\n  seconds  -  planted here\n\nriis_csr\n")
         self.writes()
         self.assertIn("\n  !> Planted for the struct.\n  type, bind(c) :: riis_mark_stats\n", self.text(MODULE))
         self.assertRegex(self.text(MODULE),
@@ -278,6 +284,24 @@ class Functions(Planted):
                      f"{place} 'const riis_csr *csr': 'required', or 'optional' where it may be NULL",
                      f"Needed in {TABLE}, whose head says how:\nriis_valve_planted\n  n  ...\n  x  ...\n  ids  ...\n  csr  ...\n")
 
+    def test_what_the_comment_says(self):
+        self.plant(HEADER, BEFORE_FUNCTION, "/* Planted.\n *   `x` (2, n), planted.\n *   `y` (n): planted. NULL: none.\n"
+                   " *   `csr`: NULL stands for no rows. */\nRIIS_API riis_status riis_planted(const double *x, double *y,\n"
+                   "const riis_csr *csr, const riis_grid *grid);\n" + BEFORE_FUNCTION)
+        self.writes()
+        self.assertIn("""\
+    !>   x    (2, n)
+    !!   y    (n), if left out: none
+    !!   csr  if left out: no rows
+    function riis_planted(x, y, csr, grid) result(status) bind(c, name='riis_planted')
+      import :: c_double, riis_csr, riis_grid, riis_status
+      implicit none
+      real(c_double), intent(in) :: x(*)
+      real(c_double), intent(inout), optional :: y(*)
+      type(riis_csr), intent(in), optional :: csr
+      type(riis_grid), intent(in) :: grid
+""", self.text(MODULE))
+
     def test_with_words(self):
         self.plant_function("int64_t *n, int32_t *m, const double *x, const double *y, double *z,\n    const double *w,"
                             " const int64_t **ids, const riis_csr *csr, riis_valve **made", """\
@@ -372,7 +396,7 @@ class Words(Planted):
         self.refused(entry, "riis_planted  text\n\n" + entry, f"TABLE: {HEADER} has no riis_planted")
         self.refused(entry, f"{entry}  planted  required (*)\n", f"riis_valve_get of {HEADER} has no planted")
         self.refused("  RIIS_LOG_*  ", "  RIIS_PLANTED_*  ", f"TABLE: omit from riisf.h of {HEADER} has no RIIS_PLANTED_*")
-        self.refused("  degree       (n_curves)", "  planted      (n_curves)", f"riis_patches of {HEADER} has no planted")
+        self.refused("  xyz          real (3, ", "  planted      real (3, ", f"riis_keyframe_arrays of {HEADER} has no planted")
 
     def test_words_that_do_not_suit(self):
         csr = "  csr      optional  "
@@ -380,8 +404,8 @@ class Words(Planted):
             self.refused(csr, f"  csr      {words}  ", "riis_mesh_set_adjacency: ",
                          "'const riis_csr *csr': 'required', or 'optional'")
         for words in ("optional", "(*)", "scalar", "optional borrowed", "required optional (*)", "required scalar (*)"):
-            self.refused("  values        required (*)  (n_values), c", f"  values        {words}  (n_values), c",
-                         "riis_valve_set: ", "'const double *values': 'required', or 'optional'")
+            self.refused("  values        required (*)  (n_values)", f"  values        {words}  (n_values)",
+                         "riis_valve_get: ", "'double *values': 'required', or 'optional'")
         self.refused("  kind          -", "  kind          scalar",
                      "TABLE: riis_valve_create: 'scalar' does not suit 'const char *kind'")
         self.refused(
@@ -389,13 +413,13 @@ class Words(Planted):
             "  parameter_id  optional",
             "TABLE: riis_valve_get_parameter: 'optional' does not suit 'int64_t parameter_id': nothing but '-' and a text",
         )
-        self.refused("  rotation_angle  -", "  rotation_angle  (3)",
-                     "TABLE: riis_surface_options: 'double rotation_angle' points to no")
+        self.refused("  weight       -", "  weight       (2)", "TABLE: riis_band_sums: 'double weight' points to no")
         self.refused("  user_data  -  the pointer", "  user_data  scalar  the pointer",
                      "TABLE: riis_log_function: only a text is wanted")
         self.refused("riis_csr\n", "riis_parameter\n  unit  (3)\n\nriis_csr\n",
                      "riis_parameter: 'const char *unit' points to no array")
-        self.refused("  degree       (n_curves)", "  degree       optional", "'const int32_t *degree': the shape of the array")
+        self.refused("  xyz          real (3, n_vertices, n_keys)", "  xyz          real optional",
+                     "'const void *xyz': the shape of the array")
         self.refused("  x, y, z      real (n_vertices)", "  x, y         real (n_vertices)",
                      "riis_surface_arrays: x, y, z belong into one line")
 
@@ -414,14 +438,14 @@ class Words(Planted):
         self.refused(entry, "  csr\n", "TABLE: there is no second column; the second column is")
         self.refused(entry, " csr      optional  ", "TABLE: nothing is above that this line could belong to")
         self.refused("riis_valve_get\n", "riis_csr\n\nriis_valve_get\n", "TABLE: riis_csr is in ", "already")
-        self.refused("  degree       (n_curves)\n", "  degree  (n_curves)\n  degree  (n_curves)\n",
-                     "riis_patches: degree is in ", "already")
+        self.refused("  point_ids    (n_point_ids)", "  point_ids  (n_point_ids)\n  point_ids  (n_point_ids)",
+                     "riis_closest_options: point_ids is in ", "already")
 
 
 class Subroutines(Planted):
     """Tests the table of the external subroutines."""
 
-    ENTRY = "riisf_mesh_prepare = riis_mesh_prepare\n"
+    ENTRY = "riisf_mesh_prepare: mesh, n_threads\n"
 
     def test_an_entry_makes_a_subroutine_and_its_interface(self):
         self.plant(SUBROUTINES, self.ENTRY, "riisf_planted, _64 = riis_warp_set_targets\n  ! Planted.\n  warp  A warp.\n"
@@ -434,12 +458,26 @@ class Subroutines(Planted):
         self.assertIn("  targets%n_points = n\n  targets%x = location_of(x)\n", self.text(EXTERNAL))
         self.assertIn("  targets%real_bits = 64\n  status = riis_warp_set_targets(c_handle_of(warp), targets)\n",
                       self.text(EXTERNAL))
-        self.assertIn("\n!> Planted.\nsubroutine riisf_planted(", self.text(EXTERNAL))
+        self.assertIn("\n!> Planted. Errors: RIIS_INVALID_ARGUMENT naming the point.", self.text(EXTERNAL))
 
     def test_a_text_of_the_header(self):
         self.plant(HEADER, "double depth;", "double depth; /* planted, default 3. NULL: none */ double other_depth;")
         self.writes()
         self.assertRegex(self.text(EXTERNAL), r"real\(c_double\), intent\(in\) :: depth +!< Planted, usually 3\.\n")
+
+    def test_a_comment_of_the_header(self):
+        """The comment of a function serves its subroutine, with the subroutine's names and without sentences about pointers."""
+        comment = "/* Destroys the handle. The caller's coordinates and all marks stay. */\nRIIS_API void riis_mesh_destroy"
+        self.plant(HEADER, comment, comment.replace("stay. */", "stay. NULL is allowed. Planted \"for\" riis_valve_get. */"))
+        self.plant(HEADER, "*   `reach`: 1e-50 to 1e50.", "*   `reach`: planted *here. NULL: none.")
+        self.writes()
+        self.assertIn("all marks stay. Planted 'for' riisf_valve_get. The handle becomes 0.",
+                      " ".join(self.text(EXTERNAL).replace("!!", "").split()))
+        self.assertRegex(self.text(EXTERNAL), r"intent\(in\) :: reach +!< Planted here\. RIIS_AUTO")
+
+    def test_a_function_without_a_comment(self):
+        self.plant(HEADER, "/* Gives the number of the surface's leaflets. */\n", "")
+        self.refuses("riisf_surface_n_leaflets: riis_surface_get_n_leaflets has no comment")
 
     def test_a_function_that_is_gone(self):
         self.plant(HEADER, "RIIS_API riis_status riis_mesh_prepare(riis_mesh *mesh, int32_t n_threads);\n", "")
@@ -447,13 +485,17 @@ class Subroutines(Planted):
 
     def test_faulty_entries(self):
         for old, new, message in (
-                (self.ENTRY, "riisf_mesh_prepare\n", "'riisf_mesh_prepare' is not understood"),
-                ("  mesh, n_threads\n", "  mesh, (3)\n", "the argument '(3)' is not understood"),
-                ("  mesh, n_threads\n", "  mesh, planted\n", "riisf_mesh_prepare: riis.h has no planted"),
-                ("  mesh, n_threads\n", "  mesh, n_threads = csr%planted\n", "riisf_mesh_prepare: riis.h has no csr%planted"),
-                ("  mesh, n_threads\n", "  mesh\n", "riisf_mesh_prepare: no argument gives n_threads of riis_mesh_prepare"),
-                ("  mesh, n_threads\n", "  mesh, planted = n_threads\n", "riisf_mesh_prepare: planted has no text"),
-                (self.ENTRY, self.ENTRY + "    mesh\n", "nothing is above that the second line could belong to")):
+                ("riisf_mesh_prepare: mesh, n_threads", "riisf_mesh_prepare =: mesh", "'riisf_mesh_prepare =' is not understood"),
+                ("prepare: mesh, n_threads", "prepare: mesh, (3)", "the argument '(3)' is not understood"),
+                ("prepare: mesh, n_threads", "prepare: mesh, planted", "riisf_mesh_prepare: riis.h has no planted"),
+                ("prepare: mesh, n_threads", "prepare: mesh, n_threads = csr%planted",
+                 "riisf_mesh_prepare: riis.h has no csr%planted"),
+                ("prepare: mesh, n_threads", "prepare: mesh", "riisf_mesh_prepare: no argument gives n_threads"),
+                ("prepare: mesh, n_threads", "prepare: mesh, planted = n_threads", "riisf_mesh_prepare: planted has no text"),
+                ("riisf_mesh_prepare: mesh, n_threads", "riisf_mesh_prepared: mesh, n_threads",
+                 "riisf_mesh_prepared: riis.h has no riis_mesh_prepared"),
+                ("riisf_mesh_destroy\n", "riisf_mesh_destroy\n    mesh\n",
+                 "nothing is above that the second line could belong to")):
             self.setUp()
             self.plant(SUBROUTINES, old, new)
             self.refuses(f"{SUBROUTINES}:", message)
@@ -496,8 +538,13 @@ class Page(Planted):
         self.says(f"{calls.TABLE}: riisf_planted belongs to no call")
 
     def test_names_that_nothing_has(self):
-        self.plant(calls.TABLE, "riis_valve%unset riisf_valve_unset", "riis_valve%planted riisf_valve_unset")
-        self.says("the Fortran sources have no riis_valve%planted", "riis_valve%unset belongs to no call")
+        self.plant(calls.TABLE, "riis_mesh%clear_adjacency", "riis_mesh%planted")
+        self.says("the Fortran sources have no riis_mesh%planted", "riis_mesh%clear_adjacency belongs to no call")
+
+    def test_a_call_of_one_language(self):
+        self.plant(SUBROUTINES, "riisf_mesh_prepare: mesh, n_threads\n", "")
+        self.says(f"{calls.TABLE}: riis_mesh_prepare needs procedures of both languages, or '-' and a reason",
+                  f"{calls.TABLE}: riisf_mesh_prepare belongs to no call")
 
     def test_a_line_that_changes(self):
         self.plant(INTERFACES, "    subroutine riisf_valve_unset(valve, name,",
