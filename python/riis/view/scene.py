@@ -7,7 +7,6 @@ a valve moves, and only their points and cells change. All calls of a scene must
 
 from __future__ import annotations
 
-import ctypes
 import math
 import os
 import time
@@ -17,7 +16,7 @@ from typing import Any
 
 import numpy
 
-from riis._plot import COLOURS, _pyvista, add_scale_bar, coloured, drop_scale_bar, widget_of
+from riis._plot import COLOURS, _egl_works, _pyvista, add_scale_bar, boundary_of, coloured, drop_scale_bar, widget_of
 from riis.view._valves import point, refuse
 
 WALL, PARTLY, LEAK, CROSSING, ORIFICE, HANDLE = "#c9ced6", "#9aa3b2", "#d50000", "#cc00aa", "#111111", "#333333"
@@ -47,29 +46,6 @@ def check_of_graphics() -> None:
         raise RuntimeError(
             "no display, and no EGL that draws without one: install two packages by sudo apt-get install libegl1 libgl1-mesa-dri"
         )
-
-
-def _egl_works() -> bool:
-    try:
-        egl = ctypes.CDLL("libEGL.so.1")
-        query = egl.eglGetProcAddress
-        query.restype, query.argtypes = ctypes.c_void_p, [ctypes.c_char_p]
-        devices_at, platform_at = query(b"eglQueryDevicesEXT"), query(b"eglGetPlatformDisplayEXT")
-        if not devices_at or not platform_at:
-            return False
-        pointer, integer = ctypes.c_void_p, ctypes.c_int
-        query_devices = ctypes.CFUNCTYPE(integer, integer, ctypes.POINTER(pointer), ctypes.POINTER(integer))(devices_at)
-        display_of = ctypes.CFUNCTYPE(pointer, integer, pointer, pointer)(platform_at)
-        devices, n_devices = (pointer * 16)(), integer(0)
-        if not query_devices(16, devices, ctypes.byref(n_devices)):
-            return False
-        initialize = egl.eglInitialize
-        initialize.argtypes = [pointer, pointer, pointer]
-        platform_device = 0x313F  # EGL_PLATFORM_DEVICE_EXT
-        displays = [display_of(platform_device, device, None) for device in devices[: n_devices.value]]
-        return any(display and initialize(display, None, None) for display in displays)
-    except (OSError, AttributeError):
-        return False
 
 
 def colour_of(valve: int, leaflet: int) -> str:
@@ -663,18 +639,3 @@ def _smooth(line: Any, axis: Any) -> Any:
 
 def _area_of(line: Any) -> float:
     return 0.5 * float(numpy.linalg.norm(numpy.cross(line, numpy.roll(line, -1, axis=0)).sum(axis=0)))
-
-
-def boundary_of(grid: Any) -> Any:
-    """Returns the boundary faces of a grid as pyvista.PolyData without arrays."""
-    from vtkmodules.vtkFiltersGeometry import vtkGeometryFilter
-
-    pyvista = _pyvista()
-    bare = pyvista.UnstructuredGrid()
-    bare.CopyStructure(grid)
-    faces = vtkGeometryFilter()
-    faces.SetInputData(bare)
-    faces.PassThroughCellIdsOff()
-    faces.PassThroughPointIdsOff()
-    faces.Update()
-    return pyvista.wrap(faces.GetOutput())
