@@ -305,7 +305,7 @@ def plot(
     if not given:
         info = surface.info
         at_valve = grid is not None and not (marks is not None and len(marks) == 0)
-        _look(plotter, 1.2, [end[k] for k in range(3) for end in (info.lower, info.upper)] if at_valve else None)
+        _look(plotter, 0.9 if at_valve else 1.2, [end[k] for k in range(3) for end in (info.lower, info.upper)] if at_valve else None)
     if not interactive:
         add_scale_bar(plotter, unit)
     if screenshot is not None:
@@ -364,6 +364,7 @@ def _frame_of(item: Any, number: int, mesh: Mesh | None) -> tuple[Surface, Marks
         raise TypeError(f"frames: frame {number} must be a Surface, (Surface, marks) or (Surface, marks, caption), not {item!r}")
     if marks is not None and mesh is None:
         raise InvalidArgumentError(f"mesh: is None, but frame {number} of frames has marks")
+    _check_types(surface, mesh, marks)
     _check_of_mesh(marks, mesh)
     return surface, marks, caption
 
