@@ -209,8 +209,9 @@ edge_force       (n_edges, 3): a node's force goes to the edge nearest to its cl
 edge_moment      (n_edges, 3): the moments about the middle of each edge
 edge_leaflet_id  (n_edges,) int32: a node's force goes to the nearest edge of its leaflet; None: of all leaflets)")
       .def("add_vertex_reaction", &add_vertex_reaction, nb::arg("surface").none(), nb::arg("velocity").none(),
-           nb::arg("weight").none(), nb::arg("force").none() = nb::none(), nb::kw_only(), nb::arg("R").none() = nb::none(),
-           nb::arg("half_thickness").none() = nb::none(), nb::arg("rim").none() = "round",
+           nb::arg("weight").none(), nb::arg("force").none() = nb::none(), nb::kw_only(),
+           nb::arg("R").none() = nb::none(), nb::arg("half_thickness").none() = nb::none(),
+           nb::arg("rim").none() = "round",
            nb::sig("def add_vertex_reaction(self, surface: Surface, velocity: " RIIS_REALS ", weight: " RIIS_REALS
                    ", force: " RIIS_REALS " | None = None, *, " RIIS_MODEL ") -> " RIIS_REALS),
            R"(Adds the force of the flow on each vertex of the surface to force, and returns force.

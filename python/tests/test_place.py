@@ -211,15 +211,15 @@ def test_too_few_landmarks_are_counted_before_the_unit_is_judged(n):
 
 def test_a_report_says_that_the_papers_aortic_valve_does_not_close():
     points = dict(zip(NAMES, patient(3)[2], strict=True))
-    text = "The paper's aortic valve does not close at opening 0. The kind coapting has the same landmarks, and closes.\n"
+    text = "The paper's aortic valve does not close at opening 0. The kinds coapting and trileaflet take the same landmarks, and close.\n"
     open_share = {}
-    for kind in ("aortic", "coapting"):
+    for kind in ("aortic", "coapting", "trileaflet"):
         found = riis.place(points, kind, unit="mm")
         orifice = riis.Surface(found.valve, **found.placement).orifice()
         open_share[kind] = orifice.area / orifice.outline_area
         assert (text in found.report()) == (kind == "aortic")
-    assert open_share["aortic"] > 0.1 and open_share["coapting"] < 0.02
-    assert '"coapting" has the same landmarks, and closes' in riis.place.__doc__
+    assert open_share["aortic"] > 0.1 and open_share["coapting"] < 0.02 and open_share["trileaflet"] < 0.02
+    assert '"coapting" and "trileaflet" take the same landmarks, and close' in riis.place.__doc__
 
 
 @pytest.mark.parametrize("kind", ["trileaflet", "coapting", "aortic"])

@@ -45,7 +45,7 @@ def test_placement_turns_and_moves(valve):
 @pytest.mark.parametrize("axis", [(1, 2, 2), (0, 0, 5), (0, 0, -0.1), (-3, 0, 0), (1e-9, 0, 1), (1e-9, -1e-9, -1)])
 def test_an_axis_is_the_smallest_rotation(valve, axis):
     plain, placed = riis.Surface(valve), riis.Surface(valve, axis=axis, translation=(1, 2, 3))
-    # The smallest rotation from z to n is R = I + [v] + [v]^2 / (1 + n_z) with v = z x n. For n = -z it is by half a turn about x.
+    # The smallest rotation from z to n is R = I + [v] + [v]^2 / (1 + n_z) with v = z x n. For n = -z it is half a turn about x.
     n = numpy.array(axis, float) / numpy.linalg.norm(axis)
     x, y = -n[1], n[0]
     v = numpy.array([[0, 0, y], [0, 0, -x], [-y, x, 0]])

@@ -10,12 +10,14 @@ from __future__ import annotations
 import math
 import os
 import time
+import warnings
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from typing import Any
 
 import numpy
 
+from riis._errors import MarksWarning
 from riis._plot import COLOURS, _egl_works, _pyvista, add_scale_bar, boundary_of, coloured, drop_scale_bar, widget_of
 from riis.view._valves import point, refuse
 
@@ -612,20 +614,28 @@ def widget(model: Any, grid: Any = None) -> Any:
     model  a riis.view.model.Model
     grid   its mesh as pyvista.UnstructuredGrid; without it the leaflets are alone
 
-    The mouse turns the scene. Call it again after a change of the model. It needs pyvista[jupyter].
+    The mouse turns the scene. Call it again after a change of the model. If no node is marked, it gives a riis.MarksWarning. It
+    needs pyvista[jupyter].
     """
     check_of_graphics()
     scene = Scene(model, grid, plotter=_pyvista().Plotter(notebook=True, off_screen=True, window_size=(900, 600)))
     shown = model.update()
     scene.show(shown)
+    is_unmarked = grid is not None and len(shown.surfaces) > 0 and len(shown.marked) == 0
     if shown.surfaces:
         valve, points = model.valves[0], numpy.asarray(shown.surfaces[0].points)
+        if is_unmarked:  # looks at both
+            points = numpy.concatenate([points, numpy.reshape(grid.bounds, (3, 2)).T])
         centre = 0.5 * (points.min(axis=0) + points.max(axis=0))
         reach = float(numpy.linalg.norm(points - centre, axis=1).max())
         scene.look("oblique", centre, valve.axis, valve.reference, 1.45 * reach)
         scene.cut_here(valve.origin, valve.axis)
     scene.show_cut()
-    scene.show_lights(model.lights())
+    lights = model.lights()
+    scene.show_lights(lights)
+    if is_unmarked:
+        reasons = [f"{one.text}: {one.advice}" for one in lights if one.name in ("unit", "inside") and one.level in ("bad", "warn")]
+        warnings.warn("; ".join(reasons), MarksWarning, stacklevel=2)
     scene.freeze()
     return widget_of(scene.plotter)
 
