@@ -305,7 +305,8 @@ def plot(
     if not given:
         info = surface.info
         at_valve = grid is not None and not (marks is not None and len(marks) == 0)
-        _look(plotter, 0.9 if at_valve else 1.2, [end[k] for k in range(3) for end in (info.lower, info.upper)] if at_valve else None)
+        box = [end[k] for k in range(3) for end in (info.lower, info.upper)]
+        _look(plotter, 0.9 if at_valve else 1.2, box if at_valve else None)
     if not interactive:
         add_scale_bar(plotter, unit)
     if screenshot is not None:

@@ -97,7 +97,8 @@ def test_a_picture_without_marks_says_so_and_shows_the_mesh(surface, tmp_path):
 
 
 @pytest.mark.parametrize("make", [
-    lambda: pyvista.CylinderStructured(radius=numpy.linspace(0.1, 2.2, 12), height=9.0, direction=(0, 0, 1)).cast_to_unstructured_grid(),
+    lambda: pyvista.CylinderStructured(
+        radius=numpy.linspace(0.1, 2.2, 12), height=9.0, direction=(0, 0, 1)).cast_to_unstructured_grid(),
     lambda: pyvista.ImageData(dimensions=(9, 9, 9), spacing=(0.6,) * 3, origin=(-2.4,) * 3),
     lambda: pyvista.Cylinder(radius=2.2, height=9.0, direction=(0, 0, 1))])
 def test_a_grid_is_a_shell_around_the_valve(make, surface, mesh, marks, tmp_path):
@@ -144,7 +145,8 @@ def test_a_picture_without_a_display_prints_no_error(tmp_path):
         pytest.skip("EGL is missing")
     program = "import riis; riis.plot(riis.Surface(riis.Valve('mitral')), screenshot='valve.png')"
     without = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "VTK_DEFAULT_OPENGL_WINDOW")}
-    done = subprocess.run([sys.executable, "-B", "-c", program], cwd=tmp_path, env=without, capture_output=True, text=True, check=True)
+    done = subprocess.run(
+        [sys.executable, "-B", "-c", program], cwd=tmp_path, env=without, capture_output=True, text=True, check=True)
     assert done.stdout == "" and "DISPLAY" not in done.stderr and (tmp_path / "valve.png").stat().st_size > 10_000
 
 

@@ -634,7 +634,8 @@ def widget(model: Any, grid: Any = None) -> Any:
     lights = model.lights()
     scene.show_lights(lights)
     if is_unmarked:
-        reasons = [f"{one.text}: {one.advice}" for one in lights if one.name in ("unit", "inside") and one.level in ("bad", "warn")]
+        wrong = [one for one in lights if one.name in ("unit", "inside") and one.level in ("bad", "warn")]
+        reasons = [f"{one.text}: {one.advice}" for one in wrong]
         warnings.warn("; ".join(reasons), MarksWarning, stacklevel=2)
     scene.freeze()
     return widget_of(scene.plotter)
