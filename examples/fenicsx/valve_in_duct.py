@@ -76,7 +76,7 @@ def flow(comm, law, dt, n_steps, size=2e-3, eps=2e-3, kind="bileaflet", speed=ME
     for step in range(1, n_steps + 1):
         before["opening"], valve["opening"] = law((step - 1) * dt), law(step * dt)
         surface.update_moving(valve, before, dt)
-        riis.mark(surface, points, into=marks, fields="velocity", n_threads=1)
+        riis.mark(surface, points, into=marks, fields="velocity", n_threads=1, allow_none=True)
         if comm.allreduce(len(marks.ids)) == 0:
             raise ValueError(f"step {step}: no point of the mesh is within eps = {eps} m of the valve")
         K.x.array[:], K_u.x.array[:] = 0, 0

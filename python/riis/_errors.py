@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The exceptions of riis, one class for each status of the C library. The module _errors also replaces C names in messages by
-Python names."""
+"""The exceptions of riis, one class for each status of the C library, and a warning. The module _errors also replaces C names in
+messages by Python names."""
 
 import re
 from collections.abc import Callable
@@ -76,6 +76,10 @@ class UnavailableError(Error, RuntimeError):
     status_name = "RIIS_UNAVAILABLE"
 
 
+class MarksWarning(UserWarning):
+    """riis.mark has marked no node, or few nodes with sizes that suggest a wrong scale."""
+
+
 class InternalError(Error, RuntimeError):
     """An error in riis or in a library below it. If an object was being written at this time, it can then only be closed."""
 
@@ -96,7 +100,7 @@ _classes = {
         InternalError,
     )
 }
-for _class in (Error, MissingAttributeError, UnknownParameterError, *_classes.values()):
+for _class in (Error, MissingAttributeError, UnknownParameterError, MarksWarning, *_classes.values()):
     _class.__module__ = "riis"
 
 
@@ -168,7 +172,7 @@ _CHANGES: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (r"^search\.surface: ", ""),
     (r"\briis_[a-z_]+", lambda match: _NAMES.get(match[0], match[0])),
     (r"(?<!['\w])(?:arrays|band|cells|csr|ends|faces|flow|frames|grid|law|loads|nodes|options|patches|points|"
-     r"resistance|search|table|times)\.([a-z]\w*)",
+     r"resistance|search|table|times)\.(?:resistance\.)?([A-Za-z]\w*)",
      lambda match: _ARGUMENTS.get(match[0], match[1])),
     (r"\bRIIS_LIST_\*", "the lists of riis.Marks"),
     (r"\bNULL\b", "None"),

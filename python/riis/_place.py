@@ -75,7 +75,8 @@ def place(
 
     landmarks  a mapping of names to points, such as {"nadir_left": (1, 2, 3), "annulus": [(...), ...]}, or the path of a file in
                JSON, CSV, or 3D Slicer's .mrk.json or .fcsv. docs/formats.md lists the names
-    valve      a kind, or a Valve whose proportions the result gets. The default is the kind that the file names
+    valve      a kind, or a Valve whose proportions the result gets. The default is the kind that the file names. The paper's
+               "aortic" valve does not close at opening 0. "coapting" and "trileaflet" take the same landmarks, and close
     unit       of the landmarks; needed for a mapping. For a file it is the unit of the result, to which the landmarks are
                converted
     axes       of the mesh. If a file has the other axes, its landmarks are turned by half a turn about z

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import ctypes
+import functools
 import html
 import io
 import json
@@ -34,6 +36,52 @@ def _pyvista() -> Any:
     return pyvista
 
 
+@functools.cache
+def _egl_works() -> bool:
+    """Returns whether EGL draws pictures without a display."""
+    try:
+        egl = ctypes.CDLL("libEGL.so.1")
+        query = egl.eglGetProcAddress
+        query.restype, query.argtypes = ctypes.c_void_p, [ctypes.c_char_p]
+        devices_at, platform_at = query(b"eglQueryDevicesEXT"), query(b"eglGetPlatformDisplayEXT")
+        if not devices_at or not platform_at:
+            return False
+        pointer, integer = ctypes.c_void_p, ctypes.c_int
+        query_devices = ctypes.CFUNCTYPE(integer, integer, ctypes.POINTER(pointer), ctypes.POINTER(integer))(devices_at)
+        display_of = ctypes.CFUNCTYPE(pointer, integer, pointer, pointer)(platform_at)
+        devices, n_devices = (pointer * 16)(), integer(0)
+        if not query_devices(16, devices, ctypes.byref(n_devices)):
+            return False
+        initialize = egl.eglInitialize
+        initialize.argtypes = [pointer, pointer, pointer]
+        platform_device = 0x313F  # EGL_PLATFORM_DEVICE_EXT
+        displays = [display_of(platform_device, device, None) for device in devices[: n_devices.value]]
+        return any(display and initialize(display, None, None) for display in displays)
+    except (OSError, AttributeError):
+        return False
+
+
+def _new_plotter(off_screen: bool, **how: Any) -> Any:
+    """Returns a new plotter. Without a display VTK first tries X, and prints an error, so EGL is chosen here if it works."""
+    if off_screen and not os.environ.get("DISPLAY") and "VTK_DEFAULT_OPENGL_WINDOW" not in os.environ and _egl_works():
+        os.environ["VTK_DEFAULT_OPENGL_WINDOW"] = "vtkEGLRenderWindow"
+    return _pyvista().Plotter(off_screen=off_screen, **how)
+
+
+def boundary_of(grid: Any) -> Any:
+    """Returns the boundary faces of a mesh of PyVista as pyvista.PolyData without arrays."""
+    from vtkmodules.vtkFiltersGeometry import vtkGeometryFilter
+
+    bare = grid.NewInstance()
+    bare.CopyStructure(grid)
+    faces = vtkGeometryFilter()
+    faces.SetInputData(bare)
+    faces.PassThroughCellIdsOff()
+    faces.PassThroughPointIdsOff()
+    faces.Update()
+    return _pyvista().wrap(faces.GetOutput())
+
+
 def surface_to_pyvista(surface: Surface) -> Any:
     """Copies a surface to pyvista.PolyData, as described for Surface.to_pyvista."""
     pyvista = _pyvista()
@@ -54,9 +102,11 @@ _BAR = {
 }
 
 
-def _look(plotter: Any, zoom: float) -> None:
-    """Aims the camera at everything drawn, obliquely from above."""
+def _look(plotter: Any, zoom: float, bounds: Any = None) -> None:
+    """Aims the camera at a box (6,), or at everything drawn, obliquely from above."""
     plotter.view_vector((1.0, -1.6, 1.5), viewup=(0.0, 0.0, 1.0))
+    if bounds is not None:
+        plotter.reset_camera(bounds=bounds)
     plotter.camera.zoom(zoom)
 
 
@@ -158,6 +208,19 @@ def coloured(data: Any, valve: int = 0) -> Any:
     return data
 
 
+def _check_types(surface: Any, mesh: Any, marks: Any, grid: Any = None) -> None:
+    from riis._riis import Marks, Mesh, Surface
+
+    if not isinstance(surface, Surface):
+        raise TypeError(f"surface: must be a riis.Surface, not {type(surface).__name__}")
+    if not (mesh is None or isinstance(mesh, Mesh)):
+        raise TypeError(f"mesh: must be the riis.Mesh of the marking, not {type(mesh).__name__}; grid= takes a mesh of PyVista")
+    if not (marks is None or isinstance(marks, Marks)):
+        raise TypeError(f"marks: must be a riis.Marks, not {type(marks).__name__}")
+    if not (grid is None or isinstance(grid, _pyvista().DataSet)):
+        raise TypeError(f"grid: must be a mesh of PyVista, such as an UnstructuredGrid, not {type(grid).__name__}")
+
+
 def _check_of_mesh(marks: Marks | None, mesh: Mesh | None) -> None:
     if mesh is not None and marks is not None and marks._places != mesh._places:
         raise InvalidArgumentError(
@@ -168,7 +231,7 @@ def _check_of_mesh(marks: Marks | None, mesh: Mesh | None) -> None:
 def point_size_of(n_marks: int, height: int) -> float:
     """Returns the size of a marked node in pixels. Few nodes are drawn large. Many nodes are drawn so small that they do not
     merge."""
-    return max(2.0, min(11.0, 350.0 / max(n_marks, 1) ** 0.5)) * max(height, 1) / 768.0
+    return max(2.0, min(8.0, 300.0 / max(n_marks, 1) ** 0.5)) * max(height, 1) / 768.0
 
 
 def _draw(plotter: Any, surface: Surface, mesh: Mesh | None, marks: Marks | None) -> None:
@@ -190,6 +253,19 @@ def _draw(plotter: Any, surface: Surface, mesh: Mesh | None, marks: Marks | None
         )
     else:
         plotter.remove_actor("riis marks", reset_camera=False)
+    if marks is not None and not has_marks:
+        from riis._few_marks import box_of
+
+        assert mesh is not None
+        n_nodes, lower, upper, _ = box_of(mesh)
+        plotter.add_text(f"0 of {n_nodes:,} nodes are marked", position="lower_right", name="riis no marks", font_size=12)
+        plotter.add_mesh(
+            pyvista.Box([end[k] for k in range(3) for end in (lower, upper)]), style="wireframe", color=_GREY, lighting=False,
+            name="riis box", reset_camera=False,
+        )
+    else:
+        for name in ("riis no marks", "riis box"):
+            plotter.remove_actor(name, reset_camera=False)
 
 
 def plot(
@@ -197,15 +273,17 @@ def plot(
     mesh: Mesh | None = None,
     marks: Marks | None = None,
     *,
+    grid: Any = None,
     screenshot: str | os.PathLike[str] | None = None,
     plotter: Any = None,
     interactive: bool = False,
     unit: str | None = None,
 ) -> Any:
     """Draws a surface, coloured by leaflet, the marked nodes, coloured by distance, and a scale bar. With marked nodes the
-    surface is translucent.
+    surface is translucent. If no node is marked, the picture says so, and shows the box of the mesh.
 
     mesh, marks  the mesh and the marks of a marking, both or neither. The mesh must still have the nodes of the marking
+    grid         a mesh of PyVista, whose boundary is drawn as a translucent shell around the valve
     screenshot   a .png file to write; no window opens in this case
     plotter      a pyvista.Plotter to draw into. If None, a new one is used, and shown unless there is a screenshot
     interactive  whether to return a widget for a notebook, in which the mouse turns the scene. It has no scale bar
@@ -213,17 +291,22 @@ def plot(
 
     Returns the plotter, or the widget. riis.view.scene.widget also shows a mesh around the valve.
     """
-    pyvista = _pyvista()
+    _check_types(surface, mesh, marks, grid)
     if (mesh is None) != (marks is None):
         raise InvalidArgumentError("marks: must be given together with mesh; one of them is None")
     _check_of_mesh(marks, mesh)
     _check_unit(unit)
     given = plotter is not None
     if not given:
-        plotter = pyvista.Plotter(off_screen=interactive or screenshot is not None, notebook=True if interactive else None)
+        plotter = _new_plotter(interactive or screenshot is not None, notebook=True if interactive else None)
     _draw(plotter, surface, mesh, marks)
+    if grid is not None:
+        plotter.add_mesh(boundary_of(grid), color="#c9ced6", opacity=0.16, pickable=False, name="riis grid", reset_camera=False)
     if not given:
-        _look(plotter, 1.2)
+        info = surface.info
+        at_valve = grid is not None and not (marks is not None and len(marks) == 0)
+        box = [end[k] for k in range(3) for end in (info.lower, info.upper)]
+        _look(plotter, 0.9 if at_valve else 1.2, box if at_valve else None)
     if not interactive:
         add_scale_bar(plotter, unit)
     if screenshot is not None:
@@ -282,6 +365,7 @@ def _frame_of(item: Any, number: int, mesh: Mesh | None) -> tuple[Surface, Marks
         raise TypeError(f"frames: frame {number} must be a Surface, (Surface, marks) or (Surface, marks, caption), not {item!r}")
     if marks is not None and mesh is None:
         raise InvalidArgumentError(f"mesh: is None, but frame {number} of frames has marks")
+    _check_types(surface, mesh, marks)
     _check_of_mesh(marks, mesh)
     return surface, marks, caption
 
@@ -308,7 +392,7 @@ def animate(
     Without plotter, the camera looks at the first frame, obliquely from above. If a frame raises an exception, no file is left. A
     movie needs imageio in addition to PyVista. A .mp4 also needs imageio-ffmpeg.
     """
-    pyvista = _pyvista()
+    _pyvista()
     name = os.fspath(path)
     kind = os.path.splitext(name)[1].lower()
     if kind not in (".gif", ".mp4"):
@@ -320,7 +404,7 @@ def animate(
     _check_unit(unit)
     given = plotter is not None
     if not given:
-        plotter = pyvista.Plotter(off_screen=True, window_size=(768, 576))  # multiples of 16, as .mp4 needs
+        plotter = _new_plotter(True, window_size=(768, 576))  # multiples of 16, as .mp4 needs
     number, complete = 0, False
     try:
         for item in frames:

@@ -21,6 +21,9 @@ from riis import _riis
 class _Timed:
     """A law that depends on the time alone."""
 
+    def __post_init__(self) -> None:
+        self.opening_and_rate(0.0)  # refuses bad values
+
     def opening_and_rate(self, time: Any) -> tuple[Any, Any]:
         """Returns the opening and its rate at a time, or arrays (n,) of both at times (n,) float64."""
         raise NotImplementedError
@@ -105,6 +108,9 @@ class OpeningSwitch:
     filter_time: float = 0.0  #: time constant of a filter of pressure difference and flow; 0: no filter
     dwell_time: float = 0.0  #: the least time from one change of phase to the next
 
+    def __post_init__(self) -> None:
+        self.advance(OpeningSwitchState(), 0.0, 0.0, 0.0)  # refuses bad values
+
     def advance(
         self, before: OpeningSwitchState, time: float, pressure_difference: float, flow: float
     ) -> OpeningSwitchState:
@@ -139,6 +145,9 @@ class OpeningAngle:
     vortex_gain: float
     angle_min: float = 0.0  #: degrees: the closed angle
     angle_max: float = 75.0  #: degrees: the open angle
+
+    def __post_init__(self) -> None:
+        self.advance(OpeningAngleState(), 0.0, 0.0, 0.0)  # refuses bad values
 
     def advance(
         self, before: OpeningAngleState, time: float, pressure_difference: float, flow: float

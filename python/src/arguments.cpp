@@ -43,6 +43,13 @@ double number_or(nb::handle value, const char *name, double none) {
   return value.is_none() ? none : number(value, name);
 }
 
+double number_or_auto(nb::handle value, const char *name) {
+  if (value.is_none()) return RIIS_AUTO;
+  const double found = number(value, name);
+  if (found == RIIS_AUTO) refuse_value(name, "is ", found, "; it must be above 0");
+  return found;
+}
+
 std::int64_t integer(nb::handle value, const char *name) {
   if (!PyBool_Check(value.ptr())) {
     const nb::object index = nb::steal(PyNumber_Index(value.ptr()));

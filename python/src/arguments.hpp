@@ -21,6 +21,9 @@ double number(nb::handle value, const char *name);
 // Returns a number, or the default for None.
 double number_or(nb::handle value, const char *name, double none);
 
+// Returns a number, or RIIS_AUTO for None. Refuses the number that stands for RIIS_AUTO in C.
+double number_or_auto(nb::handle value, const char *name);
+
 // Returns a whole number.
 std::int64_t integer(nb::handle value, const char *name);
 

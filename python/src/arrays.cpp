@@ -107,6 +107,8 @@ void Array::refuse_entries(nb::handle object, const char *wanted, const Parts &.
   std::string text = text_of(parts...);
   if (access_ == Access::write)
     text += text_of("; the call writes it, so make it by numpy.zeros(..., dtype=", dtype_for(wanted), ")");
+  else if (std::string(name_) == "xyz" && (PyUnicode_Check(object.ptr()) || nb::hasattr(object, "__fspath__")))
+    text += "; read a file by pyvista.read, and pass its points.astype(float)";
   else if (const std::string part = convertible_part(object, name_, wanted); !part.empty())
     text += text_of("; pass numpy.ascontiguousarray(", part, ", dtype=", dtype_for(wanted), ")");
   refuse_type(name_, text);

@@ -86,15 +86,28 @@ std::int32_t fields_of(nb::handle wanted) {
   return sum;
 }
 
+// Warns if a marking has found no node, or few nodes because of a wrong scale. Warns once for each surface, mesh and scale.
+void warn_of_few_marks(nb::handle surface_, nb::handle mesh_, nb::handle mask, const Marks &result) {
+  riis_mark_stats stats;
+  call_shortly(riis_marks_get_stats(result.handle, &stats, sizeof stats));
+  constexpr std::int64_t few = 100;
+  if (stats.n_marked >= few) return;
+  Surface &surface = object<Surface>(surface_, "surface");
+  const double scale = surface.options.scale;
+  if (!surface.judged.emplace(object<Mesh>(mesh_, "mesh").number, scale).second) return;
+  nb::module_::import_("riis._few_marks").attr("warn")(surface_, mesh_, mask, scale, stats.n_marked);
+}
+
 nb::object mark(nb::handle surface_, nb::handle mesh_, nb::handle into, nb::handle wanted_fields,
                 nb::handle distance_limit, nb::handle mask, nb::handle search, nb::handle n_threads,
-                nb::handle instructions, nb::handle R, nb::handle half_thickness, nb::handle rim) {
+                nb::handle instructions, nb::handle R, nb::handle half_thickness, nb::handle rim,
+                nb::handle allow_none) {
   Surface &surface = object<Surface>(surface_, "surface");
   Mesh &mesh = object<Mesh>(mesh_, "mesh");
   const Reading reading_surface(surface.usage, "surface"), reading_mesh(mesh.usage, "mesh");
   MarkOptions given(mesh, mask, n_threads);
   riis_mark_options &options = given.options;
-  options.distance_limit = number_or(distance_limit, "distance_limit", RIIS_AUTO);
+  options.distance_limit = number_or_auto(distance_limit, "distance_limit");
   options.search = choice(search, "search",
                           {{"auto", RIIS_SEARCH_AUTO},
                            {"exhaustive", RIIS_SEARCH_EXHAUSTIVE},
@@ -107,6 +120,7 @@ nb::object mark(nb::handle surface_, nb::handle mesh_, nb::handle into, nb::hand
                                  {"avx2", RIIS_INSTRUCTIONS_AVX2},
                                  {"avx512", RIIS_INSTRUCTIONS_AVX512}});
   options.fields = fields_of(wanted_fields);
+  const bool may_find_none = flag(allow_none, "allow_none");
   std::optional<riis_resistance> resistance;
   if (!R.is_none())
     options.resistance = &resistance.emplace(resistance_of(R, half_thickness, rim));
@@ -130,6 +144,7 @@ nb::object mark(nb::handle surface_, nb::handle mesh_, nb::handle into, nb::hand
   result.n_threads = options.n_threads;
   result.marking_fork = fork_number();
   result.places = mesh.places;
+  if (!may_find_none) warn_of_few_marks(surface_, mesh_, mask, result);
   return result_object;
 }
 
@@ -321,13 +336,14 @@ far_distance  distance of nodes beyond the limit: any value outside [0, distance
       nb::arg("distance_limit").none() = nb::none(), nb::arg("mask").none() = nb::none(),
       nb::arg("search").none() = "auto", nb::arg("n_threads").none() = 0, nb::arg("instructions").none() = "auto",
       nb::arg("R").none() = nb::none(), nb::arg("half_thickness").none() = nb::none(),
-      nb::arg("rim").none() = nb::none(),
+      nb::arg("rim").none() = nb::none(), nb::arg("allow_none").none() = false,
       nb::sig("def mark(surface: Surface, mesh: Mesh, *, into: Marks | None = None, fields: str | "
               "collections.abc.Sequence[str] | None = None, distance_limit: float | None = None, mask: "
               "numpy.typing.NDArray[numpy.bool_] | numpy.typing.NDArray[numpy.uint8] | None = None, search: "
               "typing.Literal['auto', 'exhaustive', 'neighbor', 'paper', 'clusters'] = 'auto', n_threads: int = 0, "
               "instructions: typing.Literal['auto', 'baseline', 'avx2', 'avx512'] = 'auto', R: float | None = None, "
-              "half_thickness: float | None = None, rim: typing.Literal['round', 'cut'] | None = None) -> Marks"),
+              "half_thickness: float | None = None, rim: typing.Literal['round', 'cut'] | None = None, "
+              "allow_none: bool = False) -> Marks"),
       R"(Finds every node whose distance to the surface is at most the half thickness, or with an offset every node in the band.
 
 into            a Marks to fill, whose memory is reused; if None, a new one
@@ -341,7 +357,10 @@ n_threads       1 to 1024; 0: as many as there is work for
 instructions    the instruction set, for tests and measurements; all give the same bits
 R               mass / (length time): the marks get K, and K_u_surface if the surface has velocities
 half_thickness  eps of K; (1 + |offset|) eps is at most the distance limit; None: the surface's half thickness
-rim             as in add_resistance; None: 'round')");
+rim             as in add_resistance; None: 'round'
+allow_none      whether the call may mark no node, as on an MPI rank whose nodes are far from the valve. False: a call without
+                marks, or with few marks and sizes that suggest another scale, gives a riis.MarksWarning, once for each
+                surface, mesh and scale)");
 }
 
 }  // namespace riis_python

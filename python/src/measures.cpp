@@ -47,7 +47,7 @@ std::int32_t leaflet_or_all(nb::handle leaflet_id) {
 nb::object coaptation(Surface &self, nb::handle leaflet_id, nb::handle reach_) {
   const Reading reading(self.usage, "surface");
   const std::int32_t id = leaflet_or_all(leaflet_id);
-  const double reach = reach_.is_none() ? RIIS_AUTO : number(reach_, "reach");
+  const double reach = number_or_auto(reach_, "reach");
   riis_coaptation made;
   call_library([&] { return riis_surface_get_coaptation(self.handle, reach, id, &made, sizeof made); });
   return record("Coaptation")(made.area, made.edge, made.reach);
@@ -230,7 +230,7 @@ wall  a surface in the same frame, such as one from arrays)");
 wall     a surface in the frame of the placed valve
 longest  the longest length to accept, mesh units
 options  options of riis.Surface, of which scale, rotation and translation place the valve)");
-  add_method(module, "Surface", "leak", &leak, nb::arg("drop").none(), nb::kw_only(), nb::arg("R").none(),
+  add_method(module, "Surface", "leak", &leak, nb::arg("drop").none(), nb::kw_only(), nb::arg("R").none() = nb::none(),
              nb::arg("half_thickness").none() = nb::none(),
              nb::sig("def leak(self, drop: float, *, R: float, half_thickness: float | None = None) -> float"),
              R"(Returns the ideal leak of a closed surface: the volume flow drop * (eps / R) * area.

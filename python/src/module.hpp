@@ -4,6 +4,9 @@
 
 #include <nanobind/nanobind.h>
 
+#include <set>
+#include <utility>
+
 #include "arrays.hpp"
 #include "handles.hpp"
 
@@ -34,6 +37,8 @@ struct Surface : Handle<riis_surface, riis_surface_destroy> {
   riis_surface_options options{};  // the options in use
   // Copies of arrays that the user requested. The library's arrays are copied, because an update overwrites its memory.
   nb::object vertices, uv, velocities, triangles;
+  // The meshes and scales whose few marks have been judged. A time loop thus warns once.
+  std::set<std::pair<std::int64_t, double>> judged;
 
   void close(const char *name);
   void drop_copies() { vertices = uv = velocities = triangles = nb::object(); }
@@ -50,6 +55,7 @@ struct Mesh : Handle<riis_mesh, riis_mesh_destroy> {
   std::vector<Array> rows;  // the caller's arrays of rows
   nb::object adjacency;     // an Adjacency whose rows are used, kept alive
   std::int64_t places = new_places();
+  const std::int64_t number = places;  // differs for every mesh, and stays the same after updates
 
   // Returns a number for the nodes' present positions. The number differs for every mesh, and after every update.
   static std::int64_t new_places();

@@ -4,10 +4,11 @@
 namespace riis_python {
 
 riis_resistance resistance_of(nb::handle R, nb::handle half_thickness, nb::handle rim) {
+  if (R.is_none()) refuse_type("R", "is missing; R is a mass / (length time), such as R=1e4 for kg/(m s)");
   riis_resistance made;
   call_shortly(riis_resistance_init(&made, sizeof made));
   made.R = number(R, "R");
-  made.half_thickness = number_or(half_thickness, "half_thickness", RIIS_AUTO);
+  made.half_thickness = number_or_auto(half_thickness, "half_thickness");
   if (!rim.is_none()) made.rim = choice(rim, "rim", {{"round", RIIS_RIM_ROUND}, {"cut", RIIS_RIM_CUT}});
   return made;
 }
@@ -162,7 +163,7 @@ nb::object band_sums(Marks &result, nb::handle value_, nb::handle weight_, nb::h
 void add_resistance(nb::class_<Marks> &result) {
   result
       .def("add_resistance", &add_to, nb::arg("K").none() = nb::none(), nb::arg("K_u_surface").none() = nb::none(),
-           nb::kw_only(), nb::arg("R").none(), nb::arg("half_thickness").none() = nb::none(),
+           nb::kw_only(), nb::arg("R").none() = nb::none(), nb::arg("half_thickness").none() = nb::none(),
            nb::arg("rim").none() = "round",
            nb::sig("def add_resistance(self, K: " RIIS_REALS " | None = None, K_u_surface: " RIIS_REALS
                    " | None = None, *, " RIIS_MODEL ") -> None"),
@@ -176,7 +177,7 @@ half_thickness  eps, mesh units; (1 + |offset|) eps is at most the distance limi
 rim             'round': every node within eps gets K; 'cut': nodes whose closest point is on the rim get none, which
                 needs fields='rim')")
       .def("add_reaction", &add_reaction, nb::arg("velocity").none(), nb::arg("weight").none(),
-           nb::arg("force").none() = nb::none(), nb::kw_only(), nb::arg("R").none(),
+           nb::arg("force").none() = nb::none(), nb::kw_only(), nb::arg("R").none() = nb::none(),
            nb::arg("half_thickness").none() = nb::none(), nb::arg("rim").none() = "round",
            nb::arg("moment").none() = nb::none(), nb::arg("about").none() = nb::none(),
            nb::arg("leaflet_force").none() = nb::none(), nb::arg("leaflet_moment").none() = nb::none(),
@@ -208,8 +209,9 @@ edge_force       (n_edges, 3): a node's force goes to the edge nearest to its cl
 edge_moment      (n_edges, 3): the moments about the middle of each edge
 edge_leaflet_id  (n_edges,) int32: a node's force goes to the nearest edge of its leaflet; None: of all leaflets)")
       .def("add_vertex_reaction", &add_vertex_reaction, nb::arg("surface").none(), nb::arg("velocity").none(),
-           nb::arg("weight").none(), nb::arg("force").none() = nb::none(), nb::kw_only(), nb::arg("R").none(),
-           nb::arg("half_thickness").none() = nb::none(), nb::arg("rim").none() = "round",
+           nb::arg("weight").none(), nb::arg("force").none() = nb::none(), nb::kw_only(),
+           nb::arg("R").none() = nb::none(), nb::arg("half_thickness").none() = nb::none(),
+           nb::arg("rim").none() = "round",
            nb::sig("def add_vertex_reaction(self, surface: Surface, velocity: " RIIS_REALS ", weight: " RIIS_REALS
                    ", force: " RIIS_REALS " | None = None, *, " RIIS_MODEL ") -> " RIIS_REALS),
            R"(Adds the force of the flow on each vertex of the surface to force, and returns force.

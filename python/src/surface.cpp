@@ -6,12 +6,13 @@ namespace {
 
 // The types of options in the annotations of signatures.
 #define RIIS_VECTOR "collections.abc.Sequence[float] | numpy.typing.NDArray[numpy.float64] | None = None"
-#define RIIS_SURFACE_OPTIONS                                                                                      \
-  "half_thickness: float | typing.Literal['auto'] | None = None, tolerance: float | None = None, scale: float "   \
-  "| None = None, rotation_axis: " RIIS_VECTOR ", rotation_angle: float | None = None, translation: " RIIS_VECTOR \
-  ", flip_normals: bool | None = None, measure: typing.Literal['triangles', 'sampling', "                         \
-  "'minimization'] | None = None, measure_tolerance: float | typing.Literal['auto'] | None = None, "              \
-  "triangulation: typing.Literal['adapted', 'fixed'] | None = None, zero_area: typing.Literal['refuse', "         \
+#define RIIS_SURFACE_OPTIONS                                                                                    \
+  "half_thickness: float | typing.Literal['auto'] | None = None, tolerance: float | None = None, scale: float " \
+  "| None = None, rotation_axis: " RIIS_VECTOR ", rotation_angle: float | None = None, axis: " RIIS_VECTOR      \
+  ", translation: " RIIS_VECTOR                                                                                 \
+  ", flip_normals: bool | None = None, measure: typing.Literal['triangles', 'sampling', "                       \
+  "'minimization'] | None = None, measure_tolerance: float | typing.Literal['auto'] | None = None, "            \
+  "triangulation: typing.Literal['adapted', 'fixed'] | None = None, zero_area: typing.Literal['refuse', "       \
   "'skip'] | None = None, offset: float | None = None, n_threads: int | None = None"
 #define RIIS_POINTS "numpy.typing.NDArray[numpy.float64]"
 #define RIIS_FACES "numpy.typing.NDArray[numpy.integer]"
@@ -277,6 +278,8 @@ tolerance           0.05: distances to the triangles and to the smooth valve dif
 scale               1. The placement is x -> scale * rotation * x + translation
 rotation_axis       (0, 0, 1)
 rotation_angle      0, degrees
+axis                the direction of the valve's axis, in place of the two options above. The valve takes the smallest rotation
+                    from (0, 0, 1). Blood flows along this axis, and through mitral and tricuspid valves against it
 translation         (0, 0, 0), mesh units
 flip_normals        False
 measure             'triangles'; the paper's 'sampling' and 'minimization' serve for comparison

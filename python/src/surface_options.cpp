@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The keywords for how a surface is made and placed.
+#include <cmath>
 #include <cstring>
 
+#include "common/elementary.hpp"
 #include "module.hpp"
 
 namespace riis_python {
@@ -16,14 +18,30 @@ struct Keyword {
 };
 
 // Returns the number. "auto" stands for a default that depends on other values.
-double number_or_auto(nb::handle value, const char *name) {
-  return PyUnicode_Check(value.ptr()) ? choice(value, name, {{"auto", -1}}) * -RIIS_AUTO : number(value, name);
+double number_or_word(nb::handle value, const char *name) {
+  if (!PyUnicode_Check(value.ptr())) return number_or_auto(value, name);
+  choice(value, name, {{"auto", 0}});
+  return RIIS_AUTO;
+}
+
+// Turns the valve's z axis into the direction of an axis by the smallest rotation. The rotation by half a turn is about x.
+void set_axis(riis_surface_options &options, nb::handle value, const char *name) {
+  double axis[3];
+  three_numbers(value, name, axis);
+  const double across = riis::hypotenuse(axis[0], axis[1]), length = riis::hypotenuse(across, axis[2]);
+  if (!(length > 0 && std::isfinite(length)))
+    refuse_value(name, "is (", axis[0], ", ", axis[1], ", ", axis[2], "), which gives no direction");
+  const bool is_along_z = across == 0;
+  options.rotation_axis[0] = is_along_z ? 1 : -axis[1];
+  options.rotation_axis[1] = is_along_z ? 0 : axis[0];
+  options.rotation_axis[2] = 0;
+  options.rotation_angle = riis::arc_tangent(across, axis[2]) * (180 / riis::pi);
 }
 
 const Keyword keywords[] = {
     {"half_thickness",
      [](riis_surface_options &o, nb::handle value, const char *name) {
-       o.half_thickness = number_or_auto(value, name);
+       o.half_thickness = number_or_word(value, name);
      },
      false},
     {"tolerance",
@@ -34,6 +52,7 @@ const Keyword keywords[] = {
      true},
     {"rotation_angle",
      [](riis_surface_options &o, nb::handle value, const char *name) { o.rotation_angle = number(value, name); }, true},
+    {"axis", set_axis, true},
     {"translation",
      [](riis_surface_options &o, nb::handle value, const char *name) { three_numbers(value, name, o.translation); },
      true},
@@ -54,7 +73,7 @@ const Keyword keywords[] = {
      false},
     {"measure_tolerance",
      [](riis_surface_options &o, nb::handle value, const char *name) {
-       o.measure_tolerance = number_or_auto(value, name);
+       o.measure_tolerance = number_or_word(value, name);
      },
      false},
     {"triangulation",
@@ -71,7 +90,8 @@ const Keyword keywords[] = {
 };
 
 void set_options(riis_surface_options &options, nb::handle given, const char *argument, bool placement_only) {
-  for (const auto [key, value] : nb::borrow<nb::dict>(given)) {
+  const auto all_given = nb::borrow<nb::dict>(given);
+  for (const auto [key, value] : all_given) {
     const std::string name = text(key, argument);
     const Keyword *found = nullptr;
     std::string all;
@@ -81,7 +101,11 @@ void set_options(riis_surface_options &options, nb::handle given, const char *ar
       all += text_of(all.empty() ? "" : ", ", keyword.name);
     }
     if (!found) refuse_type(argument, "'", name, "' is not an option; the options are ", all);
-    if (!value.is_none()) found->set(options, value, found->name);
+    if (value.is_none()) continue;
+    for (const char *other : {"rotation_axis", "rotation_angle"})
+      if (name == "axis" && all_given.contains(other) && !all_given[other].is_none())
+        refuse_value("axis", "cannot be combined with ", other);
+    found->set(options, value, found->name);
   }
 }
 

@@ -18,17 +18,17 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
 def programs_of_the_document():
-    """Returns the programs by name. The first two programs belong together, and so do the next seven. All other programs stand
+    """Returns the programs by name. The first four programs belong together, and so do the next seven. All other programs stand
     alone."""
     blocks = re.findall(r"```python\n(.*?)```", (ROOT / "docs/python.md").read_text(encoding="utf-8"), re.DOTALL)
-    if len(blocks) != 11:
-        raise SystemExit(f"check_types.py: docs/python.md has {len(blocks)} programs, not 11")
-    plot, n = re.subn(r"^import pyvista, riis$", "from typing import Any\n\nimport riis\n\npyvista: Any = None",
-                      "\n".join(blocks[:2]), flags=re.MULTILINE)
-    if n != 1:
-        raise SystemExit("check_types.py: the first program of docs/python.md imports other packages for pictures")
-    return {"document_plot.py": plot, "document_marks.py": "\n".join(blocks[2:9]), "document_place.py": blocks[9],
-            "document_fit.py": blocks[10]}
+    if len(blocks) != 13:
+        raise SystemExit(f"check_types.py: docs/python.md has {len(blocks)} programs, not 13")
+    plot, n = re.subn(r"^import (?:(numpy, )?pyvista, riis|matplotlib.pyplot)$", "", "\n".join(blocks[:4]), flags=re.MULTILINE)
+    if n != 3:
+        raise SystemExit("check_types.py: the first programs of docs/python.md import other packages for pictures")
+    head = "from typing import Any\n\nimport numpy\nimport riis\n\npyvista: Any = None\nmatplotlib: Any = None\n"
+    return {"document_plot.py": head + plot, "document_marks.py": "\n".join(blocks[4:11]), "document_place.py": blocks[11],
+            "document_fit.py": blocks[12]}
 
 
 def program_of_the_notebook():

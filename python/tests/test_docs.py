@@ -14,6 +14,7 @@ import numpy
 import pytest
 
 import riis
+from riis import _riis
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests/docs"))
@@ -90,6 +91,21 @@ def check_own_mesh(names):
     check_picture("my_valve.png")
 
 
+def check_file_for_paraview(names):
+    import pyvista
+    read, marks = pyvista.read("marked.vtu"), names["marks"]
+    assert numpy.array_equal(numpy.flatnonzero(~numpy.isnan(read["riis_distance"])), marks.ids)
+    assert numpy.array_equal(read["riis_K"], names["K"]) and set(numpy.flatnonzero(names["K"])) <= set(marks.ids)
+
+
+def check_period(names):
+    kept = numpy.load("period.npz")
+    numbers = kept["numbers"]
+    assert len(kept["times"]) == len(numbers) == 41 and numbers.sum() == len(kept["ids"]) == len(kept["K"])
+    assert numbers[0] == numbers[-1] and numbers.min() > 100 and len(set(numbers)) > 3 and kept["K"].max() > 0.0
+    check_picture("numbers.png")
+
+
 def check_picture(name):
     """Checks that a picture is neither empty nor of one colour."""
     import pyvista
@@ -136,8 +152,9 @@ def check_view(names):
 CHECKS = {(document, first): check for document, first, check in (
     ("README.md", "import pyvista, riis", check_plot),
     ("docs/python.md", "import pyvista, riis", check_plot),
-    ("docs/python.md", 'grid = pyvista.read("mesh.vtu")                        # also .vtk, .vtp and more; .msh needs meshio',
-     check_own_mesh),
+    ("docs/python.md", "import numpy, pyvista, riis", check_own_mesh),
+    ("docs/python.md", "K = numpy.zeros(len(mesh))", check_file_for_paraview),
+    ("docs/python.md", "import matplotlib.pyplot", check_period),
     ("docs/python.md", "import numpy, riis", check_whole),
     ("docs/python.md", "law, n_steps, dt = riis.OpeningTimes(0.45, 0.05, 0.95, 0.05, period=1.0), 6, 0.125", check_beat),
     ("docs/python.md", "aside = riis.Surface(valve, half_thickness=0.1, offset=0.75)", check_aside),
@@ -150,6 +167,22 @@ CHECKS = {(document, first): check for document, first, check in (
 def test_every_check_belongs_to_a_program():
     programs = {(one.document, one.text.split("\n", 1)[0]) for one in SNIPPETS}
     assert set(CHECKS) <= programs and {document for document, _ in programs} >= set(GIVEN)
+
+
+def test_the_landmarks_of_formats_give_a_valve_that_closes(tmp_path):
+    text = (ROOT / "docs/formats.md").read_text(encoding="utf-8")
+    (tmp_path / "root.json").write_text(re.search(r"```json\n(\{\"valve\".*?)```", text, re.DOTALL)[1])
+    found = riis.place(tmp_path / "root.json")
+    orifice = riis.Surface(found.valve, **found.placement).orifice()
+    assert found.valve.kind == "coapting" and found.rms < 1.0 and orifice.area < 0.02 * orifice.outline_area
+
+
+def test_the_table_of_units_is_that_of_the_program():
+    text = (ROOT / "docs/python.md").read_text(encoding="utf-8")
+    for unit, (scale, _) in _riis.units().items():
+        factor, of_R, of_K = _riis.resistance_units(unit)
+        R = f"{1e4 * factor:.0e}".replace("+0", "")
+        assert f"\n| {unit} | {scale:g} | {R} {of_R} | {of_K} |\n" in text
 
 
 def test_the_first_program_is_in_all_texts():

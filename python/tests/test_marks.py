@@ -2,6 +2,7 @@
 """Marks are equal to those of a C program, to the last bit, for any layout of the arrays and any search."""
 
 import subprocess
+import warnings
 
 import numpy
 import pytest
@@ -12,6 +13,90 @@ import riis
 def same(a, b):
     """Returns whether two arrays have the same shape and bits."""
     return a.dtype == b.dtype and a.shape == b.shape and a.tobytes() == b.tobytes()
+
+
+def a_box(unit, n=30):
+    """Returns the nodes of a box of 4 cm around (7, 8, 9) cm, in a unit with this length for each centimetre."""
+    axes = [unit * (middle + numpy.linspace(-2.0, 2.0, n)) for middle in (7.0, 8.0, 9.0)]
+    return numpy.stack(numpy.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3), axes
+
+
+def warnings_of(mark):
+    """Returns the warnings of riis about marks."""
+    with warnings.catch_warnings(record=True) as found:
+        warnings.simplefilter("always")
+        mark()
+    assert all(issubclass(one.category, riis.MarksWarning) and one.filename == __file__ for one in found)
+    return [str(one.message) for one in found]
+
+
+@pytest.mark.parametrize("unit, wrong, advice", [
+    (10.0, 1.0, "scale=10, for a mesh in mm"), (0.01, 1.0, "scale=0.01, for a mesh in m"),
+    (1.0, 10.0, "scale=1, for a mesh in cm"), (1.0, 0.01, "scale=1, for a mesh in cm"),
+    (0.01, 10.0, "scale=0.01, for a mesh in m")])
+@pytest.mark.parametrize("kind", ["coapting", "mitral"])
+def test_a_wrong_scale_gives_a_warning_with_the_right_one(unit, wrong, advice, kind):
+    xyz, axes = a_box(unit)
+    valve, middle = riis.Valve(kind), unit * numpy.array([7.0, 8.0, 9.0])
+    for mesh in riis.Mesh(xyz), riis.Mesh.grid(*axes):
+        surface = riis.Surface(valve, scale=wrong, half_thickness=0.1 * min(wrong, unit), translation=middle)
+        texts = warnings_of(lambda: riis.mark(surface, mesh))
+        if len(riis.mark(surface, mesh)) < 100:
+            assert len(texts) == 1 and "marked: the surface reaches from" in texts[0]
+            assert f"The sizes suggest {advice}." in texts[0]
+        else:
+            assert wrong > unit and not texts
+        surface = riis.Surface(valve, scale=unit, translation=middle)
+        assert not warnings_of(lambda: riis.mark(surface, mesh)) and len(riis.mark(surface, mesh)) > 100
+
+
+def test_a_valve_outside_the_mesh_gives_a_warning_with_the_middle_of_the_mesh():
+    xyz, axes = a_box(1.0)
+    valve = riis.Valve("coapting")
+    for mesh in riis.Mesh(xyz), riis.Mesh.grid(*axes):
+        [text] = warnings_of(lambda: riis.mark(riis.Surface(valve), mesh))
+        assert text.startswith("no node is marked: the surface reaches from (-1.")
+        assert text.endswith(", the mesh from (5, 6, 7) to (9, 10, 11). The surface lies outside the mesh: see translation. "
+                             "The middle of the mesh is (7, 8, 9). If these marks are right, pass allow_none=True.")
+    half = (xyz[:, 0] < 7.0) & (xyz[:, 1] < 8.0)  # a corner, which the valve's box meets
+    at_corner = riis.Surface(valve, half_thickness=0.02, translation=(8.15, 9.2, 8.0))
+    [text] = warnings_of(lambda: riis.mark(at_corner, riis.Mesh(xyz), mask=half))
+    assert "the mesh from (5, 6, 7) to (6.93, 7.93, 11)" in text
+    thin = riis.Surface(valve, half_thickness=5e-4, tolerance=0.5, translation=(7.13, 8.07, 9.05))
+    [text] = warnings_of(lambda: riis.mark(thin, riis.Mesh(a_box(1.0, 11)[0])))
+    assert "The half thickness is 0.0005, and the nodes are about 0.4 apart" in text
+
+
+def test_a_time_loop_warns_once():
+    xyz, _ = a_box(1.0)
+    mesh, valve, marks = riis.Mesh(xyz), riis.Valve("coapting"), riis.Marks()
+    surface = riis.Surface(valve)
+
+    def beat(mesh, **options):
+        for step in range(20):
+            valve["opening"] = 0.05 * step
+            surface.update(valve, translation=(0, 0, 0.01 * step), **options)
+            riis.mark(surface, mesh, into=marks)
+
+    assert len(warnings_of(lambda: beat(mesh))) == 1 and not warnings_of(lambda: beat(mesh))
+    assert len(warnings_of(lambda: beat(mesh, scale=0.5))) == 1  # another try
+    assert len(warnings_of(lambda: beat(riis.Mesh(xyz.copy())))) == 1
+
+
+def test_marks_may_be_missing():
+    xyz, _ = a_box(1.0)
+    valve = riis.Valve("coapting")
+    assert not warnings_of(lambda: riis.mark(riis.Surface(valve), riis.Mesh(xyz), allow_none=True))
+    assert not warnings_of(lambda: riis.mark(riis.Surface(valve), riis.Mesh(xyz[:999].copy())))
+    assert not warnings_of(lambda: riis.mark(riis.Surface(valve), riis.Mesh(xyz), mask=numpy.zeros(len(xyz), bool)))
+    marks = riis.Marks()
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        with pytest.raises(riis.MarksWarning, match="no node is marked"):
+            riis.mark(riis.Surface(valve), riis.Mesh(xyz), into=marks)
+        assert marks.stats.n_nodes == len(xyz) and len(marks) == 0
+        warnings.simplefilter("ignore", riis.MarksWarning)
+        riis.mark(riis.Surface(valve), riis.Mesh(xyz))
 
 
 def lists_of(marks):

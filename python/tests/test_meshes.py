@@ -116,7 +116,8 @@ def test_leaks_regions_and_passages_tell_the_same(grid):
     assert n_regions == 2 and set(label) == {-1, 0, 21 * n * n} and (label[marks.ids] == -1).all()
     passage = riis.find_passage(tight, grid, below, above)
     assert passage.state == "closed" and numpy.isclose(passage.distance, 0.03)
-    riis.mark(loose, grid, into=marks)
+    with pytest.warns(riis.MarksWarning, match="The half thickness is 0.02, and the nodes are about 0.1 apart"):
+        riis.mark(loose, grid, into=marks)
     assert len(marks) == 0
     leaks = riis.find_leaks(loose, grid, marks)
     assert leaks.n_edges == n * n and numpy.isclose(leaks.longest_length, 0.1) and numpy.isclose(leaks.half_thickness, 0.03)

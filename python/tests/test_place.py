@@ -202,6 +202,27 @@ def test_warps(kind, tmp_path):
         riis.place({**named, "attachment": [at + 0.01]}, kind, unit="mm")
 
 
+@pytest.mark.parametrize("n", [1, 2])
+def test_too_few_landmarks_are_counted_before_the_unit_is_judged(n):
+    given = dict(zip(NAMES[:n], patient(3)[2], strict=False))
+    with pytest.raises(riis.InvalidArgumentError, match="landmarks: it has the commissure 0 times; the coapting valve needs 3"):
+        riis.place(given, "coapting", unit="mm")
+
+
+def test_a_report_says_that_the_papers_aortic_valve_does_not_close():
+    points = dict(zip(NAMES, patient(3)[2], strict=True))
+    text = ("The paper's aortic valve does not close at opening 0. The kinds coapting and trileaflet take the same landmarks, "
+            "and close.\n")
+    open_share = {}
+    for kind in ("aortic", "coapting", "trileaflet"):
+        found = riis.place(points, kind, unit="mm")
+        orifice = riis.Surface(found.valve, **found.placement).orifice()
+        open_share[kind] = orifice.area / orifice.outline_area
+        assert (text in found.report()) == (kind == "aortic")
+    assert open_share["aortic"] > 0.1 and open_share["coapting"] < 0.02 and open_share["trileaflet"] < 0.02
+    assert '"coapting" and "trileaflet" take the same landmarks, and close' in riis.place.__doc__
+
+
 @pytest.mark.parametrize("kind", ["trileaflet", "coapting", "aortic"])
 @pytest.mark.parametrize("warp", ["none", "exact", "smoothed"])
 def test_a_placed_valve_is_read_as_it_was_saved(kind, warp, tmp_path):

@@ -1,10 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """Pictures by PyVista, if it is installed."""
 
+import os
+import subprocess
+import sys
+
 import numpy
 import pytest
 
 import riis
+from riis import _plot
 
 pyvista = pytest.importorskip("pyvista", reason="PyVista is missing; ./run python installs it")
 
@@ -61,6 +66,88 @@ def test_nodes_of_another_mesh_are_not_drawn(surface, mesh, marks, xyz, tmp_path
     riis.mark(surface, moved, into=marks)
     riis.plot(surface, moved, marks, screenshot=tmp_path / "valve.png").close()
     assert (tmp_path / "valve.png").is_file()
+
+
+def pixels_of(path):
+    """Returns the colours of a picture, (height, width, 3), the lowest row first."""
+    data = pyvista.read(path)
+    return numpy.asarray(data.active_scalars)[:, :3].astype(int).reshape(data.dimensions[1], data.dimensions[0], 3)
+
+
+def test_a_picture_without_marks_says_so_and_shows_the_mesh(surface, tmp_path):
+    far = riis.Mesh(numpy.random.default_rng(2).uniform(6.0, 9.0, (5000, 3)))
+    marks = riis.mark(surface, far, allow_none=True)
+    plotter = riis.plot(surface, far, marks, screenshot=tmp_path / "none.png")
+    assert plotter.renderer.actors["riis no marks"].GetText(1) == "0 of 5,000 nodes are marked"  # at the lower right
+    assert numpy.allclose(plotter.renderer.actors["riis box"].bounds, numpy.stack([far.xyz.min(0), far.xyz.max(0)], 1).ravel())
+    picture = pixels_of(tmp_path / "none.png")
+    height, width = picture.shape[:2]
+    words = (picture[: height // 15, 2 * width // 3 :] != picture[-1, -1]).any(axis=2)
+    assert words.sum() > 200  # the letters
+    # The same plotter draws a marking that has marks. The words and the box are gone.
+    near = riis.Mesh(far.xyz - 7.5)
+    riis.plot(surface, near, riis.mark(surface, near), screenshot=tmp_path / "some.png", plotter=plotter)
+    assert not {"riis no marks", "riis box"} & set(plotter.renderer.actors)
+    plotter.close()
+    axes = [numpy.linspace(6.0, 9.0, n) for n in (11, 12, 13)]
+    grid = riis.Mesh.grid(*axes)
+    plotter = riis.plot(surface, grid, riis.mark(surface, grid, allow_none=True), screenshot=tmp_path / "grid.png")
+    assert plotter.renderer.actors["riis no marks"].GetText(1) == "0 of 1,716 nodes are marked"
+    plotter.close()
+
+
+@pytest.mark.parametrize("make", [
+    lambda: pyvista.CylinderStructured(
+        radius=numpy.linspace(0.1, 2.2, 12), height=9.0, direction=(0, 0, 1)).cast_to_unstructured_grid(),
+    lambda: pyvista.ImageData(dimensions=(9, 9, 9), spacing=(0.6,) * 3, origin=(-2.4,) * 3),
+    lambda: pyvista.Cylinder(radius=2.2, height=9.0, direction=(0, 0, 1))])
+def test_a_grid_is_a_shell_around_the_valve(make, surface, mesh, marks, tmp_path):
+    grid = make()
+    alone = riis.plot(surface, mesh, marks, screenshot=tmp_path / "alone.png")
+    plotter = riis.plot(surface, mesh, marks, grid=grid, screenshot=tmp_path / "valve.png")
+    shell = plotter.renderer.actors["riis grid"]
+    assert numpy.allclose(shell.bounds, grid.bounds) and 0.1 < shell.prop.opacity < 0.3
+    # The camera looks at the valve, from about as far away as without the grid, although the grid is longer.
+    distances = [one.camera.distance * numpy.tan(numpy.radians(one.camera.view_angle / 2.0)) for one in (alone, plotter)]
+    assert numpy.allclose(plotter.camera.focal_point, (surface.info.lower + surface.info.upper) / 2.0)
+    assert 0.8 < distances[1] / distances[0] < 2.0
+    pictures = [pixels_of(tmp_path / name) for name in ("alone.png", "valve.png")]
+    assert numpy.mean((pictures[1] != pictures[1][0, 0]).any(axis=2)) > 0.1
+    assert numpy.count_nonzero((pictures[0] != pictures[1]).any(axis=2)) > 10_000
+    alone.close()
+    plotter.close()
+    # Without marks, the camera shows both the valve and the mesh.
+    far = grid.translate((40.0, 0.0, 0.0))
+    beside = riis.Mesh(numpy.ascontiguousarray(far.points, float))
+    none = riis.mark(surface, beside, allow_none=True)
+    plotter = riis.plot(surface, beside, none, grid=far, screenshot=tmp_path / "beside.png")
+    assert plotter.camera.focal_point[0] > 15.0
+    plotter.close()
+
+
+def test_objects_of_other_types_are_refused(surface, mesh, marks, tmp_path):
+    grid = pyvista.ImageData(dimensions=(3, 3, 3))
+    for text, arguments, options in (
+        ("surface: must be a riis.Surface, not PolyData", (surface.to_pyvista(),), {}),
+        ("mesh: must be the riis.Mesh of the marking, not ImageData; grid= takes a mesh of PyVista", (surface, grid, marks), {}),
+        ("marks: must be a riis.Marks, not ndarray", (surface, mesh, marks.ids), {}),
+        ("grid: must be a mesh of PyVista, such as an UnstructuredGrid, not Mesh", (surface, mesh, marks), {"grid": mesh}),
+    ):
+        with pytest.raises(TypeError, match=f"^{text}$"):
+            riis.plot(*arguments, **options, screenshot=tmp_path / "never.png")
+    with pytest.raises(TypeError, match="^mesh: must be the riis.Mesh of the marking, not ImageData"):
+        riis.animate(tmp_path / "never.gif", [(surface, marks)], grid)
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_picture_without_a_display_prints_no_error(tmp_path):
+    if not _plot._egl_works():
+        pytest.skip("EGL is missing")
+    program = "import riis; riis.plot(riis.Surface(riis.Valve('mitral')), screenshot='valve.png')"
+    without = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "VTK_DEFAULT_OPENGL_WINDOW")}
+    done = subprocess.run(
+        [sys.executable, "-B", "-c", program], cwd=tmp_path, env=without, capture_output=True, text=True, check=True)
+    assert done.stdout == "" and "DISPLAY" not in done.stderr and (tmp_path / "valve.png").stat().st_size > 10_000
 
 
 def test_a_new_picture_looks_at_the_whole_valve(surface, tmp_path):

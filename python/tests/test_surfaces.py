@@ -42,6 +42,25 @@ def test_placement_turns_and_moves(valve):
     assert numpy.allclose(placed.vertices, expected, atol=1e-12)
 
 
+@pytest.mark.parametrize("axis", [(1, 2, 2), (0, 0, 5), (0, 0, -0.1), (-3, 0, 0), (1e-9, 0, 1), (1e-9, -1e-9, -1)])
+def test_an_axis_is_the_smallest_rotation(valve, axis):
+    plain, placed = riis.Surface(valve), riis.Surface(valve, axis=axis, translation=(1, 2, 3))
+    # The smallest rotation from z to n is R = I + [v] + [v]^2 / (1 + n_z) with v = z x n. For n = -z it is half a turn about x.
+    n = numpy.array(axis, float) / numpy.linalg.norm(axis)
+    x, y = -n[1], n[0]
+    v = numpy.array([[0, 0, y], [0, 0, -x], [-y, x, 0]])
+    rotation = numpy.eye(3) + v + v @ v / (1.0 + n[2]) if n[2] > -0.999 else numpy.diag([1.0, -1.0, -1.0])
+    if axis == (1e-9, -1e-9, -1):  # half a turn about a line across the axis
+        line = numpy.array([1.0, 1.0, 0.0]) / numpy.sqrt(2.0)
+        rotation = 2.0 * numpy.outer(line, line) - numpy.eye(3)
+    assert numpy.allclose(rotation @ [0, 0, 1], n, atol=1e-8)
+    assert numpy.allclose(placed.vertices, plain.vertices @ rotation.T + [1, 2, 3], atol=1e-8)
+    placed.update(valve, translation=(0, 0, 0), rotation_axis=None)  # keeps the axis
+    assert numpy.allclose(placed.vertices, plain.vertices @ rotation.T, atol=1e-8)
+    placed.update_moving(valve, valve, 0.5, placement_before={"axis": axis, "translation": (0, 0, -1)})
+    assert numpy.allclose(placed.velocities, [0, 0, 2])
+
+
 def test_normals_flip(valve):
     point = (0.1, 0.2, 0.3)
     plain, flipped = (riis.Surface(valve, flip_normals=flip).closest_point(point) for flip in (False, True))

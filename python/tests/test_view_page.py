@@ -15,6 +15,7 @@ import signal
 import socket
 import subprocess
 import sys
+import warnings
 import zipfile
 from random import Random
 
@@ -577,6 +578,23 @@ def test_a_widget_for_notebooks(monkeypatch):
     arrays = [numpy.frombuffer(base64.b64decode(each["content"]), each["type"][:-5].lower()) for each in scene["hashes"].values()]
     vertices = numpy.array(surface.vertices).ravel()
     assert any(len(array) == len(vertices) and numpy.allclose(array, vertices, atol=1e-6) for array in arrays)
+
+
+def test_a_widget_warns_of_a_valve_outside_the_mesh():
+    if not all(importlib.util.find_spec(name) for name in ("trame_vtk", "ipywidgets")):
+        pytest.skip("pyvista[jupyter] is missing")
+    grid = box(12).translate((30.0, 0.0, 0.0))
+    model = Model(**reading.arrays_of(grid), unit="cm")
+    valve = model.add("coapting")
+    text = "no node is marked: the valve is at .* cm, the mesh from .*: move the valve"
+    with pytest.warns(riis.MarksWarning, match=text) as found:
+        scene.widget(model, grid)
+    assert [one.filename for one in found] == [__file__]
+    model.place(valve, origin=grid.center)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", riis.MarksWarning)
+        scene.widget(model, grid)
+    assert len(model.update().marked) > 0
 
 
 def test_pictures_of_a_scene():

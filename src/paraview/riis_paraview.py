@@ -598,7 +598,7 @@ class _MarkByValve(_Kept):
         if "velocity" in fields and surface.velocities is None:
             raise Refused("FieldVelocity: the valve does not move")
         options = {"distance_limit": kept["DistanceLimit"]} if self.length("DistanceLimit") > 0.0 else {}
-        marks = riis.mark(surface, mesh, fields=fields or None, **options)
+        marks = riis.mark(surface, mesh, fields=fields or None, allow_none=True, **options)
         marked.ShallowCopy(grid)
         put_marks(marks, fields, kept["FarDistance"], marked.GetPointData(), len(mesh))
         if kept["Resistance"] != 0.0:

@@ -17,10 +17,10 @@ BLOCK = re.compile(r"^([ ]*)```(\w+)\n(.*?)^[ ]*```\n(?:\n```text\n(.*?)^```\n)?
 
 Snippet = collections.namedtuple("Snippet", "document line language text condition")
 
-# The points of the paper's aortic valve in millimetres, which stand for a patient's.
+# The points of an aortic root in millimetres, which stand for a patient's.
 LANDMARKS = {"nadir-right": (12.9, 0, -10), "nadir-left": (-6.35, 11.23, -10), "nadir-non_coronary": (-6.74, -11, -10),
-             "commissure-right-left": (6.62, 11.94, 0.2), "commissure-left-non_coronary": (-14.4, 0, 0.2),
-             "commissure-non_coronary-right": (6.62, -11.94, 0.2)}
+             "commissure-right-left": (6.62, 11.94, 8.2), "commissure-left-non_coronary": (-14.4, 0, 8.2),
+             "commissure-non_coronary-right": (6.62, -11.94, 8.2)}
 
 
 def landmarks():

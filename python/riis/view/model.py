@@ -370,7 +370,7 @@ class Model(BumpedValves, LandmarkedValves):
         start = clock.perf_counter()
         lists = []
         for k, placed in enumerate(self._placed):
-            mark(placed.surface, region.mesh, into=placed.marks)
+            mark(placed.surface, region.mesh, into=placed.marks, allow_none=True)
             lists.append((placed.marks.ids.copy(), placed.marks.leaflet_id.copy(), placed.marks.distance.copy(), k))
         nodes, leaflet, distance, valve = _merged(lists)
         cells_marked, cells_partly = region.cells_of(nodes)
@@ -588,7 +588,7 @@ class Model(BumpedValves, LandmarkedValves):
             box = _box_of_band(placed.surface)
             if not region.holds(*box):
                 region = self._mesh.region(*box)
-            mark(placed.surface, region.mesh, into=marks)
+            mark(placed.surface, region.mesh, into=marks, allow_none=True)
             columns["orifice"].append(placed.surface.orifice().area)
             columns["marked"].append(float(len(marks)))
             known[moved.opening] = columns["orifice"][-1], columns["marked"][-1]

@@ -7,17 +7,18 @@ a valve moves, and only their points and cells change. All calls of a scene must
 
 from __future__ import annotations
 
-import ctypes
 import math
 import os
 import time
+import warnings
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from typing import Any
 
 import numpy
 
-from riis._plot import COLOURS, _pyvista, add_scale_bar, coloured, drop_scale_bar, widget_of
+from riis._errors import MarksWarning
+from riis._plot import COLOURS, _egl_works, _pyvista, add_scale_bar, boundary_of, coloured, drop_scale_bar, widget_of
 from riis.view._valves import point, refuse
 
 WALL, PARTLY, LEAK, CROSSING, ORIFICE, HANDLE = "#c9ced6", "#9aa3b2", "#d50000", "#cc00aa", "#111111", "#333333"
@@ -47,29 +48,6 @@ def check_of_graphics() -> None:
         raise RuntimeError(
             "no display, and no EGL that draws without one: install two packages by sudo apt-get install libegl1 libgl1-mesa-dri"
         )
-
-
-def _egl_works() -> bool:
-    try:
-        egl = ctypes.CDLL("libEGL.so.1")
-        query = egl.eglGetProcAddress
-        query.restype, query.argtypes = ctypes.c_void_p, [ctypes.c_char_p]
-        devices_at, platform_at = query(b"eglQueryDevicesEXT"), query(b"eglGetPlatformDisplayEXT")
-        if not devices_at or not platform_at:
-            return False
-        pointer, integer = ctypes.c_void_p, ctypes.c_int
-        query_devices = ctypes.CFUNCTYPE(integer, integer, ctypes.POINTER(pointer), ctypes.POINTER(integer))(devices_at)
-        display_of = ctypes.CFUNCTYPE(pointer, integer, pointer, pointer)(platform_at)
-        devices, n_devices = (pointer * 16)(), integer(0)
-        if not query_devices(16, devices, ctypes.byref(n_devices)):
-            return False
-        initialize = egl.eglInitialize
-        initialize.argtypes = [pointer, pointer, pointer]
-        platform_device = 0x313F  # EGL_PLATFORM_DEVICE_EXT
-        displays = [display_of(platform_device, device, None) for device in devices[: n_devices.value]]
-        return any(display and initialize(display, None, None) for display in displays)
-    except (OSError, AttributeError):
-        return False
 
 
 def colour_of(valve: int, leaflet: int) -> str:
@@ -636,20 +614,29 @@ def widget(model: Any, grid: Any = None) -> Any:
     model  a riis.view.model.Model
     grid   its mesh as pyvista.UnstructuredGrid; without it the leaflets are alone
 
-    The mouse turns the scene. Call it again after a change of the model. It needs pyvista[jupyter].
+    The mouse turns the scene. Call it again after a change of the model. If no node is marked, it gives a riis.MarksWarning. It
+    needs pyvista[jupyter].
     """
     check_of_graphics()
     scene = Scene(model, grid, plotter=_pyvista().Plotter(notebook=True, off_screen=True, window_size=(900, 600)))
     shown = model.update()
     scene.show(shown)
+    is_unmarked = grid is not None and len(shown.surfaces) > 0 and len(shown.marked) == 0
     if shown.surfaces:
         valve, points = model.valves[0], numpy.asarray(shown.surfaces[0].points)
+        if is_unmarked:  # looks at both
+            points = numpy.concatenate([points, numpy.reshape(grid.bounds, (3, 2)).T])
         centre = 0.5 * (points.min(axis=0) + points.max(axis=0))
         reach = float(numpy.linalg.norm(points - centre, axis=1).max())
         scene.look("oblique", centre, valve.axis, valve.reference, 1.45 * reach)
         scene.cut_here(valve.origin, valve.axis)
     scene.show_cut()
-    scene.show_lights(model.lights())
+    lights = model.lights()
+    scene.show_lights(lights)
+    if is_unmarked:
+        wrong = [one for one in lights if one.name in ("unit", "inside") and one.level in ("bad", "warn")]
+        reasons = [f"{one.text}: {one.advice}" for one in wrong]
+        warnings.warn("; ".join(reasons), MarksWarning, stacklevel=2)
     scene.freeze()
     return widget_of(scene.plotter)
 
@@ -663,18 +650,3 @@ def _smooth(line: Any, axis: Any) -> Any:
 
 def _area_of(line: Any) -> float:
     return 0.5 * float(numpy.linalg.norm(numpy.cross(line, numpy.roll(line, -1, axis=0)).sum(axis=0)))
-
-
-def boundary_of(grid: Any) -> Any:
-    """Returns the boundary faces of a grid as pyvista.PolyData without arrays."""
-    from vtkmodules.vtkFiltersGeometry import vtkGeometryFilter
-
-    pyvista = _pyvista()
-    bare = pyvista.UnstructuredGrid()
-    bare.CopyStructure(grid)
-    faces = vtkGeometryFilter()
-    faces.SetInputData(bare)
-    faces.PassThroughCellIdsOff()
-    faces.PassThroughPointIdsOff()
-    faces.Update()
-    return pyvista.wrap(faces.GetOutput())

@@ -459,6 +459,10 @@ std::string place_report(const Placed &placed, Reader reader) {
             " behind the anterior horn, where the valve has none: " +
             (at.n_as_annulus == 1 ? "it counts as a point" : "they count as points") +
             " of the annulus, and IT_distance does not follow from trigones.\n";
+  if (placed.kind == "aortic")
+    text +=
+        "The paper's aortic valve does not close at opening 0. The kinds coapting and trileaflet take the same "
+        "landmarks, and close.\n";
   text += undetermined.empty()
               ? "\nThe landmarks determine every size that depends on them.\n"
               : "\nThe landmarks do not determine " + joined_by(undetermined, ", ") +

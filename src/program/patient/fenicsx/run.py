@@ -80,7 +80,7 @@ class Valve:
         """Adds K and K u_valve of a step from one opening to the next. Returns the number of points in the band."""
         self.before["opening"], self.valve["opening"] = before, now
         self.surface.update_moving(self.valve, self.before, DT, half_thickness=EPS, **self.placement)
-        riis.mark(self.surface, self.points, into=self.marks, fields="velocity", n_threads=1)
+        riis.mark(self.surface, self.points, into=self.marks, fields="velocity", n_threads=1, allow_none=True)
         self.marks.add_resistance(K, K_u, R=R)
         return len(self.marks.ids)
 
