@@ -1061,7 +1061,7 @@ module riis_c
       integer(riis_status) :: status
     end function riis_surface_create_from_arrays
 
-    !>   options  if left out: the surface's own options, not the defaults
+    !>   options  if left out: the present options of the surface
     function riis_surface_update(surface, valve, options) result(status) bind(c, name='riis_surface_update')
       import :: c_ptr, riis_status, riis_surface_options
       implicit none
@@ -2008,7 +2008,7 @@ module riis_c
     ! Skirt
     ! -----------------------------------------------------------------------------------------------------------------
 
-    !>   distance     (2, n_edges)
+    !>   distance     (2, n_edges), if left out: not wanted
     !!   struct_size  c_sizeof(gap)
     function riis_surface_get_gap(surface, wall, distance, gap, struct_size) result(status) &
         bind(c, name='riis_surface_get_gap')

@@ -38,20 +38,21 @@
 ! A placement is x -> scale * rotation * x + translation.
 ! -----------------------------------------------------------------------------------------------------------------
 
-!> Makes a valve with the default parameter values. The defaults of 'aortic' and 'mitral' are the paper's.
+!> Makes a valve with the default parameter values. For 'aortic' and 'mitral' the defaults come from the paper.
 subroutine riisf_valve_create(kind, valve, status)
   use, intrinsic :: iso_c_binding, only: c_char, c_null_ptr, c_ptr
   use, intrinsic :: iso_fortran_env, only: int64
   use riis_support, only: end_for_c, handle_of
   use riis_c, only: RIIS_OK, riis_status, riis_valve_create
   implicit none
-  character(len=*), intent(in) :: kind                    !< One of these (docs/theory.md); any other is
-                                                          !! RIIS_INVALID_PARAMETER: 'aortic' and 'mitral', the paper's three
-                                                          !! cusps and two leaflets 'coapting', 'bicuspid' and 'quadricuspid',
-                                                          !! three, two and four cusps with a zone of coaptation 'tricuspid'
-                                                          !! and 'mitral_coapting', three and two leaflets of an annulus, with
-                                                          !! a zone of coaptation 'trileaflet', three equal cusps that close in
-                                                          !! straight lines 'bileaflet', a mechanical prosthesis.
+  character(len=*), intent(in) :: kind                    !< One of these names (docs/theory.md). Any other name gives
+                                                          !! RIIS_INVALID_PARAMETER. - 'aortic' and 'mitral', the paper's three
+                                                          !! cusps and two leaflets - 'coapting', 'bicuspid' and
+                                                          !! 'quadricuspid', three, two and four cusps with a zone of
+                                                          !! coaptation - 'tricuspid' and 'mitral_coapting', three and two
+                                                          !! leaflets of an annulus, with a zone of coaptation - 'trileaflet',
+                                                          !! three equal cusps that close in straight lines - 'bileaflet', a
+                                                          !! mechanical prosthesis.
   integer(int64), intent(inout) :: valve                  !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   character(len=len_trim(kind) + 1, kind=c_char) :: c_kind
@@ -80,7 +81,7 @@ subroutine riisf_valve_copy(valve, copy, status)
   copy = handle_of(c_handle)
 end subroutine riisf_valve_copy
 
-!> Sets a parameter by its name in the paper. Whether all values fit together is checked by riisf_surface_create. Errors:
+!> Sets a parameter by its name in the paper. riisf_surface_create checks that all values fit together. Errors:
 !! RIIS_INVALID_PARAMETER naming the parameter and the value.
 subroutine riisf_valve_set(valve, name, n_values, values, status)
   use, intrinsic :: iso_c_binding, only: c_char, c_double
@@ -150,7 +151,7 @@ subroutine riisf_valve_is_set(valve, name, is_set, status)
   status = riis_valve_is_set(c_handle_of(valve), c_name, is_set)
 end subroutine riisf_valve_is_set
 
-!> Gives the valve a second state. At opening 0 the valve then has its own state, and at opening 1 the state of the valve `open`.
+!> Gives the valve an open state. At opening 0 the valve then has its own shape, and at opening 1 the shape of the valve `open`.
 !! Errors: RIIS_INVALID_PARAMETER for another kind, or other curves, degrees or sides.
 subroutine riisf_valve_set_open_state(valve, open, status)
   use, intrinsic :: iso_fortran_env, only: int64
@@ -159,16 +160,16 @@ subroutine riisf_valve_set_open_state(valve, open, status)
   implicit none
   integer(int64), intent(in) :: valve                     !< Must be created.
   integer(int64), intent(in) :: open                      !< A valve of the same kind, which is copied. The opening, leaflet
-                                                          !! ids and open state of the second valve are ignored. Two valves
-                                                          !! from patches must have the same curves, sides and degrees (degree
-                                                          !! 1 may stand for degree 2). Two bileaflet valves must both have a
-                                                          !! ring, or both lack it.
+                                                          !! ids and open state of `open` are ignored. Two valves from patches
+                                                          !! must have the same curves, sides and degrees (degree 1 may stand
+                                                          !! for degree 2). If one of two bileaflet valves has a ring, the
+                                                          !! other must also have one.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   status = riis_valve_set_open_state(c_handle_of(valve), c_handle_of(open))
 end subroutine riisf_valve_set_open_state
 
-!> Destroys the valve. Surfaces made from this valve do not change, and valves whose open state is this valve do not change. The
-!! handle becomes 0. Nothing happens to a handle that is 0.
+!> Destroys the valve. Surfaces that were made from the valve do not change. Valves that use it as their open state do not
+!! change. The handle becomes 0. Nothing happens to a handle that is 0.
 subroutine riisf_valve_destroy(handle)
   use, intrinsic :: iso_c_binding, only: c_ptr
   use, intrinsic :: iso_fortran_env, only: int64
@@ -182,10 +183,10 @@ subroutine riisf_valve_destroy(handle)
   handle = handle_of(c_handle)
 end subroutine riisf_valve_destroy
 
-!> Makes the surface of a valve, by way of curves, polylines, Coons patches, quads and triangles (paper, 3 and 4.1;
-!! docs/theory.md). Errors: RIIS_INVALID_PARAMETER for parameters that do not fit together or that put a curve out of range.
-!! RIIS_INVALID_SURFACE with an offset, for two triangles that run along a shared edge in the same direction. RIIS_LIMIT_EXCEEDED
-!! if a tolerance needs more than 16,777,216 triangles, quads or samples, or is smaller than the rounding of coordinates.
+!> Makes the surface of a valve: curves, polylines, Coons patches, quads and triangles (paper, 3 and 4.1; docs/theory.md).
+!! Errors: RIIS_INVALID_PARAMETER for parameters that do not fit together or that put a curve out of range. RIIS_INVALID_SURFACE
+!! with an offset, if two neighbouring triangles have opposite windings. RIIS_LIMIT_EXCEEDED if a tolerance needs more than
+!! 16,777,216 triangles, quads or samples, or is smaller than the rounding of coordinates.
 subroutine riisf_surface_create(valve, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
     surface, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_null_ptr, c_ptr, c_sizeof
@@ -203,8 +204,8 @@ subroutine riisf_surface_create(valve, half_thickness, tolerance, scale, rotatio
   real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< Mesh units; -1e50 to 1e50, usually 0. Refused for a valve if
-                                                          !! coordinates would be rounded by more than a thousandth of
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Refused for a
+                                                          !! valve if coordinates would be rounded by more than a thousandth of
                                                           !! tolerance * half_thickness.
   integer(int64), intent(inout) :: surface                !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -256,8 +257,8 @@ subroutine riisf_surface_place(surface, valve, half_thickness, tolerance, scale,
   real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< Mesh units; -1e50 to 1e50, usually 0. Refused for a valve if
-                                                          !! coordinates would be rounded by more than a thousandth of
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Refused for a
+                                                          !! valve if coordinates would be rounded by more than a thousandth of
                                                           !! tolerance * half_thickness.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_options) :: options
@@ -292,8 +293,8 @@ subroutine riisf_surface_measure(surface, valve, half_thickness, tolerance, scal
   real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< Mesh units; -1e50 to 1e50, usually 0. Refused for a valve if
-                                                          !! coordinates would be rounded by more than a thousandth of
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Refused for a
+                                                          !! valve if coordinates would be rounded by more than a thousandth of
                                                           !! tolerance * half_thickness.
   integer(int32), intent(in) :: measure                   !< RIIS_MEASURE_*, for closest points and marking only, usually
                                                           !! RIIS_MEASURE_TRIANGLES, the only one for surfaces from arrays.
@@ -334,8 +335,8 @@ subroutine riisf_surface_triangulate(surface, valve, half_thickness, tolerance, 
   real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< Mesh units; -1e50 to 1e50, usually 0. Refused for a valve if
-                                                          !! coordinates would be rounded by more than a thousandth of
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Refused for a
+                                                          !! valve if coordinates would be rounded by more than a thousandth of
                                                           !! tolerance * half_thickness.
   integer(int32), intent(in) :: triangulation             !< RIIS_TRIANGULATION_*, usually RIIS_TRIANGULATION_ADAPTED.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -373,13 +374,13 @@ subroutine riisf_surface_offset(surface, valve, half_thickness, tolerance, scale
   real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< Mesh units; -1e50 to 1e50, usually 0. Refused for a valve if
-                                                          !! coordinates would be rounded by more than a thousandth of
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Refused for a
+                                                          !! valve if coordinates would be rounded by more than a thousandth of
                                                           !! tolerance * half_thickness.
   real(c_double), intent(in) :: offset                    !< The offset o, in half thicknesses, above -1 and below 1, usually
                                                           !! 0. The middle of the band lies o half thicknesses beside the
-                                                          !! surface, along the normals after flip_normals. Other measures than
-                                                          !! RIIS_MEASURE_TRIANGLES need 0.
+                                                          !! surface, along the normals after flip_normals.
+                                                          !! RIIS_MEASURE_SAMPLING and RIIS_MEASURE_MINIMIZATION need 0.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_options) :: options
   status = riis_surface_options_init(options, c_sizeof(options))
@@ -406,8 +407,8 @@ subroutine riisf_surface_update_moving(surface, valve, valve_before, dt, status)
   implicit none
   integer(int64), intent(in) :: surface                   !< Must be created.
   integer(int64), intent(in) :: valve                     !< Must be created.
-  integer(int64), intent(in) :: valve_before              !< The earlier state, of the same kind. A valve from patches has the
-                                                          !! same curves and sides.
+  integer(int64), intent(in) :: valve_before              !< The earlier state, of the same kind. Valves from patches must have
+                                                          !! the same curves and sides.
   real(c_double), intent(in) :: dt                        !< The time from valve_before to valve, 1e-30 to 1e30, or -1e30 to
                                                           !! -1e-30 if time runs back.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -427,8 +428,8 @@ subroutine riisf_surface_place_moving(surface, valve, valve_before, dt, half_thi
   implicit none
   integer(int64), intent(in) :: surface                   !< Must be created.
   integer(int64), intent(in) :: valve                     !< Must be created.
-  integer(int64), intent(in) :: valve_before              !< The earlier state, of the same kind. A valve from patches has the
-                                                          !! same curves and sides.
+  integer(int64), intent(in) :: valve_before              !< The earlier state, of the same kind. Valves from patches must have
+                                                          !! the same curves and sides.
   real(c_double), intent(in) :: dt                        !< The time from valve_before to valve, 1e-30 to 1e30, or -1e30 to
                                                           !! -1e-30 if time runs back.
   real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
@@ -440,8 +441,8 @@ subroutine riisf_surface_place_moving(surface, valve, valve_before, dt, half_thi
   real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< Mesh units; -1e50 to 1e50, usually 0. Refused for a valve if
-                                                          !! coordinates would be rounded by more than a thousandth of
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Refused for a
+                                                          !! valve if coordinates would be rounded by more than a thousandth of
                                                           !! tolerance * half_thickness.
   real(c_double), intent(in) :: scale_before              !< The placement of the earlier state.
   real(c_double), intent(in) :: rotation_axis_before(3)   !< The placement of the earlier state.
@@ -547,9 +548,9 @@ end subroutine riisf_surface_destroy
 ! Meshes
 ! -----------------------------------------------------------------------------------------------------------------
 
-!> Borrows node coordinates and checks them once. The coordinates must stay in place until the mesh is updated or destroyed. A
-!! process without nodes makes the same calls as the other processes. Errors: RIIS_INVALID_MESH naming the node and the value.
-!! RIIS_LIMIT_EXCEEDED for too many nodes.
+!> Borrows node coordinates and checks them once. The coordinates must stay in place until the mesh is updated or destroyed. With
+!! MPI, a process without nodes also makes a mesh. Errors: RIIS_INVALID_MESH naming the node and the value. RIIS_LIMIT_EXCEEDED
+!! for too many nodes.
 subroutine riisf_mesh_create(n_nodes, x, y, z, stride, mesh, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_null_ptr, c_ptr
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -592,9 +593,9 @@ subroutine riisf_mesh_create_64(n_nodes, x, y, z, stride, mesh, status)
   mesh = handle_of(c_handle)
 end subroutine riisf_mesh_create_64
 
-!> Tells the mesh that its coordinates have changed, in the old arrays or in other arrays, and checks them again. Call this
-!! function after every change of coordinates. The adjacency stays if n_nodes is the same. A mesh with other nodes needs a new
-!! handle. Arguments and errors are as in riisf_mesh_create.
+!> Tells the mesh that its coordinates have changed or are now in other arrays, and checks them again. Call this function after
+!! every change of coordinates. The adjacency stays if n_nodes is the same. A mesh with other nodes needs a new handle. Arguments
+!! and errors are as in riisf_mesh_create.
 subroutine riisf_mesh_update(mesh, n_nodes, x, y, z, stride, status)
   use, intrinsic :: iso_c_binding, only: c_double
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -630,7 +631,7 @@ subroutine riisf_mesh_update_64(mesh, n_nodes, x, y, z, stride, status)
 end subroutine riisf_mesh_update_64
 
 !> Copies node coordinates and checks them. Use this call for a temporary array of Fortran, or for single precision, which is
-!! converted to double exactly. The handle keeps 24 bytes per node. Errors: as riisf_mesh_create.
+!! converted to double exactly. The copies take 24 bytes per node. Errors: as riisf_mesh_create.
 subroutine riisf_mesh_create_copy(n_nodes, x, y, z, stride, real_bits, mesh, status)
   use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -836,7 +837,7 @@ subroutine riisf_mesh_create_grid_64(ni, nj, nk, x, y, z, real_bits, first_num, 
 end subroutine riisf_mesh_create_grid_64
 
 !> Gives a mesh other axes, or turns a mesh of points into a grid. The call riisf_mesh_update turns a grid into points. Errors:
-!! as riisf_mesh_create_grid; the mesh then keeps its nodes.
+!! those of riisf_mesh_create_grid; the mesh then keeps its nodes.
 subroutine riisf_mesh_update_grid(mesh, ni, nj, nk, x, y, z, real_bits, first_num, stride_i, stride_j, stride_k, &
     n_nodes, status)
   use, intrinsic :: iso_c_binding, only: c_sizeof
@@ -914,9 +915,9 @@ subroutine riisf_mesh_update_grid_64(mesh, ni, nj, nk, x, y, z, real_bits, first
   status = riis_mesh_update_grid(c_handle_of(mesh), grid)
 end subroutine riisf_mesh_update_grid_64
 
-!> Makes the clusters of RIIS_SEARCH_CLUSTERS in advance, so that no marking has to make them. Clusters copy the coordinates:
-!! they take 41 bytes per node while the handle lives, and 32 more while they are made. A grid needs no such copy. Errors:
-!! RIIS_LIMIT_EXCEEDED for 2^32 nodes and more. RIIS_INVALID_MESH as riisf_mark_nodes.
+!> Makes the clusters of RIIS_SEARCH_CLUSTERS in advance, so that no marking has to make them. Clusters take 41 bytes per node
+!! while the handle lives, and 32 more while they are made, because they copy the coordinates. A grid needs no copy of
+!! coordinates. Errors: RIIS_LIMIT_EXCEEDED for 2^32 nodes or more. RIIS_INVALID_MESH as riisf_mark_nodes.
 subroutine riisf_mesh_prepare(mesh, n_threads, status)
   use, intrinsic :: iso_fortran_env, only: int32, int64
   use riis_support, only: c_handle_of
@@ -990,9 +991,9 @@ subroutine riisf_mesh_set_adjacency(mesh, n_rows, offsets, columns, index_base, 
                                                           !! index_base is 1, the neighbours of node i are columns(offsets(i))
                                                           !! to columns(offsets(i + 1) - 1).
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
-  integer(int32), intent(in) :: n_all                     !< Columns are below this number, which is at least n_rows. Columns
-                                                          !! from n_rows on are ghosts, which belong to other ranks, and are
-                                                          !! ignored. 0 stands for n_rows.
+  integer(int32), intent(in) :: n_all                     !< Every column is below this number, which is at least n_rows.
+                                                          !! Columns from n_rows on are ghosts of other ranks, and are ignored.
+                                                          !! 0 stands for n_rows.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_csr) :: csr
   status = riis_csr_init(csr, c_sizeof(csr))
@@ -1021,9 +1022,9 @@ subroutine riisf_mesh_set_adjacency_64(mesh, n_rows, offsets, columns, index_bas
                                                           !! index_base is 1, the neighbours of node i are columns(offsets(i))
                                                           !! to columns(offsets(i + 1) - 1).
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
-  integer(int64), intent(in) :: n_all                     !< Columns are below this number, which is at least n_rows. Columns
-                                                          !! from n_rows on are ghosts, which belong to other ranks, and are
-                                                          !! ignored. 0 stands for n_rows.
+  integer(int64), intent(in) :: n_all                     !< Every column is below this number, which is at least n_rows.
+                                                          !! Columns from n_rows on are ghosts of other ranks, and are ignored.
+                                                          !! 0 stands for n_rows.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_csr) :: csr
   status = riis_csr_init(csr, c_sizeof(csr))
@@ -1142,8 +1143,8 @@ subroutine riisf_adjacency_from_mixed(n_nodes, n_cells, node_ids, offsets, index
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   integer(int32), intent(in) :: n_cells                   !< >= 0.
   integer(int32), intent(in) :: node_ids(*)               !< (nodes_per_cell, n_cells): the nodes of cell after cell.
-  integer(int32), intent(in) :: offsets(*)                !< (n_cells + 1), ascending from 0 or from index_base: the beginning
-                                                          !! of each cell in node_ids, and the end of the last cell.
+  integer(int32), intent(in) :: offsets(*)                !< (n_cells + 1), ascending from 0 or from index_base: where each
+                                                          !! cell begins in node_ids, and where the last cell ends.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int64), intent(inout) :: adjacency              !< Written on success.
@@ -1175,8 +1176,8 @@ subroutine riisf_adjacency_from_mixed_64(n_nodes, n_cells, node_ids, offsets, in
   integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   integer(int64), intent(in) :: n_cells                   !< >= 0.
   integer(int64), intent(in) :: node_ids(*)               !< (nodes_per_cell, n_cells): the nodes of cell after cell.
-  integer(int64), intent(in) :: offsets(*)                !< (n_cells + 1), ascending from 0 or from index_base: the beginning
-                                                          !! of each cell in node_ids, and the end of the last cell.
+  integer(int64), intent(in) :: offsets(*)                !< (n_cells + 1), ascending from 0 or from index_base: where each
+                                                          !! cell begins in node_ids, and where the last cell ends.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int64), intent(inout) :: adjacency              !< Written on success.
@@ -1265,8 +1266,8 @@ subroutine riisf_adjacency_from_faces_64(n_cells, n_faces, face_cells, index_bas
   adjacency = handle_of(c_handle)
 end subroutine riisf_adjacency_from_faces_64
 
-!> Makes the adjacency of a structured grid. Neighbours differ by 1 in one of i, j, k. Errors: RIIS_LIMIT_EXCEEDED for more nodes
-!! than memory can hold.
+!> Makes the adjacency of a structured grid. Two nodes are neighbours if they differ by 1 in exactly one of i, j, k. Errors:
+!! RIIS_LIMIT_EXCEEDED for more nodes than memory can hold.
 subroutine riisf_adjacency_from_grid(ni, nj, nk, n_threads, adjacency, status)
   use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -1289,8 +1290,8 @@ subroutine riisf_adjacency_from_grid(ni, nj, nk, n_threads, adjacency, status)
   adjacency = handle_of(c_handle)
 end subroutine riisf_adjacency_from_grid
 
-!> Destroys the adjacency and its arrays. First destroy the mesh that borrows them. The handle becomes 0. Nothing happens to a
-!! handle that is 0.
+!> Destroys the adjacency and its arrays. If a mesh borrows these arrays, destroy the mesh first. The handle becomes 0. Nothing
+!! happens to a handle that is 0.
 subroutine riisf_adjacency_destroy(handle)
   use, intrinsic :: iso_c_binding, only: c_ptr
   use, intrinsic :: iso_fortran_env, only: int64
@@ -1310,13 +1311,13 @@ end subroutine riisf_adjacency_destroy
 ! -----------------------------------------------------------------------------------------------------------------
 
 !> Makes a surface from arrays, with the caller's winding. A triangle's id is its face's number; the halves of quad q have the
-!! ids 2 q and 2 q + 1. The id of a skipped triangle is not reused. A triangle has zero area if its longest edge is shorter than
-!! 1e-60, or if its height over that edge is at most 1e-12 of the edge. A skirt leads away from an axis: the line through the
-!! attachment's centroid along the attachment's vector area (docs/theory/skirt.md). The skirt's vertices and triangles come after
-!! the caller's vertices and triangles. Without `attached`, the attachment is the closed line of open edges that encloses the
-!! largest area. The line must enclose at least 0.8 of the area of the leaflets' outline (RIIS_OUTLINE_BOUNDARY). Errors:
-!! RIIS_LIMIT_EXCEEDED for too many triangles. RIIS_INVALID_SURFACE naming the face or vertex and its value, or saying why an
-!! attachment is not found. RIIS_INVALID_ARGUMENT for a length of the skirt out of range.
+!! ids 2 q and 2 q + 1. The id of a skipped triangle is not used again. A triangle has zero area if its longest edge is shorter
+!! than 1e-60, or if its height over its longest edge is at most 1e-12 of this edge. A skirt leads away from the axis of the
+!! attachment, the line through its centroid along its vector area (docs/theory/skirt.md). The skirt's vertices and triangles
+!! come after the caller's vertices and triangles. Without `attached`, the attachment is the closed line of open edges that
+!! encloses the largest area. This line must enclose at least 0.8 of the area of the leaflets' outline (RIIS_OUTLINE_BOUNDARY).
+!! Errors: RIIS_LIMIT_EXCEEDED for too many triangles. RIIS_INVALID_SURFACE naming the face or vertex and its value, or saying
+!! why an attachment is not found. RIIS_INVALID_ARGUMENT for a length of the skirt out of range.
 subroutine riisf_surface_from_arrays(n_vertices, x, y, z, stride, corners_per_face, n_faces, vertex_ids, index_base, &
     half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, surface, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_null_ptr, c_ptr, c_sizeof
@@ -1345,8 +1346,8 @@ subroutine riisf_surface_from_arrays(n_vertices, x, y, z, stride, corners_per_fa
   real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< Mesh units; -1e50 to 1e50, usually 0. Refused for a valve if
-                                                          !! coordinates would be rounded by more than a thousandth of
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Refused for a
+                                                          !! valve if coordinates would be rounded by more than a thousandth of
                                                           !! tolerance * half_thickness.
   integer(int64), intent(inout) :: surface                !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -1407,8 +1408,8 @@ subroutine riisf_surface_from_arrays_64(n_vertices, x, y, z, stride, corners_per
   real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< Mesh units; -1e50 to 1e50, usually 0. Refused for a valve if
-                                                          !! coordinates would be rounded by more than a thousandth of
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Refused for a
+                                                          !! valve if coordinates would be rounded by more than a thousandth of
                                                           !! tolerance * half_thickness.
   integer(int64), intent(inout) :: surface                !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -1465,9 +1466,9 @@ subroutine riisf_surface_with_skirt(n_vertices, x, y, z, stride, corners_per_fac
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(int8), intent(in) :: attached(*)                !< INTEGER*1, (n_vertices): 1 for the vertices of the attachment, 0
                                                           !! for others. attached(1) = -1: the attachment is chosen.
-  real(c_double), intent(in) :: skirt_length              !< The length of a skirt before placement. A skirt is a strip from
-                                                          !! the attachment outwards. The length is 1e-4 to 10 times the mean
-                                                          !! distance of the attachment from its axis. 0: no skirt.
+  real(c_double), intent(in) :: skirt_length              !< The length of a skirt before placement. A skirt is a strip that
+                                                          !! leads outwards from the attachment. The length is 1e-4 to 10 times
+                                                          !! the mean distance of the attachment from its axis. 0: no skirt.
   real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
                                                           !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
   real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
@@ -1477,8 +1478,8 @@ subroutine riisf_surface_with_skirt(n_vertices, x, y, z, stride, corners_per_fac
   real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< Mesh units; -1e50 to 1e50, usually 0. Refused for a valve if
-                                                          !! coordinates would be rounded by more than a thousandth of
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Refused for a
+                                                          !! valve if coordinates would be rounded by more than a thousandth of
                                                           !! tolerance * half_thickness.
   integer(int64), intent(inout) :: surface                !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -1535,9 +1536,9 @@ subroutine riisf_surface_with_skirt_64(n_vertices, x, y, z, stride, corners_per_
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(int8), intent(in) :: attached(*)                !< INTEGER*1, (n_vertices): 1 for the vertices of the attachment, 0
                                                           !! for others. attached(1) = -1: the attachment is chosen.
-  real(c_double), intent(in) :: skirt_length              !< The length of a skirt before placement. A skirt is a strip from
-                                                          !! the attachment outwards. The length is 1e-4 to 10 times the mean
-                                                          !! distance of the attachment from its axis. 0: no skirt.
+  real(c_double), intent(in) :: skirt_length              !< The length of a skirt before placement. A skirt is a strip that
+                                                          !! leads outwards from the attachment. The length is 1e-4 to 10 times
+                                                          !! the mean distance of the attachment from its axis. 0: no skirt.
   real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
                                                           !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
   real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
@@ -1547,8 +1548,8 @@ subroutine riisf_surface_with_skirt_64(n_vertices, x, y, z, stride, corners_per_
   real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< Mesh units; -1e50 to 1e50, usually 0. Refused for a valve if
-                                                          !! coordinates would be rounded by more than a thousandth of
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Refused for a
+                                                          !! valve if coordinates would be rounded by more than a thousandth of
                                                           !! tolerance * half_thickness.
   integer(int64), intent(inout) :: surface                !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -1613,13 +1614,13 @@ subroutine riisf_surface_offset_arrays(n_vertices, x, y, z, stride, corners_per_
   real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< Mesh units; -1e50 to 1e50, usually 0. Refused for a valve if
-                                                          !! coordinates would be rounded by more than a thousandth of
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Refused for a
+                                                          !! valve if coordinates would be rounded by more than a thousandth of
                                                           !! tolerance * half_thickness.
   real(c_double), intent(in) :: offset                    !< The offset o, in half thicknesses, above -1 and below 1, usually
                                                           !! 0. The middle of the band lies o half thicknesses beside the
-                                                          !! surface, along the normals after flip_normals. Other measures than
-                                                          !! RIIS_MEASURE_TRIANGLES need 0.
+                                                          !! surface, along the normals after flip_normals.
+                                                          !! RIIS_MEASURE_SAMPLING and RIIS_MEASURE_MINIMIZATION need 0.
   integer(int64), intent(inout) :: surface                !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_arrays) :: arrays
@@ -1680,13 +1681,13 @@ subroutine riisf_surface_offset_arrays_64(n_vertices, x, y, z, stride, corners_p
   real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< Mesh units; -1e50 to 1e50, usually 0. Refused for a valve if
-                                                          !! coordinates would be rounded by more than a thousandth of
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Refused for a
+                                                          !! valve if coordinates would be rounded by more than a thousandth of
                                                           !! tolerance * half_thickness.
   real(c_double), intent(in) :: offset                    !< The offset o, in half thicknesses, above -1 and below 1, usually
                                                           !! 0. The middle of the band lies o half thicknesses beside the
-                                                          !! surface, along the normals after flip_normals. Other measures than
-                                                          !! RIIS_MEASURE_TRIANGLES need 0.
+                                                          !! surface, along the normals after flip_normals.
+                                                          !! RIIS_MEASURE_SAMPLING and RIIS_MEASURE_MINIMIZATION need 0.
   integer(int64), intent(inout) :: surface                !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_arrays) :: arrays
@@ -1938,8 +1939,8 @@ subroutine riisf_surface_from_keyframes(keyframes, time, dt, half_thickness, tol
   implicit none
   integer(int64), intent(in) :: keyframes                 !< Must be created.
   real(c_double), intent(in) :: time                      !< Finite, magnitude at most 1e30.
-  real(c_double), intent(in) :: dt                        !< The velocity is the mean from time - dt to time; for 0 it is the
-                                                          !! derivative of the interpolation.
+  real(c_double), intent(in) :: dt                        !< The velocity is the mean from time - dt to time, or for dt == 0
+                                                          !! the derivative of the interpolation at that time.
   real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
                                                           !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
   real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
@@ -1949,8 +1950,8 @@ subroutine riisf_surface_from_keyframes(keyframes, time, dt, half_thickness, tol
   real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< Mesh units; -1e50 to 1e50, usually 0. Refused for a valve if
-                                                          !! coordinates would be rounded by more than a thousandth of
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Refused for a
+                                                          !! valve if coordinates would be rounded by more than a thousandth of
                                                           !! tolerance * half_thickness.
   integer(int64), intent(inout) :: surface                !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -1982,8 +1983,8 @@ subroutine riisf_surface_offset_keyframes(keyframes, time, dt, half_thickness, t
   implicit none
   integer(int64), intent(in) :: keyframes                 !< Must be created.
   real(c_double), intent(in) :: time                      !< Finite, magnitude at most 1e30.
-  real(c_double), intent(in) :: dt                        !< The velocity is the mean from time - dt to time; for 0 it is the
-                                                          !! derivative of the interpolation.
+  real(c_double), intent(in) :: dt                        !< The velocity is the mean from time - dt to time, or for dt == 0
+                                                          !! the derivative of the interpolation at that time.
   real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
                                                           !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
   real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
@@ -1993,13 +1994,13 @@ subroutine riisf_surface_offset_keyframes(keyframes, time, dt, half_thickness, t
   real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< Mesh units; -1e50 to 1e50, usually 0. Refused for a valve if
-                                                          !! coordinates would be rounded by more than a thousandth of
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Refused for a
+                                                          !! valve if coordinates would be rounded by more than a thousandth of
                                                           !! tolerance * half_thickness.
   real(c_double), intent(in) :: offset                    !< The offset o, in half thicknesses, above -1 and below 1, usually
                                                           !! 0. The middle of the band lies o half thicknesses beside the
-                                                          !! surface, along the normals after flip_normals. Other measures than
-                                                          !! RIIS_MEASURE_TRIANGLES need 0.
+                                                          !! surface, along the normals after flip_normals.
+                                                          !! RIIS_MEASURE_SAMPLING and RIIS_MEASURE_MINIMIZATION need 0.
   integer(int64), intent(inout) :: surface                !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_options) :: options
@@ -2620,7 +2621,7 @@ end subroutine riisf_closest_points_listed_64
 ! -----------------------------------------------------------------------------------------------------------------
 
 !> Finds every node near the surface: the marked nodes, which lie within the half thickness, and the nodes within the distance
-!! limit. The reported distance, in double precision, decides which nodes are near. With an offset, the marked nodes are the
+!! limit. The distance in double precision decides whether a node is near. If the surface has an offset, the marked nodes are the
 !! nodes in the band (riisf_surface_create). Errors: RIIS_INVALID_MESH for a coordinate that became non-finite after it was
 !! given.
 subroutine riisf_mark_nodes(surface, mesh, distance_limit, search, n_threads, marks, status)
@@ -2807,8 +2808,9 @@ subroutine riisf_dense_distance(marks, n_nodes, far_distance, distance, status)
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
-  real(c_double), intent(in) :: far_distance              !< The distance of nodes beyond the limit or masked out: NaN, or any
-                                                          !! value outside [0, distance limit]. Usually RIIS_FAR_DISTANCE.
+  real(c_double), intent(in) :: far_distance              !< The number that the array `distance` gets for nodes that are
+                                                          !! masked out or beyond the limit: NaN, or any value outside [0,
+                                                          !! distance limit]. Usually RIIS_FAR_DISTANCE.
   real(c_double), intent(inout) :: distance(*)            !< (n_nodes): the distance of nodes within the distance limit,
                                                           !! far_distance for others.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -3423,9 +3425,9 @@ subroutine riisf_mark_with_resistance(surface, mesh, distance_limit, search, n_t
   integer(int32), intent(in) :: search                    !< RIIS_SEARCH_*, usually RIIS_SEARCH_AUTO.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int32), intent(in) :: fields                    !< A sum of RIIS_FIELD_*, for the nodes of riis_mark_list. Usually 0.
-  real(c_double), intent(in) :: R                         !< 0 to 1e60, in mass / (length time), such as kg/(m s). A flat
-                                                          !! closed valve in a flow of velocity u has a pressure drop of (R /
-                                                          !! eps) u.
+  real(c_double), intent(in) :: R                         !< The resistance, 0 to 1e60, in mass / (length time), such as kg/(m
+                                                          !! s). A flat closed valve in a flow of velocity u has a pressure
+                                                          !! drop of (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit; RIIS_AUTO: the half thickness.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_*, usually RIIS_RIM_ROUND.
   integer(int64), intent(inout) :: marks                  !< 0, which creates them, or from an earlier call.
@@ -3631,9 +3633,9 @@ subroutine riisf_add_resistance(marks, R, half_thickness, rim, n_nodes, K, statu
       riis_resistance_arrays_init, riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
-  real(c_double), intent(in) :: R                         !< 0 to 1e60, in mass / (length time), such as kg/(m s). A flat
-                                                          !! closed valve in a flow of velocity u has a pressure drop of (R /
-                                                          !! eps) u.
+  real(c_double), intent(in) :: R                         !< The resistance, 0 to 1e60, in mass / (length time), such as kg/(m
+                                                          !! s). A flat closed valve in a flow of velocity u has a pressure
+                                                          !! drop of (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -3662,9 +3664,9 @@ subroutine riisf_add_resistance_64(marks, R, half_thickness, rim, n_nodes, K, st
       riis_resistance_arrays_init, riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
-  real(c_double), intent(in) :: R                         !< 0 to 1e60, in mass / (length time), such as kg/(m s). A flat
-                                                          !! closed valve in a flow of velocity u has a pressure drop of (R /
-                                                          !! eps) u.
+  real(c_double), intent(in) :: R                         !< The resistance, 0 to 1e60, in mass / (length time), such as kg/(m
+                                                          !! s). A flat closed valve in a flow of velocity u has a pressure
+                                                          !! drop of (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -3694,9 +3696,9 @@ subroutine riisf_add_moving_resistance(marks, R, half_thickness, rim, n_nodes, K
       riis_resistance_arrays_init, riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_VELOCITY.
-  real(c_double), intent(in) :: R                         !< 0 to 1e60, in mass / (length time), such as kg/(m s). A flat
-                                                          !! closed valve in a flow of velocity u has a pressure drop of (R /
-                                                          !! eps) u.
+  real(c_double), intent(in) :: R                         !< The resistance, 0 to 1e60, in mass / (length time), such as kg/(m
+                                                          !! s). A flat closed valve in a flow of velocity u has a pressure
+                                                          !! drop of (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -3730,9 +3732,9 @@ subroutine riisf_add_moving_resistance_64(marks, R, half_thickness, rim, n_nodes
       riis_resistance_arrays_init, riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_VELOCITY.
-  real(c_double), intent(in) :: R                         !< 0 to 1e60, in mass / (length time), such as kg/(m s). A flat
-                                                          !! closed valve in a flow of velocity u has a pressure drop of (R /
-                                                          !! eps) u.
+  real(c_double), intent(in) :: R                         !< The resistance, 0 to 1e60, in mass / (length time), such as kg/(m
+                                                          !! s). A flat closed valve in a flow of velocity u has a pressure
+                                                          !! drop of (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -3767,9 +3769,9 @@ subroutine riisf_add_resistance_components(marks, R, half_thickness, rim, n_node
       riis_resistance_arrays_init, riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_VELOCITY.
-  real(c_double), intent(in) :: R                         !< 0 to 1e60, in mass / (length time), such as kg/(m s). A flat
-                                                          !! closed valve in a flow of velocity u has a pressure drop of (R /
-                                                          !! eps) u.
+  real(c_double), intent(in) :: R                         !< The resistance, 0 to 1e60, in mass / (length time), such as kg/(m
+                                                          !! s). A flat closed valve in a flow of velocity u has a pressure
+                                                          !! drop of (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -3805,9 +3807,9 @@ subroutine riisf_add_resistance_components_64(marks, R, half_thickness, rim, n_n
       riis_resistance_arrays_init, riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_VELOCITY.
-  real(c_double), intent(in) :: R                         !< 0 to 1e60, in mass / (length time), such as kg/(m s). A flat
-                                                          !! closed valve in a flow of velocity u has a pressure drop of (R /
-                                                          !! eps) u.
+  real(c_double), intent(in) :: R                         !< The resistance, 0 to 1e60, in mass / (length time), such as kg/(m
+                                                          !! s). A flat closed valve in a flow of velocity u has a pressure
+                                                          !! drop of (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -3835,9 +3837,9 @@ subroutine riisf_add_resistance_components_64(marks, R, half_thickness, rim, n_n
 end subroutine riisf_add_resistance_components_64
 
 !> Adds the force of the flow on the surface: the sum of weight * K * (velocity - u_surface). Ranks sum their forces by a
-!! reduction. u_surface is 0 without RIIS_FIELD_VELOCITY. Errors: as riisf_add_resistance. RIIS_INVALID_ARGUMENT also for an
-!! n_leaflets that is too small (the message names the leaflet id), a leaflet without an edge, a bad edge, and a reaction without
-!! any sum.
+!! reduction. u_surface is 0 without RIIS_FIELD_VELOCITY. Errors: as riisf_add_resistance. RIIS_INVALID_ARGUMENT also if
+!! n_leaflets is too small (the message names the leaflet id), if a leaflet lacks an edge, if an edge is bad, and if the reaction
+!! has no array.
 subroutine riisf_add_reaction(marks, R, half_thickness, rim, n_nodes, velocity, weight, force, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -3846,9 +3848,9 @@ subroutine riisf_add_reaction(marks, R, half_thickness, rim, n_nodes, velocity, 
       riis_reaction_init, riis_resistance, riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes or riisf_mark_with_fields.
-  real(c_double), intent(in) :: R                         !< 0 to 1e60, in mass / (length time), such as kg/(m s). A flat
-                                                          !! closed valve in a flow of velocity u has a pressure drop of (R /
-                                                          !! eps) u.
+  real(c_double), intent(in) :: R                         !< The resistance, 0 to 1e60, in mass / (length time), such as kg/(m
+                                                          !! s). A flat closed valve in a flow of velocity u has a pressure
+                                                          !! drop of (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -3887,9 +3889,9 @@ subroutine riisf_add_reaction_64(marks, R, half_thickness, rim, n_nodes, velocit
       riis_reaction_init, riis_resistance, riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes or riisf_mark_with_fields.
-  real(c_double), intent(in) :: R                         !< 0 to 1e60, in mass / (length time), such as kg/(m s). A flat
-                                                          !! closed valve in a flow of velocity u has a pressure drop of (R /
-                                                          !! eps) u.
+  real(c_double), intent(in) :: R                         !< The resistance, 0 to 1e60, in mass / (length time), such as kg/(m
+                                                          !! s). A flat closed valve in a flow of velocity u has a pressure
+                                                          !! drop of (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -3920,9 +3922,9 @@ subroutine riisf_add_reaction_64(marks, R, half_thickness, rim, n_nodes, velocit
 end subroutine riisf_add_reaction_64
 
 !> Adds the force of the flow on the surface: the sum of weight * K * (velocity - u_surface). Ranks sum their forces by a
-!! reduction. u_surface is 0 without RIIS_FIELD_VELOCITY. Errors: as riisf_add_resistance. RIIS_INVALID_ARGUMENT also for an
-!! n_leaflets that is too small (the message names the leaflet id), a leaflet without an edge, a bad edge, and a reaction without
-!! any sum.
+!! reduction. u_surface is 0 without RIIS_FIELD_VELOCITY. Errors: as riisf_add_resistance. RIIS_INVALID_ARGUMENT also if
+!! n_leaflets is too small (the message names the leaflet id), if a leaflet lacks an edge, if an edge is bad, and if the reaction
+!! has no array.
 subroutine riisf_add_reaction_components(marks, R, half_thickness, rim, n_nodes, vx, vy, vz, weight, force, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -3931,9 +3933,9 @@ subroutine riisf_add_reaction_components(marks, R, half_thickness, rim, n_nodes,
       riis_reaction_init, riis_resistance, riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes or riisf_mark_with_fields.
-  real(c_double), intent(in) :: R                         !< 0 to 1e60, in mass / (length time), such as kg/(m s). A flat
-                                                          !! closed valve in a flow of velocity u has a pressure drop of (R /
-                                                          !! eps) u.
+  real(c_double), intent(in) :: R                         !< The resistance, 0 to 1e60, in mass / (length time), such as kg/(m
+                                                          !! s). A flat closed valve in a flow of velocity u has a pressure
+                                                          !! drop of (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -3974,9 +3976,9 @@ subroutine riisf_add_reaction_components_64(marks, R, half_thickness, rim, n_nod
       riis_reaction_init, riis_resistance, riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes or riisf_mark_with_fields.
-  real(c_double), intent(in) :: R                         !< 0 to 1e60, in mass / (length time), such as kg/(m s). A flat
-                                                          !! closed valve in a flow of velocity u has a pressure drop of (R /
-                                                          !! eps) u.
+  real(c_double), intent(in) :: R                         !< The resistance, 0 to 1e60, in mass / (length time), such as kg/(m
+                                                          !! s). A flat closed valve in a flow of velocity u has a pressure
+                                                          !! drop of (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -4010,8 +4012,8 @@ end subroutine riisf_add_reaction_components_64
 
 !> Adds the force of the flow and its moment about a point, for the whole surface and for each leaflet. The force of a node acts
 !! at the closest point of the surface. Ranks pass the same point, and add their sums by a reduction. Errors: as
-!! riisf_add_resistance. RIIS_INVALID_ARGUMENT also for an n_leaflets that is too small (the message names the leaflet id), a
-!! leaflet without an edge, a bad edge, and a reaction without any sum.
+!! riisf_add_resistance. RIIS_INVALID_ARGUMENT also if n_leaflets is too small (the message names the leaflet id), if a leaflet
+!! lacks an edge, if an edge is bad, and if the reaction has no array.
 subroutine riisf_add_leaflet_reaction(marks, R, half_thickness, rim, n_nodes, velocity, weight, about, n_leaflets, &
     force, moment, leaflet_force, leaflet_moment, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -4021,9 +4023,9 @@ subroutine riisf_add_leaflet_reaction(marks, R, half_thickness, rim, n_nodes, ve
       riis_reaction_init, riis_resistance, riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_POINT.
-  real(c_double), intent(in) :: R                         !< 0 to 1e60, in mass / (length time), such as kg/(m s). A flat
-                                                          !! closed valve in a flow of velocity u has a pressure drop of (R /
-                                                          !! eps) u.
+  real(c_double), intent(in) :: R                         !< The resistance, 0 to 1e60, in mass / (length time), such as kg/(m
+                                                          !! s). A flat closed valve in a flow of velocity u has a pressure
+                                                          !! drop of (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -4076,9 +4078,9 @@ subroutine riisf_add_leaflet_reaction_64(marks, R, half_thickness, rim, n_nodes,
       riis_reaction_init, riis_resistance, riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_POINT.
-  real(c_double), intent(in) :: R                         !< 0 to 1e60, in mass / (length time), such as kg/(m s). A flat
-                                                          !! closed valve in a flow of velocity u has a pressure drop of (R /
-                                                          !! eps) u.
+  real(c_double), intent(in) :: R                         !< The resistance, 0 to 1e60, in mass / (length time), such as kg/(m
+                                                          !! s). A flat closed valve in a flow of velocity u has a pressure
+                                                          !! drop of (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -4123,8 +4125,8 @@ end subroutine riisf_add_leaflet_reaction_64
 
 !> Adds the force of the flow and its moment about a point, for the whole surface and for each leaflet. The force of a node acts
 !! at the closest point of the surface. Ranks pass the same point, and add their sums by a reduction. Errors: as
-!! riisf_add_resistance. RIIS_INVALID_ARGUMENT also for an n_leaflets that is too small (the message names the leaflet id), a
-!! leaflet without an edge, a bad edge, and a reaction without any sum.
+!! riisf_add_resistance. RIIS_INVALID_ARGUMENT also if n_leaflets is too small (the message names the leaflet id), if a leaflet
+!! lacks an edge, if an edge is bad, and if the reaction has no array.
 subroutine riisf_add_leaflet_reaction_components(marks, R, half_thickness, rim, n_nodes, vx, vy, vz, weight, about, &
     n_leaflets, force, moment, leaflet_force, leaflet_moment, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -4134,9 +4136,9 @@ subroutine riisf_add_leaflet_reaction_components(marks, R, half_thickness, rim, 
       riis_reaction_init, riis_resistance, riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_POINT.
-  real(c_double), intent(in) :: R                         !< 0 to 1e60, in mass / (length time), such as kg/(m s). A flat
-                                                          !! closed valve in a flow of velocity u has a pressure drop of (R /
-                                                          !! eps) u.
+  real(c_double), intent(in) :: R                         !< The resistance, 0 to 1e60, in mass / (length time), such as kg/(m
+                                                          !! s). A flat closed valve in a flow of velocity u has a pressure
+                                                          !! drop of (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -4191,9 +4193,9 @@ subroutine riisf_add_leaflet_reaction_components_64(marks, R, half_thickness, ri
       riis_reaction_init, riis_resistance, riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_POINT.
-  real(c_double), intent(in) :: R                         !< 0 to 1e60, in mass / (length time), such as kg/(m s). A flat
-                                                          !! closed valve in a flow of velocity u has a pressure drop of (R /
-                                                          !! eps) u.
+  real(c_double), intent(in) :: R                         !< The resistance, 0 to 1e60, in mass / (length time), such as kg/(m
+                                                          !! s). A flat closed valve in a flow of velocity u has a pressure
+                                                          !! drop of (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -4240,9 +4242,9 @@ end subroutine riisf_add_leaflet_reaction_components_64
 
 !> Adds the force of the flow, and its moment about the edge's middle, to edges. The force of a node goes to the edge nearest to
 !! its closest point. The sums of edges are loads for tissue codes. They do not model how a membrane carries loads to its edges.
-!! Ranks pass the same edges, and add their sums by a reduction. Errors: as riisf_add_resistance. RIIS_INVALID_ARGUMENT also for
-!! an n_leaflets that is too small (the message names the leaflet id), a leaflet without an edge, a bad edge, and a reaction
-!! without any sum.
+!! Ranks pass the same edges, and add their sums by a reduction. Errors: as riisf_add_resistance. RIIS_INVALID_ARGUMENT also if
+!! n_leaflets is too small (the message names the leaflet id), if a leaflet lacks an edge, if an edge is bad, and if the reaction
+!! has no array.
 subroutine riisf_add_edge_reaction(marks, R, half_thickness, rim, n_nodes, velocity, weight, n_edges, edges, &
     edge_leaflet_id, edge_force, edge_moment, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -4252,9 +4254,9 @@ subroutine riisf_add_edge_reaction(marks, R, half_thickness, rim, n_nodes, veloc
       riis_reaction_init, riis_resistance, riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_POINT.
-  real(c_double), intent(in) :: R                         !< 0 to 1e60, in mass / (length time), such as kg/(m s). A flat
-                                                          !! closed valve in a flow of velocity u has a pressure drop of (R /
-                                                          !! eps) u.
+  real(c_double), intent(in) :: R                         !< The resistance, 0 to 1e60, in mass / (length time), such as kg/(m
+                                                          !! s). A flat closed valve in a flow of velocity u has a pressure
+                                                          !! drop of (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -4268,10 +4270,10 @@ subroutine riisf_add_edge_reaction(marks, R, half_thickness, rim, n_nodes, veloc
   integer(int32), intent(in) :: edge_leaflet_id(*)        !< (n_edges): a node's force goes to the nearest edge of its leaflet.
                                                           !! If the first entry is -1, the other entries are not read, and each
                                                           !! edge serves all leaflets.
-  real(c_double), intent(inout) :: edge_force(3, *)       !< (3, n_edges): force of the nodes that count for the edge. The
-                                                          !! distance of an edge is measured from the node's closest point. If
-                                                          !! edges are equally near, the first one counts.
-  real(c_double), intent(inout) :: edge_moment(3, *)      !< (3, n_edges): moment of the same nodes about the middle of the
+  real(c_double), intent(inout) :: edge_force(3, *)       !< (3, n_edges): the sum of the forces of all nodes that count for
+                                                          !! the edge. Distances to edges are measured from the node's closest
+                                                          !! point. If edges are equally near, the first one counts.
+  real(c_double), intent(inout) :: edge_moment(3, *)      !< (3, n_edges): the moment of these forces about the middle of the
                                                           !! edge.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
@@ -4308,9 +4310,9 @@ subroutine riisf_add_edge_reaction_64(marks, R, half_thickness, rim, n_nodes, ve
       riis_reaction_init, riis_resistance, riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_POINT.
-  real(c_double), intent(in) :: R                         !< 0 to 1e60, in mass / (length time), such as kg/(m s). A flat
-                                                          !! closed valve in a flow of velocity u has a pressure drop of (R /
-                                                          !! eps) u.
+  real(c_double), intent(in) :: R                         !< The resistance, 0 to 1e60, in mass / (length time), such as kg/(m
+                                                          !! s). A flat closed valve in a flow of velocity u has a pressure
+                                                          !! drop of (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -4324,10 +4326,10 @@ subroutine riisf_add_edge_reaction_64(marks, R, half_thickness, rim, n_nodes, ve
   integer(int32), intent(in) :: edge_leaflet_id(*)        !< (n_edges): a node's force goes to the nearest edge of its leaflet.
                                                           !! If the first entry is -1, the other entries are not read, and each
                                                           !! edge serves all leaflets.
-  real(c_double), intent(inout) :: edge_force(3, *)       !< (3, n_edges): force of the nodes that count for the edge. The
-                                                          !! distance of an edge is measured from the node's closest point. If
-                                                          !! edges are equally near, the first one counts.
-  real(c_double), intent(inout) :: edge_moment(3, *)      !< (3, n_edges): moment of the same nodes about the middle of the
+  real(c_double), intent(inout) :: edge_force(3, *)       !< (3, n_edges): the sum of the forces of all nodes that count for
+                                                          !! the edge. Distances to edges are measured from the node's closest
+                                                          !! point. If edges are equally near, the first one counts.
+  real(c_double), intent(inout) :: edge_moment(3, *)      !< (3, n_edges): the moment of these forces about the middle of the
                                                           !! edge.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
@@ -4356,9 +4358,9 @@ end subroutine riisf_add_edge_reaction_64
 
 !> Adds the force of the flow, and its moment about the edge's middle, to edges. The force of a node goes to the edge nearest to
 !! its closest point. The sums of edges are loads for tissue codes. They do not model how a membrane carries loads to its edges.
-!! Ranks pass the same edges, and add their sums by a reduction. Errors: as riisf_add_resistance. RIIS_INVALID_ARGUMENT also for
-!! an n_leaflets that is too small (the message names the leaflet id), a leaflet without an edge, a bad edge, and a reaction
-!! without any sum.
+!! Ranks pass the same edges, and add their sums by a reduction. Errors: as riisf_add_resistance. RIIS_INVALID_ARGUMENT also if
+!! n_leaflets is too small (the message names the leaflet id), if a leaflet lacks an edge, if an edge is bad, and if the reaction
+!! has no array.
 subroutine riisf_add_edge_reaction_components(marks, R, half_thickness, rim, n_nodes, vx, vy, vz, weight, n_edges, &
     edges, edge_leaflet_id, edge_force, edge_moment, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -4368,9 +4370,9 @@ subroutine riisf_add_edge_reaction_components(marks, R, half_thickness, rim, n_n
       riis_reaction_init, riis_resistance, riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_POINT.
-  real(c_double), intent(in) :: R                         !< 0 to 1e60, in mass / (length time), such as kg/(m s). A flat
-                                                          !! closed valve in a flow of velocity u has a pressure drop of (R /
-                                                          !! eps) u.
+  real(c_double), intent(in) :: R                         !< The resistance, 0 to 1e60, in mass / (length time), such as kg/(m
+                                                          !! s). A flat closed valve in a flow of velocity u has a pressure
+                                                          !! drop of (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -4387,10 +4389,10 @@ subroutine riisf_add_edge_reaction_components(marks, R, half_thickness, rim, n_n
   integer(int32), intent(in) :: edge_leaflet_id(*)        !< (n_edges): a node's force goes to the nearest edge of its leaflet.
                                                           !! If the first entry is -1, the other entries are not read, and each
                                                           !! edge serves all leaflets.
-  real(c_double), intent(inout) :: edge_force(3, *)       !< (3, n_edges): force of the nodes that count for the edge. The
-                                                          !! distance of an edge is measured from the node's closest point. If
-                                                          !! edges are equally near, the first one counts.
-  real(c_double), intent(inout) :: edge_moment(3, *)      !< (3, n_edges): moment of the same nodes about the middle of the
+  real(c_double), intent(inout) :: edge_force(3, *)       !< (3, n_edges): the sum of the forces of all nodes that count for
+                                                          !! the edge. Distances to edges are measured from the node's closest
+                                                          !! point. If edges are equally near, the first one counts.
+  real(c_double), intent(inout) :: edge_moment(3, *)      !< (3, n_edges): the moment of these forces about the middle of the
                                                           !! edge.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
@@ -4426,9 +4428,9 @@ subroutine riisf_add_edge_reaction_components_64(marks, R, half_thickness, rim, 
       riis_reaction_init, riis_resistance, riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_POINT.
-  real(c_double), intent(in) :: R                         !< 0 to 1e60, in mass / (length time), such as kg/(m s). A flat
-                                                          !! closed valve in a flow of velocity u has a pressure drop of (R /
-                                                          !! eps) u.
+  real(c_double), intent(in) :: R                         !< The resistance, 0 to 1e60, in mass / (length time), such as kg/(m
+                                                          !! s). A flat closed valve in a flow of velocity u has a pressure
+                                                          !! drop of (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -4445,10 +4447,10 @@ subroutine riisf_add_edge_reaction_components_64(marks, R, half_thickness, rim, 
   integer(int32), intent(in) :: edge_leaflet_id(*)        !< (n_edges): a node's force goes to the nearest edge of its leaflet.
                                                           !! If the first entry is -1, the other entries are not read, and each
                                                           !! edge serves all leaflets.
-  real(c_double), intent(inout) :: edge_force(3, *)       !< (3, n_edges): force of the nodes that count for the edge. The
-                                                          !! distance of an edge is measured from the node's closest point. If
-                                                          !! edges are equally near, the first one counts.
-  real(c_double), intent(inout) :: edge_moment(3, *)      !< (3, n_edges): moment of the same nodes about the middle of the
+  real(c_double), intent(inout) :: edge_force(3, *)       !< (3, n_edges): the sum of the forces of all nodes that count for
+                                                          !! the edge. Distances to edges are measured from the node's closest
+                                                          !! point. If edges are equally near, the first one counts.
+  real(c_double), intent(inout) :: edge_moment(3, *)      !< (3, n_edges): the moment of these forces about the middle of the
                                                           !! edge.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
@@ -4475,8 +4477,8 @@ subroutine riisf_add_edge_reaction_components_64(marks, R, half_thickness, rim, 
 end subroutine riisf_add_edge_reaction_components_64
 
 !> Adds the force of the flow on each vertex of the surface, so that a code for shells can move the leaflets. Errors: as
-!! riisf_add_reaction. RIIS_INVALID_ARGUMENT also for marks without RIIS_FIELD_BARYCENTRIC, another number of vertices, or a
-!! closest triangle that the surface lacks.
+!! riisf_add_reaction. RIIS_INVALID_ARGUMENT also for marks without RIIS_FIELD_BARYCENTRIC, for another number of vertices, and
+!! if the surface lacks a closest triangle.
 subroutine riisf_add_vertex_reaction(marks, surface, R, half_thickness, rim, n_nodes, velocity, weight, n_vertices, &
     vertex_force, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -4486,10 +4488,11 @@ subroutine riisf_add_vertex_reaction(marks, surface, R, half_thickness, rim, n_n
       riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_BARYCENTRIC.
-  integer(int64), intent(in) :: surface                   !< The surface of the marking, without an update since then.
-  real(c_double), intent(in) :: R                         !< 0 to 1e60, in mass / (length time), such as kg/(m s). A flat
-                                                          !! closed valve in a flow of velocity u has a pressure drop of (R /
-                                                          !! eps) u.
+  integer(int64), intent(in) :: surface                   !< The surface of the marking. The surface must not have been updated
+                                                          !! since the marking.
+  real(c_double), intent(in) :: R                         !< The resistance, 0 to 1e60, in mass / (length time), such as kg/(m
+                                                          !! s). A flat closed valve in a flow of velocity u has a pressure
+                                                          !! drop of (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -4497,9 +4500,10 @@ subroutine riisf_add_vertex_reaction(marks, surface, R, half_thickness, rim, n_n
   real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
   integer(int32), intent(in) :: n_vertices                !< The surface's number of vertices.
-  real(c_double), intent(inout) :: vertex_force(3, *)     !< (3, n_vertices): the array to which the forces are added. A node's
-                                                          !! force goes to the three vertices of its closest triangle, in the
-                                                          !! shares of the closest point's barycentric coordinates.
+  real(c_double), intent(inout) :: vertex_force(3, *)     !< (3, n_vertices): the array to which the forces are added. The
+                                                          !! three vertices of a node's closest triangle share the node's
+                                                          !! force. The barycentric coordinates of the closest point are the
+                                                          !! shares.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
   type(riis_flow_arrays) :: flow
@@ -4529,10 +4533,11 @@ subroutine riisf_add_vertex_reaction_64(marks, surface, R, half_thickness, rim, 
       riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_BARYCENTRIC.
-  integer(int64), intent(in) :: surface                   !< The surface of the marking, without an update since then.
-  real(c_double), intent(in) :: R                         !< 0 to 1e60, in mass / (length time), such as kg/(m s). A flat
-                                                          !! closed valve in a flow of velocity u has a pressure drop of (R /
-                                                          !! eps) u.
+  integer(int64), intent(in) :: surface                   !< The surface of the marking. The surface must not have been updated
+                                                          !! since the marking.
+  real(c_double), intent(in) :: R                         !< The resistance, 0 to 1e60, in mass / (length time), such as kg/(m
+                                                          !! s). A flat closed valve in a flow of velocity u has a pressure
+                                                          !! drop of (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -4540,9 +4545,10 @@ subroutine riisf_add_vertex_reaction_64(marks, surface, R, half_thickness, rim, 
   real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
   integer(int64), intent(in) :: n_vertices                !< The surface's number of vertices.
-  real(c_double), intent(inout) :: vertex_force(3, *)     !< (3, n_vertices): the array to which the forces are added. A node's
-                                                          !! force goes to the three vertices of its closest triangle, in the
-                                                          !! shares of the closest point's barycentric coordinates.
+  real(c_double), intent(inout) :: vertex_force(3, *)     !< (3, n_vertices): the array to which the forces are added. The
+                                                          !! three vertices of a node's closest triangle share the node's
+                                                          !! force. The barycentric coordinates of the closest point are the
+                                                          !! shares.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
   type(riis_flow_arrays) :: flow
@@ -4563,8 +4569,8 @@ subroutine riisf_add_vertex_reaction_64(marks, surface, R, half_thickness, rim, 
 end subroutine riisf_add_vertex_reaction_64
 
 !> Adds the force of the flow on each vertex of the surface, so that a code for shells can move the leaflets. Errors: as
-!! riisf_add_reaction. RIIS_INVALID_ARGUMENT also for marks without RIIS_FIELD_BARYCENTRIC, another number of vertices, or a
-!! closest triangle that the surface lacks.
+!! riisf_add_reaction. RIIS_INVALID_ARGUMENT also for marks without RIIS_FIELD_BARYCENTRIC, for another number of vertices, and
+!! if the surface lacks a closest triangle.
 subroutine riisf_add_vertex_reaction_components(marks, surface, R, half_thickness, rim, n_nodes, vx, vy, vz, weight, &
     n_vertices, vertex_force, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -4574,10 +4580,11 @@ subroutine riisf_add_vertex_reaction_components(marks, surface, R, half_thicknes
       riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_BARYCENTRIC.
-  integer(int64), intent(in) :: surface                   !< The surface of the marking, without an update since then.
-  real(c_double), intent(in) :: R                         !< 0 to 1e60, in mass / (length time), such as kg/(m s). A flat
-                                                          !! closed valve in a flow of velocity u has a pressure drop of (R /
-                                                          !! eps) u.
+  integer(int64), intent(in) :: surface                   !< The surface of the marking. The surface must not have been updated
+                                                          !! since the marking.
+  real(c_double), intent(in) :: R                         !< The resistance, 0 to 1e60, in mass / (length time), such as kg/(m
+                                                          !! s). A flat closed valve in a flow of velocity u has a pressure
+                                                          !! drop of (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -4588,9 +4595,10 @@ subroutine riisf_add_vertex_reaction_components(marks, surface, R, half_thicknes
   real(c_double), intent(in) :: vz(*)                     !< (n_nodes), the z component.
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
   integer(int32), intent(in) :: n_vertices                !< The surface's number of vertices.
-  real(c_double), intent(inout) :: vertex_force(3, *)     !< (3, n_vertices): the array to which the forces are added. A node's
-                                                          !! force goes to the three vertices of its closest triangle, in the
-                                                          !! shares of the closest point's barycentric coordinates.
+  real(c_double), intent(inout) :: vertex_force(3, *)     !< (3, n_vertices): the array to which the forces are added. The
+                                                          !! three vertices of a node's closest triangle share the node's
+                                                          !! force. The barycentric coordinates of the closest point are the
+                                                          !! shares.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
   type(riis_flow_arrays) :: flow
@@ -4619,10 +4627,11 @@ subroutine riisf_add_vertex_reaction_components_64(marks, surface, R, half_thick
       riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_BARYCENTRIC.
-  integer(int64), intent(in) :: surface                   !< The surface of the marking, without an update since then.
-  real(c_double), intent(in) :: R                         !< 0 to 1e60, in mass / (length time), such as kg/(m s). A flat
-                                                          !! closed valve in a flow of velocity u has a pressure drop of (R /
-                                                          !! eps) u.
+  integer(int64), intent(in) :: surface                   !< The surface of the marking. The surface must not have been updated
+                                                          !! since the marking.
+  real(c_double), intent(in) :: R                         !< The resistance, 0 to 1e60, in mass / (length time), such as kg/(m
+                                                          !! s). A flat closed valve in a flow of velocity u has a pressure
+                                                          !! drop of (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -4633,9 +4642,10 @@ subroutine riisf_add_vertex_reaction_components_64(marks, surface, R, half_thick
   real(c_double), intent(in) :: vz(*)                     !< (n_nodes), the z component.
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
   integer(int64), intent(in) :: n_vertices                !< The surface's number of vertices.
-  real(c_double), intent(inout) :: vertex_force(3, *)     !< (3, n_vertices): the array to which the forces are added. A node's
-                                                          !! force goes to the three vertices of its closest triangle, in the
-                                                          !! shares of the closest point's barycentric coordinates.
+  real(c_double), intent(inout) :: vertex_force(3, *)     !< (3, n_vertices): the array to which the forces are added. The
+                                                          !! three vertices of a node's closest triangle share the node's
+                                                          !! force. The barycentric coordinates of the closest point are the
+                                                          !! shares.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
   type(riis_flow_arrays) :: flow
@@ -4654,8 +4664,8 @@ subroutine riisf_add_vertex_reaction_components_64(marks, surface, R, half_thick
       vertex_force)
 end subroutine riisf_add_vertex_reaction_components_64
 
-!> Gives the sums of the value over the nodes in the band, by side. Nodes whose closest point is on the rim, and nodes with side
-!! 0, are left out. With an open valve the two sides have no meaning. With the offset o of the surface, the distance is |s - o
+!> Gives the sums of the value over the nodes in the band, for each side. Nodes whose closest point is on the rim, and nodes with
+!! side 0, are left out. With an open valve the two sides have no meaning. If the surface has an offset o, the distance is |s - o
 !! eps|, and the sign of s - o eps is the side. Here s is the signed distance, and eps is the half thickness of the marking.
 !! Errors: RIIS_INVALID_ARGUMENT also for a field that the marks lack.
 subroutine riisf_band_sums(marks, inner, outer, n_nodes, value, weight, sum_of_values, sum_of_weights, n_in_band, &
@@ -4817,11 +4827,10 @@ subroutine riisf_loads_sums_64(radius, n_edges, edges, edge_leaflet_id, n_nodes,
 end subroutine riisf_loads_sums_64
 
 !> Adds the forces of the leaflets at nodes of tissue. The forces of a leaflet have the sum leaflet_force and the moment
-!! leaflet_moment, up to rounding. Errors: as riisf_loads_sums. RIIS_INVALID_ARGUMENT also for a leaflet with a force or a
-!! moment, if fewer than three nodes lie within the radius, or if these nodes lie nearly on a line. Nodes lie nearly on a line if
-!! their root-mean-square distance from the line is less than a hundredth of their root-mean-square distance from their middle.
-!! Nodes also lie nearly on a line if their root-mean-square distance from the line is less than a thousandth of the size of the
-!! edges (docs/theory/loads.md).
+!! leaflet_moment, up to rounding. Errors: as riisf_loads_sums. RIIS_INVALID_ARGUMENT also if a loaded leaflet has fewer than
+!! three nodes within the radius, or only nodes that lie nearly on a line. Nodes lie nearly on a line if their root-mean-square
+!! distance from the line is less than a hundredth of their root-mean-square distance from their middle, or less than a
+!! thousandth of the size of the edges (docs/theory/loads.md).
 subroutine riisf_loads_forces(radius, n_edges, edges, edge_leaflet_id, n_nodes, xyz, weight, n_leaflets, about, &
     leaflet_force, leaflet_moment, sums, node_force, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -4849,7 +4858,8 @@ subroutine riisf_loads_forces(radius, n_edges, edges, edge_leaflet_id, n_nodes, 
                                                           !! ranks.
   real(c_double), intent(in) :: leaflet_moment(3, *)      !< (3, n_leaflets): from riisf_add_leaflet_reaction, the sum over all
                                                           !! ranks.
-  real(c_double), intent(in) :: sums(11, *)               !< (11, n_leaflets): of riisf_loads_sums, added up over all ranks.
+  real(c_double), intent(in) :: sums(11, *)               !< (11, n_leaflets): the sums of riisf_loads_sums, added up over all
+                                                          !! ranks.
   real(c_double), intent(inout) :: node_force(3, *)       !< (3, n_nodes): forces are added.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_loads) :: loads
@@ -4901,7 +4911,8 @@ subroutine riisf_loads_forces_64(radius, n_edges, edges, edge_leaflet_id, n_node
                                                           !! ranks.
   real(c_double), intent(in) :: leaflet_moment(3, *)      !< (3, n_leaflets): from riisf_add_leaflet_reaction, the sum over all
                                                           !! ranks.
-  real(c_double), intent(in) :: sums(11, *)               !< (11, n_leaflets): of riisf_loads_sums, added up over all ranks.
+  real(c_double), intent(in) :: sums(11, *)               !< (11, n_leaflets): the sums of riisf_loads_sums, added up over all
+                                                          !! ranks.
   real(c_double), intent(inout) :: node_force(3, *)       !< (3, n_nodes): forces are added.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_loads) :: loads
@@ -4930,8 +4941,8 @@ end subroutine riisf_loads_forces_64
 ! -----------------------------------------------------------------------------------------------------------------
 
 !> Finds the leaking edges: edges of the mesh's adjacency between two unmarked nodes that cross or touch a triangle of the
-!! surface. Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, and for marks that no marking has filled, or that have
-!! another number of nodes or half thickness. RIIS_INVALID_MESH as riisf_mark_nodes.
+!! surface. Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, for empty marks, and for marks with another number of
+!! nodes or another half thickness. RIIS_INVALID_MESH as riisf_mark_nodes.
 subroutine riisf_find_leaks(surface, mesh, marks, n_threads, leaks, n_edges, longest, middle, half_thickness, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -5052,9 +5063,8 @@ subroutine riisf_leaks_destroy(handle)
   handle = handle_of(c_handle)
 end subroutine riisf_leaks_destroy
 
-!> Labels the open regions: the connected components of the nodes that a marking left unmarked, along mesh edges. Errors:
-!! RIIS_INVALID_ARGUMENT for a mesh without adjacency, and for marks that no marking has filled, or that have another number of
-!! nodes.
+!> Labels the open regions: the connected components of the unmarked nodes, along mesh edges. Errors: RIIS_INVALID_ARGUMENT for a
+!! mesh without adjacency, for empty marks, and for marks with another number of nodes.
 subroutine riisf_label_open_regions(mesh, marks, n_threads, n_nodes, region_num, n_regions, status)
   use, intrinsic :: iso_c_binding, only: c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -5111,8 +5121,8 @@ subroutine riisf_label_open_regions_64(mesh, marks, n_threads, n_nodes, region_n
 end subroutine riisf_label_open_regions_64
 
 !> Finds the widest passage along the edges of the mesh's adjacency, whether it is open or closed. Errors: RIIS_INVALID_ARGUMENT
-!! for a mesh without adjacency; also if a node of from or to is not in the mesh, is left out by node_mask, or is within the half
-!! thickness. RIIS_INVALID_MESH as riisf_mark_nodes.
+!! for a mesh without adjacency. Each node in `from` and `to` must be in the mesh and in node_mask, and farther from the surface
+!! than the half thickness. RIIS_INVALID_MESH as riisf_mark_nodes.
 subroutine riisf_find_passage(surface, mesh, n_from, from_num, n_to, to_num, n_threads, state, node_num, distance, &
     point, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_loc, c_ptr, c_sizeof
@@ -5124,11 +5134,11 @@ subroutine riisf_find_passage(surface, mesh, n_from, from_num, n_to, to_num, n_t
   integer(int64), intent(in) :: surface                   !< Must be created.
   integer(int64), intent(in) :: mesh                      !< Must have an adjacency, and need not have been marked.
   integer(int32), intent(in) :: n_from                    !< At least 1.
-  integer(int32), intent(in) :: from_num(n_from)          !< (n_from), node ids in any order: where paths begin. Counted from
-                                                          !! 1.
+  integer(int32), intent(in) :: from_num(n_from)          !< (n_from): the ids of the nodes at which paths begin, in any order.
+                                                          !! Counted from 1.
   integer(int32), intent(in) :: n_to                      !< At least 1.
-  integer(int32), intent(in) :: to_num(n_to)              !< (n_to), node ids in any order: where paths end. A node in both
-                                                          !! sets is a path by itself. Counted from 1.
+  integer(int32), intent(in) :: to_num(n_to)              !< (n_to): the ids of the nodes at which paths end, in any order. A
+                                                          !! node in both sets is a path by itself. Counted from 1.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int32), intent(inout) :: state                  !< RIIS_PASSAGE_*.
   integer(int32), intent(inout) :: node_num               !< The path's node nearest to the surface, from 1; 0 without a path.
@@ -5175,11 +5185,11 @@ subroutine riisf_find_passage_64(surface, mesh, n_from, from_num, n_to, to_num, 
   integer(int64), intent(in) :: surface                   !< Must be created.
   integer(int64), intent(in) :: mesh                      !< Must have an adjacency, and need not have been marked.
   integer(int64), intent(in) :: n_from                    !< At least 1.
-  integer(int64), intent(in) :: from_num(n_from)          !< (n_from), node ids in any order: where paths begin. Counted from
-                                                          !! 1.
+  integer(int64), intent(in) :: from_num(n_from)          !< (n_from): the ids of the nodes at which paths begin, in any order.
+                                                          !! Counted from 1.
   integer(int64), intent(in) :: n_to                      !< At least 1.
-  integer(int64), intent(in) :: to_num(n_to)              !< (n_to), node ids in any order: where paths end. A node in both
-                                                          !! sets is a path by itself. Counted from 1.
+  integer(int64), intent(in) :: to_num(n_to)              !< (n_to): the ids of the nodes at which paths end, in any order. A
+                                                          !! node in both sets is a path by itself. Counted from 1.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int32), intent(inout) :: state                  !< RIIS_PASSAGE_*.
   integer(int64), intent(inout) :: node_num               !< The path's node nearest to the surface, from 1; 0 without a path.
@@ -5234,8 +5244,8 @@ subroutine riisf_find_crossings(surface, depth, n_threads, crossings, n_pairs, l
   integer(int64), intent(inout) :: n_pairs                !< The number of pairs that cross. If this number is 0, ids are -1,
                                                           !! and all other fields except seconds are 0.
   real(c_double), intent(inout) :: length                 !< The total length of their intersections.
-  real(c_double), intent(inout) :: deepest                !< The depth of the deepest pair. Of several equally deep pairs, the
-                                                          !! first one counts.
+  real(c_double), intent(inout) :: deepest                !< The depth of the deepest pair. If several pairs are equally deep,
+                                                          !! the first pair counts.
   real(c_double), intent(inout) :: point(3)               !< The middle of the deepest pair's intersection.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_crossing_options) :: options
@@ -5385,11 +5395,11 @@ subroutine riisf_surface_leaflet(surface, leaflet_num, leaflet_id, area, free_ed
   integer(int32), intent(in) :: leaflet_num               !< 1 to n_leaflets, ascending by leaflet_id.
   integer(int32), intent(inout) :: leaflet_id             !< As in riis_triangles.
   real(c_double), intent(inout) :: area                   !< The area of its triangles.
-  real(c_double), intent(inout) :: free_edge              !< The length of its free edge: the sides v = 1 that belong to only
-                                                          !! one patch of the leaflet. A surface from arrays has no patches:
-                                                          !! its free edge is all open edges except the longest closed line of
-                                                          !! open edges. An open edge belongs to only one triangle. 0 for a
-                                                          !! skirt.
+  real(c_double), intent(inout) :: free_edge              !< The length of its free edge, which consists of the sides v = 1
+                                                          !! that belong to only one patch of the leaflet. In a surface from
+                                                          !! arrays, the free edge consists of all open edges except the
+                                                          !! longest closed line of open edges. An open edge belongs to only
+                                                          !! one triangle. 0 for a skirt.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_leaflet) :: sizes
   status = riis_surface_get_leaflet(c_handle_of(surface), int(leaflet_num, int64) - 1, sizes, c_sizeof(sizes))
@@ -5417,10 +5427,10 @@ subroutine riisf_surface_orifice(surface, half_thickness, rim, area, outline_are
                                                           !! first moved inwards by a tenth of the half thickness, so that
                                                           !! narrow slits do not count. Parts of the edge on the outline are
                                                           !! walls and do not count.
-  real(c_double), intent(inout) :: effective_area         !< The area that the band around the valve leaves to the flow. The
-                                                          !! edge along the triangles is moved inwards by rim_reach *
-                                                          !! half_thickness. To first order the effective area is area -
-                                                          !! rim_reach * half_thickness * perimeter, but never below 0.
+  real(c_double), intent(inout) :: effective_area         !< The area through which the flow can pass beside the band around
+                                                          !! the valve. The edge along the triangles is moved inwards by
+                                                          !! rim_reach * half_thickness. To first order the effective area is
+                                                          !! area - rim_reach * half_thickness * perimeter, but never below 0.
   integer(int32), intent(inout) :: outline                !< RIIS_OUTLINE_*.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
@@ -5438,9 +5448,9 @@ subroutine riisf_surface_orifice(surface, half_thickness, rim, area, outline_are
   outline = orifice%outline
 end subroutine riisf_surface_orifice
 
-!> Measures the orifice inside a wall, for leaflets that do not reach it, such as the leaflets of a mechanical valve from arrays.
-!! The wall is a ring or a tube around the leaflets. The longest connected line of open edges of the wall gives the outline and
-!! the axis (docs/theory/measures.md, 'Outline'). The other arguments are as in riisf_surface_orifice.
+!> Measures the orifice inside a wall, such as a ring or a tube around the leaflets. The call serves leaflets that do not reach
+!! the wall, such as the leaflets of a mechanical valve from arrays. The longest connected line of open edges of the wall gives
+!! the outline and the axis (docs/theory/measures.md, 'Outline'). The other arguments are as in riisf_surface_orifice.
 subroutine riisf_surface_orifice_in_wall(surface, wall, half_thickness, rim, area, outline_area, perimeter, &
     effective_area, outline, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -5450,8 +5460,8 @@ subroutine riisf_surface_orifice_in_wall(surface, wall, half_thickness, rim, are
       riis_surface_get_orifice_in_wall
   implicit none
   integer(int64), intent(in) :: surface                   !< Must be created.
-  integer(int64), intent(in) :: wall                      !< In the frame of the surface. RIIS_INVALID_ARGUMENT if the wall's
-                                                          !! line does not surround a centre.
+  integer(int64), intent(in) :: wall                      !< In the frame of the surface. RIIS_INVALID_ARGUMENT if this line of
+                                                          !! the wall does not surround a centre.
   real(c_double), intent(in) :: half_thickness            !< eps of the resistance; RIIS_AUTO: the surface's.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_*, usually RIIS_RIM_ROUND.
   real(c_double), intent(inout) :: area                   !< The area of the orifice. Without an outline, all fields but axis
@@ -5461,10 +5471,10 @@ subroutine riisf_surface_orifice_in_wall(surface, wall, half_thickness, rim, are
                                                           !! first moved inwards by a tenth of the half thickness, so that
                                                           !! narrow slits do not count. Parts of the edge on the outline are
                                                           !! walls and do not count.
-  real(c_double), intent(inout) :: effective_area         !< The area that the band around the valve leaves to the flow. The
-                                                          !! edge along the triangles is moved inwards by rim_reach *
-                                                          !! half_thickness. To first order the effective area is area -
-                                                          !! rim_reach * half_thickness * perimeter, but never below 0.
+  real(c_double), intent(inout) :: effective_area         !< The area through which the flow can pass beside the band around
+                                                          !! the valve. The edge along the triangles is moved inwards by
+                                                          !! rim_reach * half_thickness. To first order the effective area is
+                                                          !! area - rim_reach * half_thickness * perimeter, but never below 0.
   integer(int32), intent(inout) :: outline                !< RIIS_OUTLINE_*.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
@@ -5483,8 +5493,8 @@ subroutine riisf_surface_orifice_in_wall(surface, wall, half_thickness, rim, are
   outline = orifice%outline
 end subroutine riisf_surface_orifice_in_wall
 
-!> Measures the coaptation. The bileaflet housing and a skirt are no leaflets, and touch nothing. Errors: RIIS_INVALID_ARGUMENT
-!! for a leaflet that the surface lacks, and for a reach out of range.
+!> Measures the coaptation. Contact with a skirt or with the bileaflet housing does not count. Errors: RIIS_INVALID_ARGUMENT for
+!! a leaflet that the surface lacks, and for a reach out of range.
 subroutine riisf_surface_coaptation(surface, reach, leaflet_id, area, edge, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -5516,12 +5526,13 @@ subroutine riisf_surface_gap(surface, wall, least, mean, most, missed, status)
   use riis_c, only: RIIS_OK, riis_gap, riis_status, riis_surface_get_gap
   implicit none
   integer(int64), intent(in) :: surface                   !< Must be created.
-  integer(int64), intent(in) :: wall                      !< A surface in the same frame, usually by riisf_surface_from_arrays.
+  integer(int64), intent(in) :: wall                      !< A surface in the valve's frame, usually by
+                                                          !! riisf_surface_from_arrays.
   real(c_double), intent(inout) :: least                  !< The least gap; negative where the wall is inside.
   real(c_double), intent(inout) :: mean                   !< The mean along the attachment.
   real(c_double), intent(inout) :: most                   !< The widest gap.
-  integer(int32), intent(inout) :: missed                 !< The number of ends whose line misses the wall. These ends count in
-                                                          !! no other field.
+  integer(int32), intent(inout) :: missed                 !< The number of ends without a wall in the skirt's direction. These
+                                                          !! ends count in no other field.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_gap) :: gap
   status = riis_surface_get_gap(c_handle_of(surface), c_handle_of(wall), gap=gap, struct_size=c_sizeof(gap))
@@ -5532,8 +5543,8 @@ subroutine riisf_surface_gap(surface, wall, least, mean, most, missed, status)
   missed = int(gap%n_without_wall, int32)
 end subroutine riisf_surface_gap
 
-!> Gives a valve a skirt that just reaches a wall, and replaces the valve's skirt. Errors: RIIS_INVALID_ARGUMENT if the wall is
-!! missed or farther than longest, naming the first such point. RIIS_INVALID_PARAMETER for a bileaflet valve, and for an
+!> Gives a valve a skirt that just reaches a wall, and replaces the valve's skirt. Errors: RIIS_INVALID_ARGUMENT naming the first
+!! point from which the wall is missed or farther than longest. RIIS_INVALID_PARAMETER for a bileaflet valve, and for an
 !! attachment that encloses no area.
 subroutine riisf_valve_skirt_to_wall(valve, wall, longest, half_thickness, tolerance, scale, rotation_axis, &
     rotation_angle, translation, status)
@@ -5544,7 +5555,7 @@ subroutine riisf_valve_skirt_to_wall(valve, wall, longest, half_thickness, toler
   implicit none
   integer(int64), intent(in) :: valve                     !< Must be created.
   integer(int64), intent(in) :: wall                      !< As in riisf_surface_gap.
-  real(c_double), intent(in) :: longest                   !< The longest length to accept, mesh units, 1e-50 to 1e50.
+  real(c_double), intent(in) :: longest                   !< The longest acceptable length, mesh units, 1e-50 to 1e50.
   real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
                                                           !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
   real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
@@ -5554,8 +5565,8 @@ subroutine riisf_valve_skirt_to_wall(valve, wall, longest, half_thickness, toler
   real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< Mesh units; -1e50 to 1e50, usually 0. Refused for a valve if
-                                                          !! coordinates would be rounded by more than a thousandth of
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Refused for a
+                                                          !! valve if coordinates would be rounded by more than a thousandth of
                                                           !! tolerance * half_thickness.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_options) :: options
@@ -5570,10 +5581,10 @@ subroutine riisf_valve_skirt_to_wall(valve, wall, longest, half_thickness, toler
   status = riis_valve_set_skirt_to_wall(c_handle_of(valve), c_handle_of(wall), longest, options)
 end subroutine riisf_valve_skirt_to_wall
 
-!> Gives the ideal leak of a closed surface: the volume flow drop * (eps / R) * area that a pressure drop causes. The bileaflet
-!! housing does not count in the area. With an offset o, the surface is first moved by o eps along its normals, and the area of
-!! the moved surface counts. The leak in a solver differs from the ideal (docs/solvers.md). Errors: RIIS_INVALID_ARGUMENT naming
-!! the field or argument and its value.
+!> Gives the ideal leak of a closed surface: the volume flow drop * (eps / R) * area that a pressure drop causes. The area does
+!! not include the bileaflet housing. If the surface has an offset o, the area is that of the surface moved by o eps along its
+!! normals. The leak in a solver differs from the ideal (docs/solvers.md). Errors: RIIS_INVALID_ARGUMENT naming the field or
+!! argument and its value.
 subroutine riisf_surface_leak(surface, R, half_thickness, drop, flow, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int64
@@ -5595,9 +5606,9 @@ subroutine riisf_surface_leak(surface, R, half_thickness, drop, flow, status)
   status = riis_surface_get_leak(c_handle_of(surface), resistance, drop, flow)
 end subroutine riisf_surface_leak
 
-!> Computes the number of mesh edges across the band. An edge counts once, whether one or both of its nodes list it. Edges to
-!! ghosts and edges of length 0 do not count. Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, for empty marks, and
-!! for marks with another number of nodes. RIIS_INVALID_MESH as riisf_mark_nodes.
+!> Computes the number of mesh edges across the band. An edge counts once, even if both of its nodes have it in the adjacency.
+!! Edges to ghosts and edges of length 0 do not count. Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, for empty
+!! marks, and for marks with another number of nodes. RIIS_INVALID_MESH as riisf_mark_nodes.
 subroutine riisf_cells_across(marks, mesh, least, mean, most, mean_edge, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int64
@@ -5621,8 +5632,8 @@ subroutine riisf_cells_across(marks, mesh, least, mean, most, mean_edge, status)
 end subroutine riisf_cells_across
 
 !> Gives the volume that the valve sweeps between two openings, in mesh units cubed. The volume is the integral of u_surface . n
-!! over surface and time, positive along the normals. In a flow the valve displaces less blood, because blood slips past the
-!! leaflets. Errors: RIIS_INVALID_ARGUMENT for an opening out of range and for a leaflet that the valve lacks.
+!! over surface and time, positive along the normals. A valve in a flow displaces less blood than this volume, because blood
+!! slips past the leaflets. Errors: RIIS_INVALID_ARGUMENT for an opening out of range and for a leaflet that the valve lacks.
 !! RIIS_INVALID_PARAMETER for inconsistent parameters, and for a valve with one state if an opening is above 0.
 subroutine riisf_valve_swept_volume(valve, opening_from, opening_to, scale, leaflet_id, volume, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -5648,8 +5659,8 @@ end subroutine riisf_valve_swept_volume
 !> Finds the openings, or the sizes, at which the orifice of a valve has given areas (docs/theory/measures.md, 'From an area to a
 !! valve'). Errors: RIIS_INVALID_ARGUMENT naming the area. If the area is out of reach, the message names the range.
 !! RIIS_INVALID_PARAMETER for an unknown name, for a parameter with three values, for a valve with one state or no orifice, and
-!! if the name does not change the area. If riisf_surface_create fails inside the call, the message also names the opening or
-!! size. On an error nothing is written.
+!! if the name does not change the area. If a surface cannot be made, the message also names the opening or size. On an error
+!! nothing is written.
 subroutine riisf_find_by_area(valve, name, n_areas, areas, half_thickness, tolerance, scale, rotation_axis, &
     rotation_angle, translation, n_threads, area_kind, values, reached, least, most, n_turns, status)
   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_loc, c_ptr, c_sizeof
@@ -5672,8 +5683,8 @@ subroutine riisf_find_by_area(valve, name, n_areas, areas, half_thickness, toler
   real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< Mesh units; -1e50 to 1e50, usually 0. Refused for a valve if
-                                                          !! coordinates would be rounded by more than a thousandth of
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Refused for a
+                                                          !! valve if coordinates would be rounded by more than a thousandth of
                                                           !! tolerance * half_thickness.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int32), intent(in) :: area_kind                 !< RIIS_AREA_*, usually RIIS_AREA_GEOMETRIC.
@@ -5732,8 +5743,8 @@ subroutine riisf_find_by_area_64(valve, name, n_areas, areas, half_thickness, to
   real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< Mesh units; -1e50 to 1e50, usually 0. Refused for a valve if
-                                                          !! coordinates would be rounded by more than a thousandth of
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Refused for a
+                                                          !! valve if coordinates would be rounded by more than a thousandth of
                                                           !! tolerance * half_thickness.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int32), intent(in) :: area_kind                 !< RIIS_AREA_*, usually RIIS_AREA_GEOMETRIC.
@@ -5783,11 +5794,11 @@ subroutine riisf_find_first_passage(valve, mesh, n_from, from_num, n_to, to_num,
   integer(int64), intent(in) :: valve                     !< Its own opening is ignored.
   integer(int64), intent(in) :: mesh                      !< Must have an adjacency, and need not have been marked.
   integer(int32), intent(in) :: n_from                    !< At least 1.
-  integer(int32), intent(in) :: from_num(n_from)          !< (n_from), node ids in any order: where paths begin. Counted from
-                                                          !! 1.
+  integer(int32), intent(in) :: from_num(n_from)          !< (n_from): the ids of the nodes at which paths begin, in any order.
+                                                          !! Counted from 1.
   integer(int32), intent(in) :: n_to                      !< At least 1.
-  integer(int32), intent(in) :: to_num(n_to)              !< (n_to), node ids in any order: where paths end. A node in both
-                                                          !! sets is a path by itself. Counted from 1.
+  integer(int32), intent(in) :: to_num(n_to)              !< (n_to): the ids of the nodes at which paths end, in any order. A
+                                                          !! node in both sets is a path by itself. Counted from 1.
   real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
                                                           !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
   real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
@@ -5797,15 +5808,15 @@ subroutine riisf_find_first_passage(valve, mesh, n_from, from_num, n_to, to_num,
   real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< Mesh units; -1e50 to 1e50, usually 0. Refused for a valve if
-                                                          !! coordinates would be rounded by more than a thousandth of
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Refused for a
+                                                          !! valve if coordinates would be rounded by more than a thousandth of
                                                           !! tolerance * half_thickness.
   real(c_double), intent(in) :: opening_tolerance         !< Tolerance of the opening, 1e-6 to 1. Usually 1e-3.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int32), intent(inout) :: state                  !< RIIS_FIRST_PASSAGE_*.
   real(c_double), intent(inout) :: opening                !< The opening that was tried and has a passage.
-  real(c_double), intent(inout) :: closed_opening         !< FOUND: the largest opening below `opening` at which no passage was
-                                                          !! found. Else: `opening`.
+  real(c_double), intent(inout) :: closed_opening         !< The largest opening below `opening` that was found closed, with
+                                                          !! FOUND; else `opening`.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   integer(int64), allocatable, target :: c_from_num(:)
   integer(int64), allocatable, target :: c_to_num(:)
@@ -5860,11 +5871,11 @@ subroutine riisf_find_first_passage_64(valve, mesh, n_from, from_num, n_to, to_n
   integer(int64), intent(in) :: valve                     !< Its own opening is ignored.
   integer(int64), intent(in) :: mesh                      !< Must have an adjacency, and need not have been marked.
   integer(int64), intent(in) :: n_from                    !< At least 1.
-  integer(int64), intent(in) :: from_num(n_from)          !< (n_from), node ids in any order: where paths begin. Counted from
-                                                          !! 1.
+  integer(int64), intent(in) :: from_num(n_from)          !< (n_from): the ids of the nodes at which paths begin, in any order.
+                                                          !! Counted from 1.
   integer(int64), intent(in) :: n_to                      !< At least 1.
-  integer(int64), intent(in) :: to_num(n_to)              !< (n_to), node ids in any order: where paths end. A node in both
-                                                          !! sets is a path by itself. Counted from 1.
+  integer(int64), intent(in) :: to_num(n_to)              !< (n_to): the ids of the nodes at which paths end, in any order. A
+                                                          !! node in both sets is a path by itself. Counted from 1.
   real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
                                                           !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
   real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
@@ -5874,15 +5885,15 @@ subroutine riisf_find_first_passage_64(valve, mesh, n_from, from_num, n_to, to_n
   real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< Mesh units; -1e50 to 1e50, usually 0. Refused for a valve if
-                                                          !! coordinates would be rounded by more than a thousandth of
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Refused for a
+                                                          !! valve if coordinates would be rounded by more than a thousandth of
                                                           !! tolerance * half_thickness.
   real(c_double), intent(in) :: opening_tolerance         !< Tolerance of the opening, 1e-6 to 1. Usually 1e-3.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int32), intent(inout) :: state                  !< RIIS_FIRST_PASSAGE_*.
   real(c_double), intent(inout) :: opening                !< The opening that was tried and has a passage.
-  real(c_double), intent(inout) :: closed_opening         !< FOUND: the largest opening below `opening` at which no passage was
-                                                          !! found. Else: `opening`.
+  real(c_double), intent(inout) :: closed_opening         !< The largest opening below `opening` that was found closed, with
+                                                          !! FOUND; else `opening`.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   integer(int64), allocatable, target :: c_from_num(:)
   integer(int64), allocatable, target :: c_to_num(:)
@@ -5942,10 +5953,10 @@ subroutine riisf_opening_from_table(n_keys, key_time, key_opening, period, inter
   integer(int32), intent(in) :: n_keys                    !< 1 to 1,000,000.
   real(c_double), intent(in) :: key_time(*)               !< (n_keys), strictly ascending, magnitude at most 1e30.
   real(c_double), intent(in) :: key_opening(*)            !< (n_keys), 0 to 1.
-  real(c_double), intent(in) :: period                    !< > 0: the table repeats. All keys lie within one period of the
-                                                          !! first key. If the last key is one period after the first, it must
-                                                          !! have the same opening. 0: the opening is constant before the first
-                                                          !! key and after the last.
+  real(c_double), intent(in) :: period                    !< Above 0, the table repeats with this period. All keys lie within
+                                                          !! one period of the first key. If the last key is one period after
+                                                          !! the first, it must have the same opening. 0: the opening is
+                                                          !! constant before the first key and after the last.
   integer(int32), intent(in) :: interpolation             !< RIIS_INTERPOLATION_*, usually RIIS_INTERPOLATION_LINEAR.
   real(c_double), intent(in) :: time                      !< Magnitude at most 1e30.
   real(c_double), intent(inout) :: opening                !< Written on success.
@@ -5968,14 +5979,17 @@ subroutine riisf_opening_from_times(opening_start, opening_duration, closing_sta
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use riis_c, only: RIIS_OK, riis_opening_from_times, riis_opening_times, riis_opening_times_init, riis_status
   implicit none
-  real(c_double), intent(in) :: opening_start             !< When the valve begins to open.
+  real(c_double), intent(in) :: opening_start             !< The time at which the valve begins to open.
   real(c_double), intent(in) :: opening_duration          !< How long opening takes, > 0.
-  real(c_double), intent(in) :: closing_start             !< When the valve begins to close, at least opening_start +
-                                                          !! opening_duration.
+  real(c_double), intent(in) :: closing_start             !< The time at which the valve begins to close, at least
+                                                          !! opening_start + opening_duration.
   real(c_double), intent(in) :: closing_duration          !< How long closing takes, > 0.
-  real(c_double), intent(in) :: closed                    !< The opening when closed and when open, 0 to 1. Usually 0 and 1.
-  real(c_double), intent(in) :: open                      !< The opening when closed and when open, 0 to 1. Usually 0 and 1.
-  real(c_double), intent(in) :: period                    !< > 0: the valve opens and closes once in each period. 0: only once.
+  real(c_double), intent(in) :: closed                    !< The openings of the closed and of the open valve, 0 to 1. Usually
+                                                          !! 0 and 1.
+  real(c_double), intent(in) :: open                      !< The openings of the closed and of the open valve, 0 to 1. Usually
+                                                          !! 0 and 1.
+  real(c_double), intent(in) :: period                    !< Above 0, the valve opens and closes once in each period. 0: only
+                                                          !! once.
   real(c_double), intent(in) :: time                      !< Magnitude at most 1e30.
   real(c_double), intent(inout) :: opening                !< Written on success.
   real(c_double), intent(inout) :: rate                   !< Written on success.
@@ -6010,9 +6024,8 @@ subroutine riisf_opening_switch_init(state, phase, status)
   phase = the_state%phase
 end subroutine riisf_opening_switch_init
 
-!> Advances a switch to a time. The switch's phase changes at the end of the step in which the condition is met. The opening is
-!! therefore accurate to first order in the length of steps. Errors: RIIS_INVALID_ARGUMENT naming the field or argument and its
-!! value.
+!> Advances a switch to a time. The phase changes only at the end of a step, so the opening is accurate to first order in the
+!! step length. Errors: RIIS_INVALID_ARGUMENT naming the field or argument and its value.
 subroutine riisf_opening_switch_advance(opening_duration, closing_duration, open_above, close_below, filter_time, &
     dwell_time, time, pressure_difference, flow, state, phase, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -6020,14 +6033,13 @@ subroutine riisf_opening_switch_advance(opening_duration, closing_duration, open
   use riis_c, only: RIIS_OK, riis_opening_switch, riis_opening_switch_advance, riis_opening_switch_init, &
       riis_opening_switch_state, riis_opening_switch_state_init, riis_status
   implicit none
-  real(c_double), intent(in) :: opening_duration          !< Time from closed to open, > 0.
-  real(c_double), intent(in) :: closing_duration          !< Time from open to closed, > 0.
+  real(c_double), intent(in) :: opening_duration          !< The time that the valve takes to open, > 0.
+  real(c_double), intent(in) :: closing_duration          !< The time that the valve takes to close, > 0.
   real(c_double), intent(in) :: open_above                !< Pressure difference. Usually 0.
   real(c_double), intent(in) :: close_below               !< Flow. Usually 0.
-  real(c_double), intent(in) :: filter_time               !< Time constant of a filter of pressure difference and flow, >= 0.
-                                                          !! 0: no filter.
-  real(c_double), intent(in) :: dwell_time                !< The least time from one change of phase to the next, >= 0. Usually
-                                                          !! 0.
+  real(c_double), intent(in) :: filter_time               !< The time constant of the filter of pressure difference and flow,
+                                                          !! >= 0. 0: no filter.
+  real(c_double), intent(in) :: dwell_time                !< The shortest time between two changes of phase, >= 0. Usually 0.
   real(c_double), intent(in) :: time                      !< At least state(1).
   real(c_double), intent(in) :: pressure_difference       !< At that time, magnitude at most 1e30.
   real(c_double), intent(in) :: flow                      !< At that time, magnitude at most 1e30.
@@ -6077,10 +6089,10 @@ subroutine riisf_opening_angle_init(state, status)
       the_state%pressure_difference, the_state%flow]
 end subroutine riisf_opening_angle_init
 
-!> Advances the angle law to a time. The law takes pressure difference and flow as linear over the step, so the angle is accurate
-!! to second order in the length of steps. The first step has no earlier pressure difference and flow, so the present values hold
-!! for the whole step. Errors: RIIS_INVALID_ARGUMENT naming the field or argument and its value. RIIS_LIMIT_EXCEEDED for a step
-!! whose integration needs more than a million smaller steps.
+!> Advances the angle law to a time. During a step, the pressure difference and the flow are linear in time, so the angle is
+!! accurate to second order in the step length. During the first step they are constant, because no earlier values are known.
+!! Errors: RIIS_INVALID_ARGUMENT naming the field or argument and its value. RIIS_LIMIT_EXCEEDED for a step whose integration
+!! needs more than a million smaller steps.
 subroutine riisf_opening_angle_advance(pressure_gain, flow_gain, friction, vortex_gain, angle_min, angle_max, time, &
     pressure_difference, flow, state, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -6131,12 +6143,12 @@ end subroutine riisf_opening_angle_advance
 
 !> Sets a valve's sizes, in centimetres, to a patient's sizes, and finds its placement. Errors: RIIS_INVALID_ARGUMENT for
 !! landmarks that are missing, too many, in one place, collinear or mirrored, or that are too large or too small for a heart
-!! valve at this scale. Landmarks that do not show the flow are also refused. The message names the landmarks. The axis of a
-!! tricuspid or mitral_coapting valve must be at most 20 degrees from the annulus' normal. A mitral valve must satisfy three
-!! conditions: - The posterior horn and the trigones are on their own sides of the annulus. - The axis of the fitted valve is at
-!! most 20 degrees from the annulus' normal. - The fitted AP_diameter agrees with the depth that the horns or the annulus show.
-!! The difference is at most a twelfth of this depth, or five times the noise. RIIS_INVALID_PARAMETER for a valve from patches,
-!! an unknown name in held, and sizes that do not fit together.
+!! valve at this scale. Landmarks that do not show the direction of flow are also refused. The message names the landmarks. The
+!! axis of a tricuspid or mitral_coapting valve must be at most 20 degrees from the annulus' normal. A mitral valve must satisfy
+!! three conditions: - The posterior horn is on the posterior side of the annulus, and the trigones are on the anterior side. -
+!! The axis of the fitted valve is at most 20 degrees from the annulus' normal. - The fitted AP_diameter differs from the depth
+!! that the horns or the annulus show by at most a twelfth of this depth, or by five times the noise. RIIS_INVALID_PARAMETER for
+!! a valve from patches, an unknown name in held, and sizes that do not fit together.
 subroutine riisf_place(valve, n_landmarks, xyz, role, leaflet_id, scale, noise, flow, held, rotation_axis, &
     rotation_angle, translation, residual, size_state, status)
   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_sizeof
@@ -6145,24 +6157,25 @@ subroutine riisf_place(valve, n_landmarks, xyz, role, leaflet_id, scale, noise, 
   use riis_c, only: RIIS_OK, riis_landmarks, riis_landmarks_init, riis_place, riis_placement, riis_placement_arrays, &
       riis_placement_arrays_init, riis_status
   implicit none
-  integer(int64), intent(in) :: valve                     !< The template, a kind with any parameters: lengths without a
+  integer(int64), intent(in) :: valve                     !< A valve of any kind with any parameters. Lengths without a
                                                           !! landmark keep their proportions. Translation, opening and the open
                                                           !! state of riisf_valve_set_open_state stay.
   integer(int32), intent(in) :: n_landmarks               !< 1 to 10,000.
   real(c_double), intent(in) :: xyz(3, *)                 !< (3, n_landmarks), in mesh units.
   integer(int32), intent(in) :: role(*)                   !< (n_landmarks): RIIS_LANDMARK_*.
-  integer(int32), intent(in) :: leaflet_id(2, *)          !< (2, n_landmarks): the cusp of a nadir or attachment point, then
-                                                          !! -1; the two leaflets of a commissure, in any order. -1 and -1: not
-                                                          !! known. For an aortic or tricuspid valve, the known leaflets must
-                                                          !! determine the names of all leaflets. For other kinds without
-                                                          !! names, the first nadir lies on cusp 0.
+  integer(int32), intent(in) :: leaflet_id(2, *)          !< (2, n_landmarks): the leaflets of each landmark. A nadir or
+                                                          !! attachment point has its cusp and -1, and a commissure has its two
+                                                          !! leaflets in any order. -1 and -1 stand for unknown leaflets. For
+                                                          !! an aortic or tricuspid valve, the known leaflets must determine
+                                                          !! the names of all leaflets. For other kinds without names, the
+                                                          !! first nadir lies on cusp 0.
   real(c_double), intent(in) :: scale                     !< Mesh units in a centimetre: 10 for millimetres, 1 for centimetres,
                                                           !! or 0.01 for metres. Must be set.
   real(c_double), intent(in) :: noise                     !< The scatter of the landmarks: the standard deviation of each
                                                           !! coordinate, mesh units, >= 0. RIIS_AUTO: 0.03 * scale.
   real(c_double), intent(in) :: flow(3)                   !< The direction of flow; 0 0 0: not known.
-  character(len=*), intent(in) :: held                    !< Names of parameters that keep the valve's values, separated by
-                                                          !! blanks or commas. '' stands for no name.
+  character(len=*), intent(in) :: held                    !< The names of the parameters whose values do not change, separated
+                                                          !! by blanks or commas. '' stands for no name.
   real(c_double), intent(inout) :: rotation_axis(3)       !< Unit vector.
   real(c_double), intent(inout) :: rotation_angle         !< Degrees, 0 to 180.
   real(c_double), intent(inout) :: translation(3)         !< Mesh units.
@@ -6197,9 +6210,9 @@ subroutine riisf_place(valve, n_landmarks, xyz, role, leaflet_id, scale, noise, 
   translation = placement%translation
 end subroutine riisf_place
 
-!> Makes a warp from landmarks on the valve at rest. Until riisf_warp_set_targets, the warp is the identity. Errors:
-!! RIIS_INVALID_ARGUMENT naming the landmark or field and its value, also for two landmarks in one place, and for landmarks on a
-!! line.
+!> Makes a warp from landmarks on the valve at rest. The warp is the identity until riisf_warp_set_targets gives it targets.
+!! Errors: RIIS_INVALID_ARGUMENT naming the landmark or field and its value, also for two landmarks in one place, and for
+!! landmarks on a line.
 subroutine riisf_warp_create(n_landmarks, xyz, noise, scale, rotation_axis, rotation_angle, translation, warp, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_loc, c_null_ptr, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -6210,15 +6223,15 @@ subroutine riisf_warp_create(n_landmarks, xyz, noise, scale, rotation_axis, rota
   integer(int32), intent(in) :: n_landmarks               !< 3 to 1000.
   real(c_double), intent(in) :: xyz(3, *)                 !< (3, n_landmarks), mesh units: give the placement of
                                                           !! riisf_surface_create.
-  real(c_double), intent(in) :: noise                     !< Standard deviation of each coordinate of the targets, 0 to 1e50.
-                                                          !! The map is smoothed until it misses the targets by about this
-                                                          !! noise. 0: the map meets the targets exactly.
+  real(c_double), intent(in) :: noise                     !< The standard deviation of each coordinate of the targets, 0 to
+                                                          !! 1e50. The map is smoothed until its distances from the targets are
+                                                          !! about this noise. 0: the map meets the targets exactly.
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
   real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< Mesh units; -1e50 to 1e50, usually 0. Refused for a valve if
-                                                          !! coordinates would be rounded by more than a thousandth of
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Refused for a
+                                                          !! valve if coordinates would be rounded by more than a thousandth of
                                                           !! tolerance * half_thickness.
   integer(int64), intent(inout) :: warp                   !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -6247,9 +6260,9 @@ subroutine riisf_warp_create(n_landmarks, xyz, noise, scale, rotation_axis, rota
   warp = handle_of(c_handle)
 end subroutine riisf_warp_create
 
-!> Makes the warp take the landmarks to the targets. The same targets give the same bits, whatever the earlier targets were.
-!! Errors: RIIS_INVALID_ARGUMENT naming the point. RIIS_INVALID_PARAMETER for a warp that folds: half way from some landmark to
-!! the nearest other landmark, the determinant of the map's derivative is not above 0. A warp with more noise folds less.
+!> Makes the warp take the landmarks to the targets. The same targets give the same bits after any earlier targets. Errors:
+!! RIIS_INVALID_ARGUMENT naming the point. RIIS_INVALID_PARAMETER for a warp that folds. A warp folds if the determinant of the
+!! map's derivative is not above 0 half way between some landmark and its nearest landmark. With more noise, a warp folds less.
 subroutine riisf_warp_set_targets(warp, n_landmarks, xyz, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -6271,7 +6284,7 @@ subroutine riisf_warp_set_targets(warp, n_landmarks, xyz, status)
   status = riis_warp_set_targets(c_handle_of(warp), targets)
 end subroutine riisf_warp_set_targets
 
-!> Warps a valve: its curves are mapped at every opening, before the placement. The valve copies both maps. Errors:
+!> Warps a valve: the map moves the valve's curves at every opening, before the placement. The valve copies both maps. Errors:
 !! RIIS_INVALID_ARGUMENT for `open` without `closed`. RIIS_INVALID_PARAMETER for a bileaflet valve, which is rigid.
 subroutine riisf_valve_set_warp(valve, closed, open, status)
   use, intrinsic :: iso_fortran_env, only: int64

@@ -237,8 +237,8 @@ RIIS_API riis_status riis_surface_get_attachment(const riis_surface *surface, ri
 /* ---- Motion: surfaces with velocities, from two states of a valve or from frames ----------------------- */
 
 /* Replaces the surface's content by a valve, and gives every vertex a velocity. The triangles are those that riis_surface_update
- * makes, to the last bit. For a valve at rest, also pass the valve as valve_before. `valve_before`: the earlier state, of the
- * same kind. Valves from patches must have the same curves and sides.
+ * makes, to the last bit. For a valve at rest, also pass the valve as valve_before.
+ *   `valve_before`: the earlier state, of the same kind. Valves from patches must have the same curves and sides.
  *   `dt`: the time from valve_before to valve, 1e-30 to 1e30, or -1e30 to -1e-30 if time runs back.
  *   `options_before`: scale, rotation and translation of the earlier state; other fields are ignored. NULL: as now.
  * The velocity of a vertex is its displacement divided by dt. The displacement starts at the point of the earlier state with the
