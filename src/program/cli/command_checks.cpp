@@ -124,8 +124,8 @@ void check_distance(const Command &command, const MarkOptions &options) {
 void check_style(const Command &command, const MarkOptions &options) {
   const std::string &movie = options.series.movie;
   const PictureStyle &style = options.style;
-  for (const char *name : {"--picture-size", "--picture-background", "--picture-captions", "--picture-panels",
-                           "--picture-velocity"})
+  for (const char *name :
+       {"--picture-size", "--picture-background", "--picture-captions", "--picture-panels", "--picture-velocity"})
     if (command.has(name) && options.pictures.empty() && movie.empty())
       refuse_usage(std::string(name) + " has no effect without --picture" +
                    (command.knows("--movie") ? " or --movie" : ""));

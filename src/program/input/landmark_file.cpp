@@ -452,8 +452,8 @@ void check_names_of_cusps(const LandmarkFile &landmarks, const std::string &kind
     if (b >= 0 && given.count({place->role, a, b}) == 0) missing.push_back(name);
   }
   if (missing.empty()) return;
-  refuse_file(landmarks.path, "lacks " + joined_by(missing, ", ") + ", which the " + kind +
-                                  " valve needs: add " + (missing.size() == 1 ? "this point" : "these points"));
+  refuse_file(landmarks.path, "lacks " + joined_by(missing, ", ") + ", which the " + kind + " valve needs: add " +
+                                  (missing.size() == 1 ? "this point" : "these points"));
 }
 
 LandmarkFile read_landmarks(const std::string &path, const std::string &text, const std::string &kind) {

@@ -169,9 +169,8 @@ class PatientRun {
       warn(options_.landmarks + ": the landmarks are " + printed("%.3g", frame_.away) + " mm from the wall of " +
            options_.wall + " on average, and a person sets them within " + shown(usual_distance_mm) +
            " mm: they may belong to another patient or image. Load both in 3D Slicer");
-    steps_.say("folder",
-               options_.folder + ", where lengths are in " + name_of(unit_) + ". " + commands_file +
-                   " has the command of each next step");
+    steps_.say("folder", options_.folder + ", where lengths are in " + name_of(unit_) + ". " + commands_file +
+                             " has the command of each next step");
     std::error_code error;
     inputs_ = {fs::absolute(options_.wall, error).string(), fs::absolute(options_.landmarks, error).string()};
     if (!options_.params.empty()) inputs_.push_back(fs::absolute(options_.params, error).string());
@@ -595,7 +594,8 @@ class PatientRun {
   void print_end() {
     const double finer = std::pow(static_cast<double>(mesh_.n_nodes) / many_nodes, 1 / power_of_nodes);
     if (finer < 1)
-      steps_.say("edges", "the mesh of " + grouped(mesh_.n_nodes) + " nodes is ready for a run; to compare with a finer mesh, --band-edge " +
+      steps_.say("edges", "the mesh of " + grouped(mesh_.n_nodes) +
+                              " nodes is ready for a run; to compare with a finer mesh, --band-edge " +
                               printed("%.2f", finer * band_edge_) + " makes about " + grouped(many_nodes) +
                               " nodes in place of --band-edge " + shown(band_edge_));
     steps_.say("done", "in " + printed("%.0f", steps_.seconds()) + " s. " + options_.folder + " has:");
@@ -612,7 +612,9 @@ class PatientRun {
       if (exists(name.c_str())) steps_.say("  " + name + std::string(13 - name.size(), ' '), what);
     const std::string path = options_.folder + "/" + options_.solver;
     if (options_.solver != "none")
-      steps_.say("beats", "the valve of the case is moved by the blood, and at other times than in the prescribed beat.pvd and beat.mp4");
+      steps_.say("beats",
+                 "the valve of the case is moved by the blood, and at other times than in the prescribed beat.pvd and "
+                 "beat.mp4");
     if (options_.solver == "openfoam")
       steps_.say("once", "in the top folder of riis: ./run openfoam plugin (docs/patient_openfoam.md)");
     if (options_.solver == "fenicsx")

@@ -114,8 +114,9 @@ void check_stated_unit(const riis_surface *wall, const LandmarkFile &landmarks) 
     const WallFrame frame = frames_of(wall, relabelled)[0];
     if (frame.away > at_wall) continue;
     refuse_data(landmarks.path + ": its numbers are probably in " + name_of(other) + ", but it states " +
-                name_of(landmarks.unit) + ": in " + name_of(other) + " the landmarks have the size of a valve, and are " +
-                mm_text(frame.away) + " from the wall on average: " + cure_of_unit(landmarks, other));
+                name_of(landmarks.unit) + ": in " + name_of(other) +
+                " the landmarks have the size of a valve, and are " + mm_text(frame.away) +
+                " from the wall on average: " + cure_of_unit(landmarks, other));
   }
 }
 

@@ -34,8 +34,8 @@ namespace riis::vtk {
 namespace {
 
 // The colours of matplotlib's map viridis, at equal distances. People with any kind of colour vision see its order.
-constexpr unsigned char viridis[][3] = {{68, 1, 84},    {71, 44, 122},  {59, 81, 139},  {44, 113, 142}, {33, 144, 141},
-                                        {39, 173, 129}, {92, 200, 99},  {170, 220, 50}, {253, 231, 37}};
+constexpr unsigned char viridis[][3] = {{68, 1, 84},    {71, 44, 122}, {59, 81, 139},  {44, 113, 142}, {33, 144, 141},
+                                        {39, 173, 129}, {92, 200, 99}, {170, 220, 50}, {253, 231, 37}};
 
 // Returns the smallest round number that is not below the given number.
 double rounded_up(double number) {
@@ -111,8 +111,8 @@ Flow flow_of(const riis_vtk_mesh &mesh, const std::string &name) {
   vtkDataArray *const found = at_points ? at_points : in_cells;
   if (!found) refuse_argument("options->velocity is \"", name, "\", which is no array of the mesh");
   if (found->GetNumberOfComponents() != 3)
-    refuse_argument("options->velocity is \"", name, "\", an array with ", found->GetNumberOfComponents(),
-                    " components instead of 3");
+    refuse_argument("options->velocity is \"", name, "\", whose number of components is ",
+                    found->GetNumberOfComponents(), ", not 3");
   if (found->GetInformation()->Has(vtkDataArray::UNITS_LABEL()))
     flow.unit = found->GetInformation()->Get(vtkDataArray::UNITS_LABEL());
   vtkNew<vtkUnstructuredGrid> plain;

@@ -36,7 +36,8 @@ namespace {
 constexpr int least_letter = 6;
 constexpr int least_height_with_texts = 120;
 constexpr std::int32_t n_views = 3;  // the number of views in a picture of three views
-constexpr double reach_of_flow = 4;  // a picture of a flow shows more of the mesh, because a jet is longer than its valve
+constexpr double reach_of_flow =
+    4;  // a picture of a flow shows more of the mesh, because a jet is longer than its valve
 constexpr const char *view_names[] = {"side", "top", "oblique"};
 
 // Returns the number with commas between thousands.
@@ -212,8 +213,8 @@ void add_speed_bar(vtkRenderer *renderer, const Layout &layout, double x, double
                    const std::string &upper_end, const Colour &ink) {
   constexpr int n_steps = 64;
   const double gap = 0.5 * layout.letter(), begin = x + width_of("0", layout.letter()) + gap;
-  const double end = std::max(begin + gap, std::min(begin + 0.35 * layout.panel_width(),
-                                                    right - gap - width_of(upper_end, layout.letter())));
+  const double end = std::max(
+      begin + gap, std::min(begin + 0.35 * layout.panel_width(), right - gap - width_of(upper_end, layout.letter())));
   add_text(renderer, "0", x, y, layout.letter(), ink);
   for (int i = 0; i < n_steps; ++i) {
     const double from = begin + i * (end - begin) / n_steps, to = begin + (i + 1) * (end - begin) / n_steps;
@@ -403,7 +404,9 @@ Scene::Scene(vtkUnstructuredGrid *grid, const riis_vtk_picture_options &options,
   }
   if (wall) {
     around_ = grid ? static_cast<vtkPointSet *>(grid) : wall.Get();
-    shell_.emplace(wall, style_.shell_grey, style_.line, layout_.line_width());
+    // Without captions, no key would explain the dashes.
+    shell_.emplace(wall, style_.shell_grey, style_.line, layout_.line_width(),
+                   style_.captions == RIIS_VTK_CAPTIONS_ALL);
   }
   window_->SetOffScreenRendering(1);
   window_->SetMultiSamples(4);
@@ -459,8 +462,8 @@ std::vector<PanelTexts> Scene::texts_for(const std::vector<View> &views) {
   const std::string plane = views.size() == 1 ? "this plane" : "these planes";
   PanelTexts flow;
   const std::string time = flow_->time().empty() ? "" : " at time " + drawable(flow_->time()) + " s";
-  const std::string speed = "Speed of the flow" + time, fastest = "fastest in " + plane + ": " +
-                                                                  speed_text(flow_->fastest(), unit);
+  const std::string speed = "Speed of the flow" + time,
+                    fastest = "fastest in " + plane + ": " + speed_text(flow_->fastest(), unit);
   if (has_surface())
     flow.caption = {speed, fastest};
   else

@@ -178,8 +178,8 @@ class Scene {
   vtkSmartPointer<vtkUnstructuredGrid> grid_;
   vtkSmartPointer<vtkPolyData> triangles_;
   SurfacePanel surface_;
-  std::optional<MarksPanel> marks_;      // not set without a mesh, with a flow, and if the picture shows only the surface
-  std::optional<FlowPanel> flow_;        // takes the place of the marks
+  std::optional<MarksPanel> marks_;  // not set without a mesh, with a flow, and if the picture shows only the surface
+  std::optional<FlowPanel> flow_;    // takes the place of the marks
   vtkSmartPointer<vtkPointSet> around_;  // the grid, or the wall of the options; NULL if there is neither
   std::optional<Shell> shell_;           // set if there is a grid or a wall
   std::vector<std::string> title_;
