@@ -213,7 +213,21 @@ Movies: out/*_beating.mp4; for ParaView out/*_beating.pvd. Orifices over time: o
 Pictures of all valves at all openings, from the side and from above: out/openings.png
 One by one, with their surfaces: out/aortic_*_side.png, out/aortic_*_top.png, and so on
 Meshes and surfaces, for ParaView: out/*.vtu, out/*.vtp. Full tables: $logs/*.log
+The program is $build/bin/riis. Next, a patient's valve (docs/patient.md):
+  export PATH=$PWD/$build/bin:\$PATH
+  python3 examples/patient/make_patient.py out/patient
+  riis patient out/patient/root.stl out/patient/landmarks.mrk.json --output out/case --solver openfoam
 TEXT
+}
+
+# ./run program
+#   Installs the packages that the program riis needs, and builds the program, build/bin/riis, in two minutes on two processors.
+run_program() {
+  packages=("${demo_packages[@]}")
+  install_missing
+  step "compile the program" build_demo
+  printf '%s\n' "" "The program is $build/bin/riis. To type riis, put it on the path:" \
+    "  export PATH=$PWD/$build/bin:\$PATH"
 }
 
 # ./run demo

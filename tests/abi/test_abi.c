@@ -591,7 +591,7 @@ TEST(test_structs) {
   FIELD(riis_vtk_sharing, n_cells_left_out, 16, 8);
   FIELD(riis_vtk_sharing, has_global_ids, 24, 4);
   FIELD(riis_vtk_sharing, reserved, 28, 4);
-  SIZE(riis_vtk_picture_options, 152);
+  SIZE(riis_vtk_picture_options, 160);
   FIELD(riis_vtk_picture_options, struct_size, 0, 8);
   FIELD(riis_vtk_picture_options, title, 8, 8);
   FIELD(riis_vtk_picture_options, unit, 16, 8);
@@ -609,6 +609,7 @@ TEST(test_structs) {
   FIELD(riis_vtk_picture_options, background, 112, 32);
   FIELD(riis_vtk_picture_options, captions, 144, 4);
   FIELD(riis_vtk_picture_options, panels, 148, 4);
+  FIELD(riis_vtk_picture_options, velocity, 152, 8);
 }
 
 TEST(test_constants) {

@@ -274,4 +274,50 @@ TEST(test_foam) {
               scratch_path("skin.vtk"), "--cells");
 }
 
+/* Writes a field U of the time 9. */
+static void write_velocity(const char *field_class, const char *values) {
+  char *text = malloc(strlen(values) + 256);
+  sprintf(text,
+          "FoamFile { version 2.0; format ascii; class %s; }\ndimensions [0 1 -1 0 0 0 0];\n"
+          "internalField %s;\nboundaryField { }\n",
+          field_class, values);
+  scratch_write_text("box/9/U", text);
+  free(text);
+}
+
+static const char *const flow_words[] = {"--valve",        "aortic",  "--half-thickness",   "0.3",
+                                         "--picture-size", "300x200", "--picture-velocity", "U"};
+#define FLOW(picture)                                                                                       \
+  "mark", scratch_path("box/9"), flow_words[0], flow_words[1], flow_words[2], flow_words[3], flow_words[4], \
+      flow_words[5], flow_words[6], flow_words[7], "--view", "valve-side", "--picture", scratch_path(picture)
+
+/* A velocity of OpenFOAM is drawn. A uniform field and a list of equal values give the same picture. */
+TEST(test_foam_flow) {
+  write_case();
+  mkdir(scratch_path("box/9"), 0700);
+  write_velocity("volVectorField", "uniform (0 3 4)");
+  RUN_FINE(FLOW("uniform.png"));
+  char *list = malloc(16 * n_foam_cells + 64),
+       *at = list + sprintf(list, "nonuniform List<vector>\n%d\n(\n", n_foam_cells);
+  char *const first = at;
+  for (int i = 0; i < n_foam_cells; ++i) at += sprintf(at, "(0 3 4)\n");
+  sprintf(at, ")\n");
+  write_velocity("volVectorField", list);
+  RUN_FINE(FLOW("list.png"));
+  assert_true(scratch_is_same("uniform.png", "list.png"));
+  for (int i = 0; i < n_foam_cells / 2; ++i) first[8 * i + 5] = '0'; /* half of the box is slower */
+  write_velocity("volVectorField", list);
+  RUN_FINE(FLOW("half.png"));
+  assert_false(scratch_is_same("list.png", "half.png"));
+  write_velocity("volScalarField", "uniform 3");
+  RUN_REFUSED(1, "box/9/U: has the class volScalarField; a velocity is a volVectorField", FLOW("no.png"));
+  write_velocity("volVectorField", "nonuniform List<vector> 2((0 3 4)(0 3 4))");
+  RUN_REFUSED(1, "box/9/U: has 2 values, and the mesh has 1728 cells", FLOW("no.png"));
+  write_velocity("volVectorField", "$start");
+  RUN_REFUSED(1, "internalField begins with \"$start\", not uniform or nonuniform", FLOW("no.png"));
+  RUN_REFUSED(1, "velocity is \"U\", which is no array of the mesh", "mark", scratch_path("in.vtu"), "--valve",
+              "aortic", "--half-thickness", "0.3", "--picture", scratch_path("no.png"), "--picture-velocity", "U");
+  free(list);
+}
+
 int main(void) { return run_cases(make_box, scratch_teardown); }

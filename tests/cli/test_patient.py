@@ -222,8 +222,9 @@ class Patient(unittest.TestCase):
         for name, program in ("closed.png", "Xvfb"), ("open.png", "Xvfb"), ("beat.mp4", "ffmpeg"):
             self.assertTrue((case / name).is_file() or not shutil.which(program), name)
         # The printed commands run again in the folder without changes.
-        printed = re.findall(r"^  \$ (riis (?:place|size-field) .*)$", done.stdout, re.MULTILINE)
-        self.assertEqual(len(printed), 2, done.stdout)
+        commands = (case / "commands.sh").read_text(encoding="utf-8")
+        printed = re.findall(r"^(riis (?:place|size-field) .*)$", commands, re.MULTILINE)
+        self.assertEqual(len(printed), 2, commands)
         before = {name: (case / name).read_bytes() for name in ("placed.json", "valve.dat")}
         for command in printed:
             subprocess.run([PROGRAM, *shlex.split(command)[1:]], cwd=case, check=True, capture_output=True)

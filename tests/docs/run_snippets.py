@@ -84,13 +84,13 @@ class TheList(unittest.TestCase):
     def test_a_snippet_that_is_gone_is_told(self):
         with tempfile.TemporaryDirectory() as folder:
             short = pathlib.Path(folder) / "list.txt"
-            short.write_text("README.md | long | ./run demo\n", encoding="utf-8")
-            (demo,) = (one for one in snippets.snippets(short) if one.condition)
-            self.assertEqual((demo.document, demo.text), ("README.md", "./run demo\n"))
-            short.write_text("README.md | never: gone | ./run dem\n", encoding="utf-8")
-            with self.assertRaisesRegex(SystemExit, "README.md has no snippet that begins with: ./run dem"):
+            short.write_text("README.md | long | ./run program\n", encoding="utf-8")
+            (program,) = (one for one in snippets.snippets(short) if one.condition)
+            self.assertEqual((program.document, program.text.split("#")[0].strip()), ("README.md", "./run program"))
+            short.write_text("README.md | never: gone | ./run progam\n", encoding="utf-8")
+            with self.assertRaisesRegex(SystemExit, "README.md has no snippet that begins with: ./run progam"):
                 snippets.snippets(short)
-            short.write_text("README.md | often | ./run demo\n", encoding="utf-8")
+            short.write_text("README.md | often | ./run program\n", encoding="utf-8")
             with self.assertRaisesRegex(SystemExit, "'often' is not a condition"):
                 snippets.snippets(short)
 

@@ -2,6 +2,7 @@
  *
  * Draws pictures under a virtual display. The pictures must have the requested size and one or two panels. Blank pictures are a
  * fault, and each view must differ. */
+#include <math.h>
 #include <riis/riis_vtk.h>
 #include <signal.h>
 #include <stdint.h>
@@ -382,6 +383,15 @@ TEST(test_long_mesh) {
   picture = read_pixels("short.png");
   assert_true(most_changes_in_a_row(&picture, &row) < 20);
   free(picture.rgb);
+  /* Without captions, nothing explains dashes. */
+  riis_vtk_picture_options options;
+  expect_fine(riis_vtk_picture_options_init(&options, sizeof options));
+  options.view = RIIS_VTK_VIEW_SIDE;
+  options.captions = RIIS_VTK_CAPTIONS_SCALE;
+  draw_by(&options, "plain.png", tube);
+  picture = read_pixels("plain.png");
+  assert_true(most_changes_in_a_row(&picture, &row) < 20);
+  free(picture.rgb);
   riis_vtk_mesh_destroy(&tube);
 }
 
@@ -722,6 +732,76 @@ TEST(test_panels_and_wall) {
   free(pictures[1].rgb);
   riis_surface_destroy(&wall);
   riis_vtk_surface_destroy(&boundary);
+}
+
+/* Returns the colour that pictures give to a speed, from matplotlib's table of viridis at every eighth. `share` is 0 to 1. */
+static double viridis(double share, int channel) {
+  static const int table[9][3] = {{68, 1, 84},    {71, 44, 122}, {59, 81, 139},  {44, 113, 142}, {33, 144, 141},
+                                  {39, 173, 129}, {92, 200, 99}, {170, 220, 50}, {253, 231, 37}};
+  const int below = share >= 1 ? 7 : (int)(8 * share);
+  return table[below][channel] + (8 * share - below) * (table[below + 1][channel] - table[below][channel]);
+}
+
+/* The speed is linear in x, as a point array. Each pixel of a row above the valve then has the colour of its speed. */
+TEST(test_flow) {
+  const double half = 1.7, middle = -0.45, pixels_per_length = 320 / (2 * 1.08 * 0.85);
+  riis_vtk_picture_options options = looks(1, 1, 1, 1, RIIS_VTK_CAPTIONS_NONE);
+  riis_vtk_mesh *box = marked_box("flow.vtu", 21, (const double[]){-1.7, -1.7, -1.3}, (const double[]){1.7, 1.7, 0.4});
+  int64_t n = 0;
+  const double *xyz = NULL;
+  expect_fine(riis_vtk_mesh_get_nodes(box, &n, NULL, &xyz));
+  double *wind = malloc(sizeof(double) * 3 * (size_t)n);
+  for (int64_t i = 0; i < n; ++i) {
+    const double speed = 1 + xyz[3 * i] / half; /* 0 to 2, so that the bar of colours ends at 2 */
+    wind[3 * i] = 0.6 * speed;
+    wind[3 * i + 1] = 0;
+    wind[3 * i + 2] = -0.8 * speed;
+  }
+  expect_fine(riis_vtk_mesh_set_point_array(box, "wind", n, 3, wind));
+  expect_fine(riis_vtk_mesh_set_point_array(box, "flat", n, 1, wind));
+  free(wind);
+  options.width = 640;
+  options.height = 320;
+  options.view = RIIS_VTK_VIEW_SIDE;
+  options.panels = RIIS_VTK_PANELS_MARKS;
+  options.velocity = "wind";
+  draw_by(&options, "flow.png", box);
+  const pixels picture = read_pixels("flow.png");
+  const int row = (int)(160 - (0.3 - middle) * pixels_per_length);
+  for (int i = -14; i <= 14; i += 2) {
+    const double x = 0.1 * i + 0.03;
+    const unsigned char *pixel = pixel_at(&picture, (int)(320 + x * pixels_per_length), row);
+    for (int k = 0; k < 3; ++k)
+      if (fabs(pixel[k] - viridis(0.5 + 0.5 * x / half, k)) > 4)
+        fail_msg("x %g: channel %d is %d, not %.0f", x, k, pixel[k], viridis(0.5 + 0.5 * x / half, k));
+  }
+  free(picture.rgb);
+  /* The panel of the valve is as without a flow. Captions and the bar of colours are drawn. */
+  options.panels = RIIS_VTK_PANELS_BOTH;
+  options.captions = RIIS_VTK_CAPTIONS_ALL;
+  options.unit = "cm";
+  options.height = 400;
+  draw_by(&options, "both.png", box);
+  expect_fine(riis_vtk_mesh_set_unit(box, "wind", "m/s"));
+  draw_by(&options, "unit.png", box);
+  assert_false(scratch_is_same("both.png", "unit.png"));
+  options.captions = RIIS_VTK_CAPTIONS_SCALE;
+  draw_by(&options, "scale.png", box);
+  options.view = RIIS_VTK_VIEW_THREE;
+  draw_by(&options, "three.png", box);
+  expect_picture("three.png", 640, 400);
+  options.velocity = "calm";
+  expect_refused(riis_vtk_draw(surface, box, &options, scratch_path("no.png")), RIIS_INVALID_ARGUMENT,
+                 "options->velocity is \"calm\", which is no array of the mesh");
+  options.velocity = "flat";
+  expect_refused(riis_vtk_draw(surface, box, &options, scratch_path("no.png")), RIIS_INVALID_ARGUMENT,
+                 "options->velocity is \"flat\", whose number of components is 1, not 3");
+  expect_refused(riis_vtk_draw(surface, NULL, &options, scratch_path("no.png")), RIIS_INVALID_ARGUMENT,
+                 "velocity is \"flat\", and mesh is NULL");
+  riis_vtk_film *film = NULL;
+  expect_refused(riis_vtk_film_create(box, (const double[]){0, 0, 0}, (const double[]){1, 1, 1}, &options, &film),
+                 RIIS_INVALID_ARGUMENT, "velocity is \"flat\", which a film does not show");
+  riis_vtk_mesh_destroy(&box);
 }
 
 /* A picture of twice the size looks equal, because letters, lines and panels grow with it. Each pixel of the small picture is

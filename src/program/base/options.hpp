@@ -79,6 +79,7 @@ struct PictureStyle {
   std::array<double, 4> background = {1, 1, 1, 1};  // red, green, blue and opacity
   std::int32_t captions = RIIS_VTK_CAPTIONS_ALL;
   std::int32_t panels = RIIS_VTK_PANELS_BOTH;
+  std::string velocity;  // the array whose speed is drawn; "": none
 };
 
 // The options for a series in time, and for a case with several valves.

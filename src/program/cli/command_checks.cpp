@@ -124,7 +124,8 @@ void check_distance(const Command &command, const MarkOptions &options) {
 void check_style(const Command &command, const MarkOptions &options) {
   const std::string &movie = options.series.movie;
   const PictureStyle &style = options.style;
-  for (const char *name : {"--picture-size", "--picture-background", "--picture-captions", "--picture-panels"})
+  for (const char *name :
+       {"--picture-size", "--picture-background", "--picture-captions", "--picture-panels", "--picture-velocity"})
     if (command.has(name) && options.pictures.empty() && movie.empty())
       refuse_usage(std::string(name) + " has no effect without --picture" +
                    (command.knows("--movie") ? " or --movie" : ""));
@@ -134,6 +135,10 @@ void check_style(const Command &command, const MarkOptions &options) {
     refuse_usage("--picture-size: both numbers must be even for the movie " + movie);
   if (style.panels == RIIS_VTK_PANELS_MARKS && options.mesh.empty() && options.series.case_file.empty())
     refuse_usage("--picture-panels marks: there is no mesh, so nothing is marked");
+  if (style.velocity.empty()) return;
+  if (!movie.empty()) refuse_usage("--picture-velocity: " + style.velocity + " has one time, and a movie has many");
+  if (style.panels == RIIS_VTK_PANELS_VALVE)
+    refuse_usage("--picture-velocity has no effect with --picture-panels valve, which leaves out the flow");
 }
 
 bool has_output(const MarkOptions &options) {

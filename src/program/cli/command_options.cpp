@@ -430,6 +430,8 @@ void declare_mark(Command command, MarkOptions &options) {
   declare_allow_none(command, options);
   command.text("--surface-output", "OUT.vtp", "Write the placed triangles", options.surface_output);
   declare_pictures(command, options);
+  command.text("--picture-velocity", "NAME", "Draw the speed of this array, such as U, in place of the marked cells",
+               options.style.velocity);
   declare_stats(command, options);
   declare_loudness(command, options);
   declare_series(command, options);

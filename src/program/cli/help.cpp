@@ -249,8 +249,8 @@ Landmarks are those of the closed valve. The report's residuals are distances fr
      R"(
 riis patient WALL LANDMARKS --output FOLDER makes all files for a patient's valve: an aortic valve in its root, or a mitral
 valve in a ventricle with the ends of the atrium and of the aorta. The command finds the sizes and the place of the valve, warps
-it to the landmarks, adds a skirt to the wall, makes a mesh by gmsh, and marks the mesh. Each of these steps is a command, which
-is printed before it runs. You can also run these commands one by one in FOLDER. The unit and the axes of WALL are those with
+it to the landmarks, adds a skirt to the wall, makes a mesh by gmsh, and marks the mesh. Each of these steps is a command. The
+file commands.sh in FOLDER has these commands. You can also run them one by one in FOLDER. The unit and the axes of WALL are those with
 which the landmarks lie at the wall. If two possibilities fit, riis patient stops, and an option must choose. The flat ends of
 the wall become the boundaries inlet, outlet, outlet_2 and so on, and the rest becomes wall. --inlet and --outlet name ends by
 points near them.
@@ -269,6 +269,9 @@ for the movie of a run:
   --picture-background COLOUR     white, black, transparent (not for a movie), or six hexadecimal digits: red, green, blue
   --picture-captions scale|none   only the scale bar, or no text at all
   --picture-panels valve|marks    only one of the two panels
+  --picture-velocity U            in place of the marked cells, the speed in a plane through the valve, with the wall and the
+                                  leaflets cut by the plane. The velocity is an array of the mesh, or a field of a time of
+                                  OpenFOAM: riis mark CASE/0.2 --valve placed.json ... --view valve-side
 --view and --movie-view choose the direction of view. side, top, oblique and three use the mesh's axes, and valve-side and so on
 use the valve's axes. Captions give the opening, the orifice in cm2, the half thickness in mm, the number of marked nodes, and
 leaking edges.

@@ -22,9 +22,11 @@ namespace riis::program {
 namespace {
 
 Placed place(const PlaceOptions &options, Valve &valve) {
-  LandmarkFile landmarks = read_landmarks(options.landmarks, text_of_file(options.landmarks));
+  const std::string named = options.has_valve ? options.valve : "";
+  LandmarkFile landmarks = read_landmarks(options.landmarks, text_of_file(options.landmarks), named);
   adapt(landmarks, {Reader::program, options.unit, options.axes, options.noise, options.flow});
-  const std::string kind = kind_of(landmarks, options.has_valve ? options.valve : "", Reader::program);
+  const std::string kind = kind_of(landmarks, named, Reader::program);
+  check_names_of_cusps(landmarks, kind);
   valve = make_kind(kind, options.has_valve ? "--valve" : options.landmarks);
   set_own_parameters(options, valve);
   if (!options.params.empty()) set_from_json_file(valve, options.params);

@@ -105,6 +105,29 @@ bool is_landmark(const std::string &name) {
   return place_of_name(name) || plain(name) == flow_from || plain(name) == flow_to;
 }
 
+// The words for leaflets in messages. Their positions are the leaflets' ids.
+const char *const cusp_words_of_three[] = {"right", "left", "non_coronary"};
+
+std::string cusp_word(std::size_t n_cusps, std::size_t cusp) {
+  return n_cusps == 3 ? cusp_words_of_three[cusp] : "cusp_" + std::to_string(cusp);
+}
+
+std::size_t n_cusps_of(const std::string &kind) {
+  if (kind == "coapting" || kind == "trileaflet" || kind == "aortic") return 3;
+  return kind == "bicuspid" ? 2 : kind == "quadricuspid" ? 4 : 0;
+}
+
+// Returns the names of the nadirs and the commissures of a valve with cusps. Other kinds of valves have none.
+std::vector<std::string> names_of_cusps(const std::string &kind) {
+  const std::size_t n = n_cusps_of(kind);
+  std::vector<std::string> names;
+  for (std::size_t cusp = 0; cusp < n; ++cusp) names.push_back("nadir_" + cusp_word(n, cusp));
+  for (std::size_t cusp = 0; cusp < n && n > 2; ++cusp)
+    names.push_back("commissure_" + cusp_word(n, cusp) + "_" + cusp_word(n, (cusp + 1) % n));
+  if (n == 2) names.insert(names.end(), {"commissure_1", "commissure_2"});
+  return names;
+}
+
 class Collector {
  public:
   explicit Collector(LandmarkFile &file) : file_(file) {}
@@ -148,14 +171,18 @@ class Collector {
   [[noreturn]] void refuse_name(const std::string &name) const {
     std::vector<std::string> names;
     for (const RoleWord &word : role_words) names.emplace_back(word.word);
-    const std::string known = joined_by(names, ", ");
     names.insert(names.end(), {"nadir_right", "nadir_left", "nadir_non_coronary"});
+    const std::string kind = file_.wanted.empty() ? file_.valve : file_.wanted;
+    const std::string aortic = joined_by(names_of_cusps("coapting"), ", ");
+    const std::string mitral = "annulus_1, annulus_2, ... in their order around it, and anterior_horn";
+    std::string expected = "; an aortic valve has " + aortic + "; a mitral valve has " + mitral;
+    if (const std::vector<std::string> own = names_of_cusps(kind); !own.empty())
+      expected = "; the " + kind + " valve has " + joined_by(own, ", ");
+    else if (kind == "mitral" || kind == "mitral_coapting")
+      expected = "; the " + kind + " valve has " + mitral;
     refuse_file(file_.path, quoted(name) + " is not the name of a landmark" +
-                                did_you_mean(plain(name), names, "\"", "\"") + "; there are " + known +
-                                ", flow_from and flow_to; a nadir may name its cusp, as in nadir_left; a commissure "
-                                "may name its two cusps, as in commissure_left_right; a point of the attachment may "
-                                "name its cusp and a number, as in attachment_left_2; leaflets are called right, left "
-                                "and non_coronary, or anterior, septal and posterior, or cusp_0 to cusp_3");
+                                did_you_mean(plain(name), names, "\"", "\"") + expected +
+                                "; riis help landmarks lists all names");
   }
 
   LandmarkFile &file_;
@@ -404,9 +431,35 @@ void LandmarkFile::convert(Axes to) {
   if (flow) flow = {-(*flow)[0], -(*flow)[1], (*flow)[2]};
 }
 
-LandmarkFile read_landmarks(const std::string &path, const std::string &text) {
+void check_names_of_cusps(const LandmarkFile &landmarks, const std::string &kind) {
+  std::set<std::array<std::int32_t, 3>> given;
+  std::size_t n_without = 0;
+  for (std::size_t i = 0; i < landmarks.roles.size(); ++i) {
+    const std::int32_t role = landmarks.roles[i];
+    if (role != RIIS_LANDMARK_NADIR && role != RIIS_LANDMARK_COMMISSURE) continue;
+    const auto [a, b] = std::minmax(landmarks.leaflet_ids[2 * i], landmarks.leaflet_ids[2 * i + 1]);
+    if (b < 0 || (role == RIIS_LANDMARK_COMMISSURE && a < 0))
+      ++n_without;
+    else
+      given.insert({role, a, b});
+  }
+  // A landmark without a leaflet may be any of the missing landmarks.
+  if (n_without > 0 || given.empty()) return;
+  std::vector<std::string> missing;
+  for (const std::string &name : names_of_cusps(kind)) {
+    const std::optional<Place> place = place_of_name(name);
+    const auto [a, b] = std::minmax(place->leaflet_ids[0], place->leaflet_ids[1]);
+    if (b >= 0 && given.count({place->role, a, b}) == 0) missing.push_back(name);
+  }
+  if (missing.empty()) return;
+  refuse_file(landmarks.path, "lacks " + joined_by(missing, ", ") + ", which the " + kind + " valve needs: add " +
+                                  (missing.size() == 1 ? "this point" : "these points"));
+}
+
+LandmarkFile read_landmarks(const std::string &path, const std::string &text, const std::string &kind) {
   LandmarkFile file;
   file.path = path;
+  file.wanted = kind;
   if (has_ending(path, ".csv")) {
     read_csv(text, file);
     return file;

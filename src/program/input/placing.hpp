@@ -32,6 +32,7 @@ struct LandmarkFile {
   std::vector<std::int32_t> roles;        // RIIS_LANDMARK_*
   std::vector<std::int32_t> leaflet_ids;  // (2, n)
   std::string valve;                      // the valve's kind, or "" without a statement in the file
+  std::string wanted;                     // the kind that the user named before the file was read, or ""
   Unit unit = Unit::millimetre;
   Axes axes = Axes::mesh;
   std::optional<double> noise;
@@ -44,8 +45,12 @@ struct LandmarkFile {
   void convert(Axes to);
 };
 
-// Reads the text of a file of landmarks. The ending of its path tells the format.
-LandmarkFile read_landmarks(const std::string &path, const std::string &text);
+// Reads the text of a file of landmarks. The ending of its path tells the format. If a name is wrong, the message lists the names
+// for the kind of valve that the user named, or "".
+LandmarkFile read_landmarks(const std::string &path, const std::string &text, const std::string &kind = "");
+// Refuses landmarks of which most name their cusps, if a nadir or a commissure of this kind of valve is missing. The message has
+// its name.
+void check_names_of_cusps(const LandmarkFile &landmarks, const std::string &kind);
 // Reads landmarks in memory from an object that has the keys of a file. `subject` names the landmarks in refusals.
 LandmarkFile landmarks_of_json(const std::string &subject, const Json &root);
 

@@ -233,6 +233,7 @@ riis_vtk_picture_options RunPictures::how(const std::vector<MovingValve> &valves
   std::copy(style.background.begin(), style.background.end(), how.background);
   how.captions = style.captions;
   how.panels = style.panels;
+  how.velocity = style.velocity.empty() ? nullptr : style.velocity.c_str();
   return how;
 }
 

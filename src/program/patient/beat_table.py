@@ -9,7 +9,11 @@ All numbers are in SI units. A step of the solver is a dictionary:
   balance        the flow in less the flow out
   fastest, band  the fastest speed of all, and the fastest in the band of the valve, where the solver's files have them
   leak           of an ideal valve at this difference of pressures, if it is known
+  arterial       the pressure in the aorta, if an aortic valve leads there
+  orifice        the area between the leaflets, if the solver's files have it
 """
+import pathlib
+
 PASCALS_OF_MMHG = 133.322387415
 REST = 0.05  # the leak is steady so long after the valve has closed [s]
 # Bounds of a beat.
@@ -44,12 +48,15 @@ class Lines:
     def __init__(self, is_judged):
         self.rows, self.is_judged, self.is_fine = [], is_judged, True
 
+    def head(self, text):
+        self.rows.append(text)
+
     def add(self, text, value, unit="", bound=None, shown=None, note=""):
         """Adds a row. A bound is whether it holds, and its words."""
         if bound is not None and self.is_judged:
             self.is_fine = self.is_fine and bound[0]
             note = f"{'met' if bound[0] else 'MISSED'}: {bound[1]}"
-        self.rows.append(f"  {text:<46} {shown or f'{value:.4g}':>9} {unit:<7} {note}".rstrip())
+        self.rows.append(f"  {text:<54} {shown or f'{value:.4g}':>9} {unit:<7} {note}".rstrip())
 
     def add_speed(self, text, steps, name, most):
         """Adds the fastest speed of the steps that have one, and returns them. A bound judges it if all of them have one."""
@@ -61,32 +68,86 @@ class Lines:
         return known
 
 
-def add_leak(lines, beat, motions, drop):
+def steady_leak(beat, motions):
+    """Returns the steps in which the closed valve leaks steadily, at nearly the largest difference of pressures."""
     ends = [end for _, _, end in motions]
     still = [step for step in beat if step["opening"] == 0 and step["difference"] < 0 and not is_moving(step, motions)
              and step["time"] > max((end for end in ends if end <= step["time"]), default=0.0) + REST]
     most = min((step["difference"] for step in still), default=0)
-    held = [step for step in still if step["difference"] < 0.8 * most]
-    if not held or held[0].get("leak") is None:
-        return
-    found = -sum(step["flow"] for step in held)
-    share = found * (drop or 1) / sum(step["leak"] for step in held)
-    lines.add(f"leak at {-most / PASCALS_OF_MMHG:.0f} mmHg", 1e6 * found / len(held), "ml/s")
-    if drop is None:
-        lines.add("leak over the ideal leak", share)
-        return
-    lines.add("leak over the forecast for this mesh", share, "", (abs(share - 1) < MOST_OFF_FORECAST, "1 to 3 %"))
-    lines.add("drop of the closed valve over (R / eps) u", drop)
+    return [step for step in still if step["difference"] < 0.8 * most]
+
+
+def add_clinical(lines, beat, dt, period, motions):
+    """Adds the numbers that a physician compares."""
+    lines.add("heart rate", 60 / period, "/min")
+    forward, back = (dt * sum(max(sign * step["flow"], 0) for step in beat) for sign in (1, -1))
+    lines.add("forward volume", 1e6 * forward, "ml", None if forward > 0 else (False, "above 0"))
+    share = back / forward if forward > 0 else float("inf")
+    lines.add("backward volume", 1e6 * back, "ml", (share < MOST_BACK, f"below {100 * MOST_BACK:.0f} %, {100 * share:.1f} %"))
+    peak = max(beat, key=lambda step: step["flow"])
+    lines.add("largest flow", 1e6 * peak["flow"], "ml/s", note=f"at {peak['time']:.3f} s")
+    opened = [step for step in beat if step["opening"] > 0]
+    fast = [step for step in opened if step["flow"] > 0.5 * peak["flow"]]
+    if fast:
+        lines.add("mean gradient, while the flow is above half its largest",
+                  sum(step["difference"] for step in fast) / len(fast) / PASCALS_OF_MMHG, "mmHg")
+    if opened:
+        lines.add("largest gradient while the valve is open", max(step["difference"] for step in opened) / PASCALS_OF_MMHG,
+                  "mmHg")
+    lines.add_speed("jet: fastest blood while the valve is fully open",
+                    [step for step in opened if step["opening"] > 0.999 and not is_moving(step, motions)], "fastest", None)
+    areas = [step["orifice"] for step in opened if step.get("orifice") is not None]
+    if areas:
+        lines.add("orifice of the open valve", 1e4 * max(areas), "cm2")
+    arterial = [step["arterial"] for step in beat if step.get("arterial") is not None]
+    if arterial:
+        lines.add("systolic pressure in the aorta", max(arterial) / PASCALS_OF_MMHG, "mmHg")
+        lines.add("diastolic pressure in the aorta", min(arterial) / PASCALS_OF_MMHG, "mmHg")
+    held = steady_leak(beat, motions)
+    if held and held[0].get("leak") is not None:
+        lines.add(f"leak of the closed valve at {-min(step['difference'] for step in held) / PASCALS_OF_MMHG:.0f} mmHg",
+                  -1e6 * sum(step["flow"] for step in held) / len(held), "ml/s")
+
+
+def add_checks(lines, beat, dt, motions, drop, where):
+    """Adds the numbers that show whether the mesh and the time step suffice."""
+    held = steady_leak(beat, motions)
+    if held and held[0].get("leak") is not None:
+        share = -sum(step["flow"] for step in held) * (drop or 1) / sum(step["leak"] for step in held)
+        if drop is None:
+            lines.add("leak, as a multiple of an ideal valve's leak", share)
+        else:
+            lines.add("leak, as a multiple of the forecast for this mesh", share, "",
+                      (abs(share - 1) < MOST_OFF_FORECAST, f"{1 - MOST_OFF_FORECAST:g} to {1 + MOST_OFF_FORECAST:g}"))
+            lines.add("forecast: drop, as a share of an ideal valve's drop", drop)
+    moving = [step for step in beat if is_moving(step, motions)]
+    closed = [step for step in beat if step["opening"] == 0 and not is_moving(step, motions)]
+    if not lines.add_speed(f"fastest {where} at the closed valve", closed, "band", MOST_AT_BAND):
+        resting = [step for step in beat if not is_moving(step, motions)]
+        lines.add_speed(f"fastest {where} while the valve is at rest", resting, "fastest", None)
+    known = lines.add_speed(f"fastest {where} while the valve moves", moving, "fastest", MOST_WHILE_MOVING)
+    if known and len(known) == len(moving):
+        above = 1e3 * dt * sum(step["fastest"] > FAST for step in moving)
+        lines.add(f"time with a {where} above {FAST} m/s while it moves", above, "ms",
+                  (above <= MOST_FAST_MS + 0.1, f"at most {MOST_FAST_MS}"))
+    largest = max(abs(step["flow"]) for step in beat)
+    if largest > 0:
+        balance = max(abs(step["balance"]) for step in beat) / largest
+        lines.add("inflow less outflow, as a share of the largest flow", balance, "",
+                  (balance <= MOST_BALANCE, "at most 1e-5"), f"{balance:.1e}")
+
+
+FINE, MISSED, INCOMPLETE = 0, 1, 2  # the status of report.py
 
 
 def beat_table(steps, period, drop=None, where="cell"):
-    """Returns the text of the last beat, and whether it is as it should be.
+    """Returns the text of the last beat, and FINE, MISSED or INCOMPLETE.
 
     drop is the forecast of the drop of the closed valve over (R / eps) u in this mesh, if the solver has one. where names the
     places with a speed.
     """
     if len(steps) < 2:
-        return "the run has not made two steps yet", True
+        return "the run has not made two steps yet", INCOMPLETE
     end = steps[-1]["time"]
     dt = min(b["time"] - a["time"] for a, b in zip(steps, steps[1:]))
     beat = [step for step in steps if step["time"] > end - period - dt / 2]
@@ -98,33 +159,15 @@ def beat_table(steps, period, drop=None, where="cell"):
     shown = [motion for motion in motions if motion[2] > beat[0]["time"]]
     said += [f"the valve {word} from {start:.3f} to {last:.3f} s" for word, start, last in shown] or ["the valve does not move"]
     lines = Lines(is_complete)
-    forward, back = (dt * sum(max(sign * step["flow"], 0) for step in beat) for sign in (1, -1))
-    lines.add("forward volume", 1e6 * forward, "ml", (forward > 0, "above 0"))
-    share = back / forward if forward > 0 else float("inf")
-    lines.add("backward volume", 1e6 * back, "ml", (share < MOST_BACK, f"below {100 * MOST_BACK:.0f} %, {100 * share:.1f} %"))
-    peak = max(beat, key=lambda step: step["flow"])
-    lines.add("largest flow", 1e6 * peak["flow"], "ml/s", note=f"at {peak['time']:.3f} s")
-    fast = [step for step in beat if step["flow"] > 0.5 * peak["flow"] and step["opening"] > 0]
-    if fast:
-        lines.add("mean gradient, where the flow exceeds half of it",
-                  sum(step["difference"] for step in fast) / len(fast) / PASCALS_OF_MMHG, "mmHg")
-    opened = [step["difference"] for step in beat if step["opening"] > 0]
-    if opened:
-        lines.add("largest gradient while the valve is open", max(opened) / PASCALS_OF_MMHG, "mmHg")
-    add_leak(lines, beat, motions, drop)
-    moving = [step for step in beat if is_moving(step, motions)]
-    closed = [step for step in beat if step["opening"] == 0 and not is_moving(step, motions)]
-    if not lines.add_speed(f"fastest {where} at the closed band", closed, "band", MOST_AT_BAND):
-        resting = [step for step in beat if not is_moving(step, motions)]
-        lines.add_speed(f"fastest {where} while it is at rest", resting, "fastest", None)
-    known = lines.add_speed(f"fastest {where} while the valve moves", moving, "fastest", MOST_WHILE_MOVING)
-    if known and len(known) == len(moving):
-        above = 1e3 * dt * sum(step["fastest"] > FAST for step in moving)
-        lines.add(f"time with a {where} above {FAST} m/s meanwhile", above, "ms",
-                  (above <= MOST_FAST_MS + 0.1, f"at most {MOST_FAST_MS}"))
-    largest = max(abs(step["flow"]) for step in beat)
-    if largest > 0:
-        balance = max(abs(step["balance"]) for step in beat) / largest
-        lines.add("inflow less outflow, over the largest flow", balance, "", (balance <= MOST_BALANCE, "at most 1e-5"),
-                  f"{balance:.1e}")
-    return "\n".join([*said, f"the beat that ends at {end:g} s", *lines.rows]), lines.is_fine or not is_complete
+    lines.head(f"the beat that ends at {end:g} s")
+    add_clinical(lines, beat, dt, period, motions)
+    lines.head("numerical checks")
+    add_checks(lines, beat, dt, motions, drop, where)
+    status = INCOMPLETE if not is_complete else FINE if lines.is_fine else MISSED
+    return "\n".join([*said, *lines.rows]), status
+
+
+def save_and_print(text, folder):
+    """Prints the report, and writes it into report.txt of the folder."""
+    print(text, flush=True)
+    pathlib.Path(folder, "report.txt").write_text(text + "\n", encoding="utf-8")

@@ -9,6 +9,7 @@
 #include <set>
 #include <utility>
 
+#include "common/elementary.hpp"
 #include "common/flat_parts.hpp"
 #include "program/base/handles.hpp"
 #include "program/base/refusal.hpp"
@@ -329,6 +330,10 @@ constexpr double at_wall = 5;
 // Another unit or other axes are excluded if they would put the landmarks clearly farther from the wall.
 constexpr double clearly_farther = 2;
 
+// The mean distance of a usual valve's landmarks from their middle, in centimetres. The range is narrower than a factor of ten, so
+// that at most one unit fits.
+constexpr double least_size = 0.4, largest_size = 3;
+
 std::string mm_text(double length) { return printed("%.3g", length) + " mm"; }
 
 Surface wall_surface_of(const PatientWall &wall) {
@@ -369,24 +374,70 @@ std::string options_of(const WallFrame &frame, const WallFrame &other) {
   return joined_by(options, " ");
 }
 
+// Returns all units and axes of the wall with the distances of the landmarks, the nearest first.
+std::vector<WallFrame> frames_of(const riis_surface *wall, const LandmarkFile &landmarks) {
+  const std::string own = name_of(landmarks.axes);
+  std::vector<WallFrame> all;
+  for (const Unit tried : {Unit::millimetre, Unit::centimetre, Unit::metre})
+    for (const std::string &turned : {own, std::string(own == "LPS" ? "RAS" : "LPS")})
+      if (landmarks.axes != Axes::mesh || turned == own) all.push_back(frame_with(wall, landmarks, tried, turned));
+  std::stable_sort(all.begin(), all.end(), [](const WallFrame &a, const WallFrame &b) { return a.away < b.away; });
+  return all;
+}
+
+// Returns the mean distance of the landmarks from their middle, in centimetres.
+double size_of(const LandmarkFile &landmarks) {
+  const std::size_t n = landmarks.names.size();
+  double middle[3] = {0, 0, 0}, sum = 0;
+  for (std::size_t i = 0; i < 3 * n; ++i) middle[i % 3] += landmarks.xyz[i] / static_cast<double>(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double *const point = landmarks.xyz.data() + 3 * i;
+    sum += hypotenuse(point[0] - middle[0], point[1] - middle[1], point[2] - middle[2]);
+  }
+  return factor_between(landmarks.unit, Unit::centimetre) * sum / static_cast<double>(n);
+}
+
+bool is_usual(double size) { return size >= least_size && size <= largest_size; }
+
+// Returns the change of a file of landmarks that states another unit for the same numbers.
+std::string cure_of_unit(const LandmarkFile &landmarks, Unit other) {
+  const std::string &path = landmarks.path, name = name_of(other);
+  if (has_ending(path, ".fcsv"))
+    return "multiply its numbers by " + shortest(factor_between(other, Unit::millimetre)) +
+           ", because an .fcsv file is always in mm";
+  if (has_ending(path, ".csv")) return "write # unit = " + name + " in it";
+  return "write " + std::string(has_ending(path, ".mrk.json") ? "\"coordinateUnits\"" : "\"unit\"") + ": \"" + name +
+         "\" in it";
+}
+
+// Refuses landmarks that have the size of a valve and lie at the wall only if their numbers have another unit than the file
+// states.
+void check_stated_unit(const riis_surface *wall, const LandmarkFile &landmarks) {
+  for (const Unit other : {Unit::millimetre, Unit::centimetre, Unit::metre}) {
+    LandmarkFile relabelled = landmarks;
+    relabelled.unit = other;
+    if (other == landmarks.unit || !is_usual(size_of(relabelled))) continue;
+    const WallFrame frame = frames_of(wall, relabelled)[0];
+    if (frame.away > at_wall) continue;
+    refuse_data(landmarks.path + ": its numbers are probably in " + name_of(other) + ", but it states " +
+                name_of(landmarks.unit) + ": in " + name_of(other) +
+                " the landmarks have the size of a valve, and are " + mm_text(frame.away) +
+                " from the wall on average: " + cure_of_unit(landmarks, other));
+  }
+}
+
 }  // namespace
 
 WallFrame frame_of_wall(const PatientWall &wall, const LandmarkFile &landmarks, std::optional<Unit> unit,
                         const std::string &axes) {
   const Surface surface = wall_surface_of(wall);
-  const std::string own = name_of(landmarks.axes);
   if (landmarks.axes == Axes::mesh && !axes.empty())
     refuse_usage("--axes: " + landmarks.path + " states the axes mesh, which are those of the wall: leave --axes out");
-  std::vector<WallFrame> all, allowed;
-  for (const Unit tried : {Unit::millimetre, Unit::centimetre, Unit::metre})
-    for (const std::string &turned : {own, std::string(own == "LPS" ? "RAS" : "LPS")}) {
-      if (landmarks.axes == Axes::mesh && turned != own) continue;
-      all.push_back(frame_with(surface, landmarks, tried, turned));
-      if ((!unit || *unit == tried) && (axes.empty() || axes == turned)) allowed.push_back(all.back());
-    }
-  const auto is_nearer = [](const WallFrame &a, const WallFrame &b) { return a.away < b.away; };
-  std::stable_sort(all.begin(), all.end(), is_nearer);
-  std::stable_sort(allowed.begin(), allowed.end(), is_nearer);
+  const std::vector<WallFrame> all = frames_of(surface, landmarks);
+  if (all[0].away > at_wall || !is_usual(size_of(landmarks))) check_stated_unit(surface, landmarks);
+  std::vector<WallFrame> allowed;
+  for (const WallFrame &frame : all)
+    if ((!unit || *unit == frame.unit) && (axes.empty() || axes == frame.axes)) allowed.push_back(frame);
   const WallFrame &best = allowed[0];
   if (best.away > at_wall) {
     const std::string text =

@@ -7,6 +7,7 @@
 
 #include "program/base/handles.hpp"
 #include "program/base/refusal.hpp"
+#include "program/base/system.hpp"
 #include "program/base/text.hpp"
 #include "program/input/parameters.hpp"
 #include "program/input/valve_source.hpp"
@@ -110,8 +111,9 @@ Pressures pressures_of(const SolverCase &the, const Ends &ends) {
   return made;
 }
 
-// Returns the function objects that add up the flow through each end.
-std::string flows_of(const Ends &ends) {
+// Returns the function objects that add up the flow through each end. For an aortic valve, one more object has the pressure
+// behind the valve.
+std::string flows_of(const Ends &ends, bool is_mitral) {
   std::string text =
       "    flow_inlet // postProcessing/flow_inlet/TIME/surfaceFieldValue.dat: the flow out of the blood [m3/s]\n    "
       "{\n"
@@ -120,6 +122,10 @@ std::string flows_of(const Ends &ends) {
       "        writePrecision 12;\n    }\n";
   for (const Boundary &outlet : ends.outlets)
     text += "    flow_" + outlet.name + " { $flow_inlet; name " + outlet.name + "; }\n";
+  if (!is_mitral)
+    text +=
+        "    pressure_outlet // the mean pressure in the aorta, over the density\n"
+        "    { $flow_inlet; name outlet; operation areaAverage; fields (p); }\n";
   return text;
 }
 
@@ -150,12 +156,14 @@ void write_openfoam_case(const SolverCase &the) {
       {"RADIUS", shortest(the.ball_radius)},
       {"START", printed("%.6g", pressures.start)},
       {"PATCHES", pressures.patches},
-      {"FLOWS", flows_of(ends)},
+      {"FLOWS", flows_of(ends, the.is_mitral)},
+      {"SKIRT", shortest(the.skirt)},
+      {"PROGRAM", shell_text({path_of_this_program()})},
       {"VALVE", indented(valve)}};
   make_case_folder(the);
   for (const auto &[path, file] : foam_files) write_into(the, path, filled(case_texts().at(file), values));
   make_runnable(the, "Allrun");
-  copy_into(the, "mesh.msh", "mesh.msh");
+  for (const char *const name : {"mesh.msh", "placed.json", "wall.stl"}) copy_into(the, name, name);
 }
 
 // ---- The entries of the valve ----

@@ -130,12 +130,14 @@ class PatientRun {
 
   void read_landmarks_and_wall() {
     const double begin = steps_.seconds();
-    landmarks_ = read_landmarks(options_.landmarks, text_of_file(options_.landmarks));
+    landmarks_ =
+        read_landmarks(options_.landmarks, text_of_file(options_.landmarks), options_.has_valve ? options_.valve : "");
     const std::string given = options_.has_valve         ? options_.valve
                               : landmarks_.valve.empty() ? kind_of_roles(landmarks_)
                                                          : "";
     the_.kind = kind_of(landmarks_, given, Reader::program);
     check_kind(the_.kind);
+    check_names_of_cusps(landmarks_, the_.kind);
     the_.is_mitral = is_mitral_kind(the_.kind);
     the_.name = the_.is_mitral ? "mitral_valve" : "aortic_valve";
     the_.folder = ".";
@@ -171,8 +173,8 @@ class PatientRun {
       warn(options_.landmarks + ": the landmarks are " + printed("%.3g", frame_.away) + " mm from the wall of " +
            options_.wall + " on average, and a person sets them within " + shown(usual_distance_mm) +
            " mm: they may belong to another patient or image. Load both in 3D Slicer");
-    steps_.say("folder",
-               options_.folder + ", where lengths are in " + name_of(the_.unit) + ". The next commands run there");
+    steps_.say("folder", options_.folder + ", where lengths are in " + name_of(the_.unit) + ". " + commands_file +
+                             " has the command of each next step");
     std::error_code error;
     inputs_ = {fs::absolute(options_.wall, error).string(), fs::absolute(options_.landmarks, error).string()};
     if (!options_.params.empty()) inputs_.push_back(fs::absolute(options_.params, error).string());
@@ -236,8 +238,8 @@ class PatientRun {
     show_warnings(end);
     const Json placed = parse_json_file("placed.json", "a placed valve");
     const Json &fit = placed["fit"];
-    std::string text = "the landmarks are " + in_mm(fit["rms"]) + " from the placed valve (rms)";
-    if (fit.contains("warped_rms")) text += ", and " + in_mm(fit["warped_rms"]) + " from the warped one";
+    std::string text = "the fitted " + kind_ + " valve misses the landmarks by " + in_mm(fit["rms"]) + " (rms)";
+    if (fit.contains("warped_rms")) text += ", and by " + in_mm(fit["warped_rms"]) + " after a warp bends it to them";
     steps_.say("place", text, end.seconds);
     if (!fit["undetermined"].empty())
       steps_.say("place", "not determined by the landmarks, and guessed by proportions: " +
@@ -290,10 +292,10 @@ class PatientRun {
     show_warnings(end);
     const Json gap = stats_of("crossings")["gap"];
     report_["gap"] = gap;
-    steps_.say("skirt",
-               "to the wall, which is " + in_mm(gap["least"]) + " to " + in_mm(gap["most"]) +
-                   " away; no leaflets go through each other at 101 openings",
-               end.seconds);
+    const double least = gap["least"], most = gap["most"];
+    std::string text = "closes the gap between valve and wall, at most " + in_mm(std::max(most, 0.0));
+    if (least < 0) text += "; elsewhere the valve reaches up to " + in_mm(-least) + " into the wall";
+    steps_.say("skirt", text + "; no leaflets go through each other at 101 openings", end.seconds);
   }
 
   // Finds the length of a skirt that would reach the wall.
@@ -523,6 +525,11 @@ class PatientRun {
                                "--surface-output", "leaflets.pvd", "--series-table", "beat_table.csv"});
     const Words movie = {"--movie", "beat.mp4", "--movie-view", "valve-oblique", "--frame-rate", "6"};
     run_with_picture("beat", joined({words, movie}), words, "beat.pvd, leaflets.pvd, beat_table.csv", "beat.mp4");
+    // The picture is not drawn here, because a user wants to choose the opening and the view.
+    steps_.note("a picture for a talk",
+                shell_text(with_valve({"riis", "mark", "mesh.msh"},
+                                      {"--opening", "0.5", "--picture", "talk.png", "--picture-size", "3840x2160",
+                                       "--picture-panels", "valve", "--view", "valve-oblique"})));
   }
 
   void write_case() {
@@ -569,21 +576,30 @@ class PatientRun {
 
   void print_end() {
     const double finer = std::pow(static_cast<double>(the_.n_nodes) / many_nodes, 1 / power_of_nodes);
-    steps_.say("edges", "the mesh has " + grouped(the_.n_nodes) + " nodes with --band-edge " + shown(band_edge_) +
-                            ", and would have about " + grouped(many_nodes) + " with " +
-                            printed("%.2f", finer * band_edge_));
+    if (finer < 1)
+      steps_.say("edges", "the mesh of " + grouped(the_.n_nodes) +
+                              " nodes is ready for a run; to compare with a finer mesh, --band-edge " +
+                              printed("%.2f", finer * band_edge_) + " makes about " + grouped(many_nodes) +
+                              " nodes in place of --band-edge " + shown(band_edge_));
     steps_.say("done", "in " + printed("%.0f", steps_.seconds()) + " s. " + options_.folder + " has:");
     const std::pair<std::string, const char *> files[] = {
         {"mesh.msh", "the mesh for gmsh's readers; mesh.vtu for ParaView, and faces/ with its boundaries"},
         {"placed.json", "the valve, for --valve of every command of riis; wall.stl is its wall"},
         {"closed.vtu", "the marked mesh with the closed valve; open.vtu with the open valve"},
         {"closed.png", "pictures of both"},
-        {"beat.pvd", "a beat for ParaView; leaflets.pvd has the leaflets"},
-        {"beat.mp4", "the beat as a movie"},
-        {"patient.json", "all numbers of this run, and its commands; logs/ has what they print"}};
+        {"beat.pvd", "a prescribed beat for ParaView, without a flow; leaflets.pvd has the leaflets"},
+        {"beat.mp4", "the prescribed beat as a movie"},
+        {commands_file, "the commands of this run, and one for a picture for a talk; logs/ has what they print"},
+        {"patient.json", "all numbers of this run"}};
     for (const auto &[name, what] : files)
       if (exists(name.c_str())) steps_.say("  " + name + std::string(13 - name.size(), ' '), what);
     const std::string path = options_.folder + "/" + options_.solver;
+    if (options_.solver != "none")
+      steps_.say("beats",
+                 "the valve of the case is moved by the blood, and at other times than in the prescribed beat.pvd and "
+                 "beat.mp4");
+    if (options_.solver == "openfoam")
+      steps_.say("once", "in the top folder of riis: ./run openfoam plugin (docs/patient_openfoam.md)");
     if (options_.solver == "fenicsx")
       steps_.say("run", "python3 " + path + "/run.py, with a Python that has dolfinx");
     else if (options_.solver != "none")

@@ -28,7 +28,8 @@ const char *const own_names[] = {report_file,     "wall.stl",       "placed.json
                                  "open.png",      "beat.csv",       "beat.pvd",           "beat",
                                  "leaflets.pvd",  "leaflets",       "beat.mp4",           "logs",
                                  "openfoam",      "fenicsx",        "svmultiphysics",     "landmarks.json",
-                                 "landmarks.csv", "beat_table.csv", "landmarks.mrk.json", "landmarks.fcsv"};
+                                 "landmarks.csv", "beat_table.csv", "landmarks.mrk.json", "landmarks.fcsv",
+                                 commands_file};
 
 [[noreturn]] void refuse_folder(const std::string &path, const std::string &reason) {
   refuse_data("--output: " + path + ": " + reason);
@@ -110,7 +111,18 @@ void PatientSteps::say(const std::string &label, const std::string &text, double
 
 void PatientSteps::announce(const std::string &command) {
   commands_.push_back(command);
-  if (!quiet_) write_text("-", "  $ " + command + "\n");
+  write_commands();
+}
+
+void PatientSteps::note(const std::string &comment, const std::string &command) {
+  note_ = "# " + comment + ":\n# " + command + "\n";
+  write_commands();
+}
+
+void PatientSteps::write_commands() const {
+  std::string text = "# The commands of riis patient. They run in this folder.\n";
+  for (const Json &command : commands_) text += command.get<std::string>() + "\n";
+  write_text(commands_file, text + note_);
 }
 
 StepEnd PatientSteps::run(const std::string &name, const std::vector<std::string> &words) {

@@ -43,18 +43,24 @@ struct StepEnd {
   std::string reason() const { return messages.empty() ? "" : messages.back(); }
 };
 
-// Runs commands of riis in the working folder, and prints each command. The output of the commands goes to the folder `logs`.
+// The file with the commands of a run, which can be run again in the folder.
+inline constexpr const char *commands_file = "commands.sh";
+
+// Runs commands of riis in the working folder, and writes each command to `commands_file`. The output of the commands goes to the
+// folder `logs`.
 class PatientSteps {
  public:
   explicit PatientSteps(bool quiet);
 
   // Prints a line with a label and a result. If `seconds` is given, the line ends with the time.
   void say(const std::string &label, const std::string &text, double seconds = -1);
-  // Prints a command before it runs.
+  // Writes a command to the file of commands before it runs.
   void announce(const std::string &command);
+  // Writes a command that does not run, below a comment, to the end of the file of commands.
+  void note(const std::string &comment, const std::string &command);
   // Runs riis with the words. `name` is the name of the log.
   StepEnd run(const std::string &name, const std::vector<std::string> &words);
-  // Runs the command without printing it.
+  // Runs the command without writing it to the file of commands.
   StepEnd run_silently(const std::string &name, const std::vector<std::string> &words);
   // Throws a Refusal with the message of a command that failed, followed by `cure`.
   [[noreturn]] void refuse(const std::string &name, const StepEnd &end, const std::string &cure = "") const;
@@ -63,7 +69,9 @@ class PatientSteps {
   const Json &commands() const { return commands_; }
 
  private:
-  std::string program_;
+  void write_commands() const;
+
+  std::string program_, note_;
   bool quiet_;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
   Json commands_ = Json::array();

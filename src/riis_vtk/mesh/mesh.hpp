@@ -49,6 +49,7 @@ struct riis_vtk_mesh {
   std::unique_ptr<const riis::vtk::GridAxes> axes = {};
   std::string notes = {};      // the notes that riis_vtk_mesh_get_notes gives
   std::string foam_case = {};  // the folder of the case that the mesh was read from, or ""
+  std::string foam_time = {};  // the folder of the time that the path of the mesh names, or ""
   // If the mesh has centres of cells, the centres are its nodes, and the data of nodes is data of cells.
   std::unique_ptr<const riis::vtk::CellCenters> centers = {};
   std::vector<riis::vtk::RegionName> region_names = {};  // of gmsh's physical groups of volumes

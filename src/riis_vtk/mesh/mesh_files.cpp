@@ -289,7 +289,10 @@ RIIS_API riis_status riis_vtk_mesh_read(const char *path, riis_vtk_mesh **mesh) 
       }
       made->notes = take_note(made->data);
       made->region_names = take_region_names(made->data);
-      if (is_openfoam(path)) made->foam_case = foam_case_of(path);
+      if (is_openfoam(path)) {
+        made->foam_case = foam_case_of(path);
+        if (is_foam_time(path)) made->foam_time = path;
+      }
       if (!made->axes) make_points_double(made->data);
       *mesh = made.release();
     });

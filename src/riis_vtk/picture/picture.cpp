@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <optional>
 #include <vector>
 
 #include <vtkImageData.h>
@@ -15,6 +16,7 @@
 #include "riis_vtk/base/files.hpp"
 #include "riis_vtk/mesh/mesh.hpp"
 #include "riis_vtk/picture/drawing.hpp"
+#include "riis_vtk/picture/picture_flow.hpp"
 #include "riis_vtk/picture/picture_scene.hpp"
 
 namespace riis::vtk {
@@ -76,7 +78,8 @@ const riis_vtk_picture_options &default_picture_options() {
                                                     nullptr,
                                                     {1, 1, 1, 1},
                                                     RIIS_VTK_CAPTIONS_ALL,
-                                                    RIIS_VTK_PANELS_BOTH};
+                                                    RIIS_VTK_PANELS_BOTH,
+                                                    nullptr};
   return defaults;
 }
 
@@ -127,6 +130,7 @@ void check_style(const riis_vtk_picture_options &options, const riis_vtk_mesh *m
     refuse_option("panels is ", options.panels, ", not a RIIS_VTK_PANELS_*");
   if (options.panels == RIIS_VTK_PANELS_MARKS && !mesh)
     refuse_option("panels is RIIS_VTK_PANELS_MARKS, and mesh is NULL");
+  if (options.velocity && !mesh) refuse_option("velocity is \"", options.velocity, "\", and mesh is NULL");
 }
 
 // Checks all fields except the view. `mesh` may be NULL.
@@ -166,8 +170,10 @@ void draw(const riis_surface *surface, const riis_vtk_mesh *mesh, const riis_vtk
   check_picture_options(options, mesh);
   if (mesh) check_has_marks(mesh);
   if (shots.empty()) return;
+  std::optional<Flow> flow;
+  if (options.velocity) flow = flow_of(*mesh, options.velocity);
   const HeldDisplay display;
-  Scene scene(mesh ? mesh->grid() : nullptr, options);
+  Scene scene(mesh ? mesh->grid() : nullptr, options, flow);
   scene.show(surface, options.title, {options.n_leaking_edges, options.leaking_edges});
   for (const Shot &shot : shots) write_png(scene.picture(shot.view, std::nullopt), shot.path, caught);
 }
@@ -248,6 +254,7 @@ RIIS_API riis_status riis_vtk_film_create(const riis_vtk_mesh *mesh, const doubl
     const riis_vtk_picture_options whole = completed_picture_options(options);
     check_view(whole.view, "options->view");
     check_picture_options(whole, mesh);
+    if (whole.velocity) refuse_option("velocity is \"", whole.velocity, "\", which a film does not show");
     const Bounds bounds = bounds_of(lower, upper);
     vtkUnstructuredGrid *grid = mesh ? mesh->grid() : nullptr;
     *film = new riis_vtk_film{{}, whole.view, bounds, {grid}, {grid, whole}};

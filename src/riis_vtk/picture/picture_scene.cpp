@@ -36,6 +36,8 @@ namespace {
 constexpr int least_letter = 6;
 constexpr int least_height_with_texts = 120;
 constexpr std::int32_t n_views = 3;  // the number of views in a picture of three views
+constexpr double reach_of_flow =
+    4;  // a picture of a flow shows more of the mesh, because a jet is longer than its valve
 constexpr const char *view_names[] = {"side", "top", "oblique"};
 
 // Returns the number with commas between thousands.
@@ -206,6 +208,22 @@ void add_key(vtkRenderer *renderer, const Layout &layout, int column, double lef
   }
 }
 
+// Adds the bar of the colours of speeds, from 0 to its upper end.
+void add_speed_bar(vtkRenderer *renderer, const Layout &layout, double x, double y, double right,
+                   const std::string &upper_end, const Colour &ink) {
+  constexpr int n_steps = 64;
+  const double gap = 0.5 * layout.letter(), begin = x + width_of("0", layout.letter()) + gap;
+  const double end = std::max(
+      begin + gap, std::min(begin + 0.35 * layout.panel_width(), right - gap - width_of(upper_end, layout.letter())));
+  add_text(renderer, "0", x, y, layout.letter(), ink);
+  for (int i = 0; i < n_steps; ++i) {
+    const double from = begin + i * (end - begin) / n_steps, to = begin + (i + 1) * (end - begin) / n_steps;
+    const double middle = y + 0.35 * layout.letter();
+    add_lines(renderer, {{{from, middle}, {to, middle}}}, 0.8 * layout.letter(), colour_of_speed((i + 0.5) / n_steps));
+  }
+  add_fitting_text(renderer, upper_end, end + gap, y, right - end - gap, layout.letter(), ink);
+}
+
 // Draws all texts of a picture in a layer behind its panels. The number at the scale bar is followed by `unit`. With has_plural,
 // the unit ends in an s if the number is not 1.
 vtkSmartPointer<vtkRenderer> texts_of_picture(const Layout &layout, const std::vector<PanelTexts> &columns,
@@ -215,8 +233,11 @@ vtkSmartPointer<vtkRenderer> texts_of_picture(const Layout &layout, const std::v
   if (!layout.has_scale()) return renderer;
   const int last = layout.n_columns() - 1;
   if (!layout.has_captions()) {
-    add_scale_bar(renderer, layout, layout.column_left(last) + layout.margin(), layout.key_line(0), sight, unit,
-                  has_plural, ink);
+    const double left = layout.column_left(last) + layout.margin(), middle = left + 0.5 * layout.panel_width();
+    add_scale_bar(renderer, layout, left, layout.key_line(0), sight, unit, has_plural, ink);
+    if (const std::string &upper_end = columns.back().upper_end; !upper_end.empty())
+      add_speed_bar(renderer, layout, middle, layout.key_line(0), left + layout.panel_width() - 2 * layout.margin(),
+                    upper_end, ink);
     return renderer;
   }
   const double axis = 1.3 * layout.letter();
@@ -226,7 +247,11 @@ vtkSmartPointer<vtkRenderer> texts_of_picture(const Layout &layout, const std::v
     const PanelTexts &texts = columns[static_cast<std::size_t>(column)];
     add_caption(renderer, layout, column, texts.caption, ink);
     const double left = column == 0 ? first_key : layout.column_left(column) + layout.margin();
-    add_key(renderer, layout, column, left, column == last ? 1 : 2, texts.key);
+    const double right = layout.column_left(column) + layout.panel_width() - layout.margin();
+    if (texts.upper_end.empty())
+      add_key(renderer, layout, column, left, column == last ? 1 : 2, texts.key);
+    else
+      add_speed_bar(renderer, layout, left, layout.key_line(0), right, texts.upper_end, ink);
     if (column == last) add_scale_bar(renderer, layout, left, layout.key_line(1), sight, unit, has_plural, ink);
   }
   return renderer;
@@ -308,6 +333,14 @@ vtkSmartPointer<vtkPolyData> wall_of(vtkUnstructuredGrid *grid, const riis_vtk_p
   return options.wall ? polydata_of(options.wall) : nullptr;
 }
 
+std::string speed_text(double speed, const std::string &unit) {
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text.precision(3);
+  text << speed << ' ' << unit;
+  return text.str();
+}
+
 int n_panels(const Style &style, bool has_grid) { return has_grid && style.panels == RIIS_VTK_PANELS_BOTH ? 2 : 1; }
 
 }  // namespace
@@ -353,7 +386,7 @@ void check_has_marks(const riis_vtk_mesh *mesh) {
   }
 }
 
-Scene::Scene(vtkUnstructuredGrid *grid, const riis_vtk_picture_options &options)
+Scene::Scene(vtkUnstructuredGrid *grid, const riis_vtk_picture_options &options, const std::optional<Flow> &flow)
     : style_(options),
       axes_(axes_turned(options.rotation_axis, options.rotation_angle)),
       layout_(options.width, options.height, n_panels(style_, grid), Layout::Panels::side_by_side, options.captions),
@@ -362,18 +395,26 @@ Scene::Scene(vtkUnstructuredGrid *grid, const riis_vtk_picture_options &options)
       surface_(layout_.line_width()) {
   for (std::int64_t i = 0; i < options.n_leaflet_names; ++i)
     leaflet_names_.push_back(drawable(options.leaflet_names[i]));
-  if (grid_ && style_.panels != RIIS_VTK_PANELS_VALVE) marks_.emplace(layout_.line_width());
   const vtkSmartPointer<vtkPolyData> wall = wall_of(grid, options);
+  if (grid_ && style_.panels != RIIS_VTK_PANELS_VALVE) {
+    if (flow)
+      flow_.emplace(*flow, wall, style_.ink, layout_.line_width());
+    else
+      marks_.emplace(layout_.line_width());
+  }
   if (wall) {
     around_ = grid ? static_cast<vtkPointSet *>(grid) : wall.Get();
-    shell_.emplace(wall, style_.shell_grey, style_.line, layout_.line_width());
+    // Without captions, no key would explain the dashes.
+    shell_.emplace(wall, style_.shell_grey, style_.line, layout_.line_width(),
+                   style_.captions == RIIS_VTK_CAPTIONS_ALL);
   }
   window_->SetOffScreenRendering(1);
   window_->SetMultiSamples(4);
   window_->SetNumberOfLayers(2);
-  for (vtkRenderer *renderer : {has_surface() ? surface_.renderer() : nullptr, marks_ ? marks_->renderer() : nullptr}) {
+  for (vtkRenderer *renderer : {has_surface() ? surface_.renderer() : nullptr, marks_ ? marks_->renderer() : nullptr,
+                                flow_ ? flow_->renderer() : nullptr}) {
     if (!renderer) continue;
-    if (shell_) shell_->add_to(renderer);
+    if (shell_ && !(flow_ && renderer == flow_->renderer())) shell_->add_to(renderer);
     renderer->SetLayer(1);
     renderer->SetActiveCamera(camera_);
     window_->AddRenderer(renderer);
@@ -388,14 +429,15 @@ void Scene::show(const riis_surface *surface, const char *title, const Leaks &le
   if (marks_) marks_->show(grid_, leaks.n_edges, leaks.edges);
   texts_.clear();
   const std::vector<KeyEntry> leaflets = key_of_leaflets(leaflet_names_, surface_);
-  if (has_surface()) texts_.push_back({lines_of_title(title), leaflets});
+  title_ = lines_of_title(title);
+  if (has_surface()) texts_.push_back({title_, leaflets});
   if (!marks_) return;
   PanelTexts marked = {lines_of_marks(marks_->counts(), leaks), key_of_marks(marks_->counts(), leaks, style_.ink)};
   if (!has_surface()) {
     // The only panel of a picture has the title, and also the key of the leaflets.
     std::string line;
     for (const std::string &part : marked.caption) line += (line.empty() ? "" : ", ") + part;
-    marked.caption = {lines_of_title(title)[0], line};
+    marked.caption = {title_[0], line};
     marked.key.insert(marked.key.begin(), leaflets.begin(), leaflets.end());
   }
   texts_.push_back(marked);
@@ -406,15 +448,36 @@ vtkSmartPointer<vtkImageData> Scene::picture(std::int32_t of, const std::optiona
   if (of == RIIS_VTK_VIEW_VALVE_THREE) return three_views(RIIS_VTK_VIEW_VALVE_SIDE, seen);
   const View view(of, axes_);
   const Sight seen_here = sight(view, seen, layout_);
-  std::vector<PanelTexts> texts = texts_;
+  std::vector<PanelTexts> texts = texts_for({view});
   if (seen_here.is_cut()) texts.back().key.push_back(dashes_entry(style_.ink));
   return shot(view, seen_here, layout_, texts);
+}
+
+std::vector<PanelTexts> Scene::texts_for(const std::vector<View> &views) {
+  std::vector<PanelTexts> texts = texts_;
+  if (!flow_) return texts;
+  flow_->show(triangles_, views);
+  const std::string length = unit_.empty() ? "mesh unit" : unit_;
+  const std::string unit = drawable(flow_->unit().empty() ? length + "/s" : flow_->unit());
+  const std::string plane = views.size() == 1 ? "this plane" : "these planes";
+  PanelTexts flow;
+  const std::string time = flow_->time().empty() ? "" : " at time " + drawable(flow_->time()) + " s";
+  const std::string speed = "Speed of the flow" + time,
+                    fastest = "fastest in " + plane + ": " + speed_text(flow_->fastest(), unit);
+  if (has_surface())
+    flow.caption = {speed, fastest};
+  else
+    flow.caption = {title_[0], speed + ", " + fastest};  // the only panel of a picture has the title
+  flow.upper_end = speed_text(flow_->upper_end(), unit);
+  texts.push_back(flow);
+  return texts;
 }
 
 Sight Scene::sight(const View &view, const std::optional<Bounds> &seen, const Layout &layout, double least) const {
   const Extents surface = seen ? view.extents_of(*seen) : view.extents_of(triangles_);
   const Extents mesh = around_ ? view.extents_of(around_) : surface;
-  return sight_of(surface, around_ ? &mesh : nullptr, layout.panel_width() / layout.panel_height(), least);
+  return sight_of(surface, around_ ? &mesh : nullptr, layout.panel_width() / layout.panel_height(), least,
+                  flow_ ? reach_of_flow : 1);
 }
 
 vtkSmartPointer<vtkImageData> Scene::shot(const View &view, const Sight &sight, const Layout &layout,
@@ -430,12 +493,14 @@ vtkSmartPointer<vtkImageData> Scene::shot(const View &view, const Sight &sight, 
   if (shell_) shell_->look(view, sight);
   if (has_surface()) show(surface_);
   if (marks_) show(*marks_);
+  if (flow_) show(*flow_);
   if (behind_) window_->RemoveRenderer(behind_);
   behind_ = texts_of_picture(layout, texts, view, sight, unit_.empty() ? around_ ? "mesh unit" : "unit" : unit_,
                              unit_.empty(), style_.ink);
   window_->AddRenderer(behind_);
   if (has_surface()) surface_.renderer()->ResetCameraClippingRange();
   if (marks_) marks_->renderer()->ResetCameraClippingRange();
+  if (flow_) flow_->renderer()->ResetCameraClippingRange();
   if (!style_.is_transparent) return shot_on(style_.background);
   const vtkSmartPointer<vtkImageData> on_black = shot_on({0, 0, 0});
   return transparent_from(on_black, shot_on({1, 1, 1}));
@@ -453,7 +518,9 @@ vtkSmartPointer<vtkImageData> Scene::three_views(std::int32_t first, const std::
   double half_height = 0;
   for (std::int32_t of = first; of < first + n_views; ++of)
     half_height = std::max(half_height, sight({of, axes_}, seen, column).shown[1].half());
-  const std::vector<PanelTexts> texts = texts_of_columns(texts_, first);
+  std::vector<View> views;
+  for (std::int32_t of = first; of < first + n_views; ++of) views.emplace_back(of, axes_);
+  const std::vector<PanelTexts> texts = texts_of_columns(texts_for(views), first);
   const auto whole = vtkSmartPointer<vtkImageData>::New();
   whole->SetDimensions(width, height, 1);
   whole->AllocateScalars(VTK_UNSIGNED_CHAR, style_.is_transparent ? 4 : 3);

@@ -16,6 +16,7 @@
 #include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
 
+#include "riis_vtk/picture/picture_flow.hpp"
 #include "riis_vtk/picture/picture_shell.hpp"
 #include "riis_vtk/picture/picture_view.hpp"
 
@@ -122,8 +123,9 @@ struct KeyEntry {
 };
 
 struct PanelTexts {
-  std::vector<std::string> caption;  // one entry for each line, at most two
-  std::vector<KeyEntry> key;         // as many as fit are shown
+  std::vector<std::string> caption = {};  // one entry for each line, at most two
+  std::vector<KeyEntry> key = {};         // as many as fit are shown
+  std::string upper_end = {};             // of the bar of speeds, with its unit; "" if there is no bar
 };
 
 // The leaking edges. They are drawn in red. If `edges` is NULL, the texts do not mention leaks.
@@ -147,8 +149,8 @@ void check_has_marks(const riis_vtk_mesh *mesh);
 
 class Scene {
  public:
-  // Makes the window. If `grid` is NULL, the window shows only a surface.
-  Scene(vtkUnstructuredGrid *grid, const riis_vtk_picture_options &options);
+  // Makes the window. If `grid` is NULL, the window shows only a surface. A flow needs a grid.
+  Scene(vtkUnstructuredGrid *grid, const riis_vtk_picture_options &options, const std::optional<Flow> &flow = {});
   ~Scene();
   // Shows the surface, and the present marks of the grid. If `title` is NULL, the title is "Surface".
   void show(const riis_surface *surface, const char *title, const Leaks &leaks);
@@ -163,6 +165,8 @@ class Scene {
   vtkSmartPointer<vtkImageData> shot(const View &view, const Sight &sight, const Layout &layout,
                                      const std::vector<PanelTexts> &texts);
   vtkSmartPointer<vtkImageData> shot_on(const Colour &background);
+  // Measures the flow in the planes of the views. Returns the texts of the panels.
+  std::vector<PanelTexts> texts_for(const std::vector<View> &views);
   bool has_surface() const { return style_.panels != RIIS_VTK_PANELS_MARKS; }
   vtkSmartPointer<vtkImageData> three_views(std::int32_t first, const std::optional<Bounds> &seen);
 
@@ -174,10 +178,12 @@ class Scene {
   vtkSmartPointer<vtkUnstructuredGrid> grid_;
   vtkSmartPointer<vtkPolyData> triangles_;
   SurfacePanel surface_;
-  std::optional<MarksPanel> marks_;      // not set without a mesh, and if the picture shows only the surface
+  std::optional<MarksPanel> marks_;  // not set without a mesh, with a flow, and if the picture shows only the surface
+  std::optional<FlowPanel> flow_;    // takes the place of the marks
   vtkSmartPointer<vtkPointSet> around_;  // the grid, or the wall of the options; NULL if there is neither
   std::optional<Shell> shell_;           // set if there is a grid or a wall
-  std::vector<PanelTexts> texts_;
+  std::vector<std::string> title_;
+  std::vector<PanelTexts> texts_;  // of the panels, without that of the flow
   vtkNew<vtkCamera> camera_;
   vtkNew<vtkRenderWindow> window_;
   vtkSmartPointer<vtkRenderer> behind_;

@@ -78,8 +78,8 @@ vtkSmartPointer<vtkActor> line_actor(vtkPolyData *lines, const Colour &colour, d
 
 }  // namespace
 
-Shell::Shell(vtkPolyData *faces, double grey, const Colour &line, double pixels)
-    : grey_(static_cast<unsigned char>(255 * grey)) {
+Shell::Shell(vtkPolyData *faces, double grey, const Colour &line, double pixels, bool has_dashes)
+    : grey_(static_cast<unsigned char>(255 * grey)), has_dashes_(has_dashes) {
   const vtkSmartPointer<vtkPolyData> joined = joined_points(faces);
   const FlatParts flat = flat_ends(joined);
   const vtkSmartPointer<vtkPolyData> wall = flat.are_all ? joined : kept(joined, flat.is_end);
@@ -157,7 +157,8 @@ void Shell::look(const View &view, const Sight &sight) {
     actor->GetMapper()->RemoveAllClippingPlanes();
     for (vtkPlane *plane : cutting_planes(view, sight)) actor->GetMapper()->AddClippingPlane(plane);
   }
-  vtkPolyDataMapper::SafeDownCast(cut_->GetMapper())->SetInputData(dashes_where_cut(view, sight, faces_));
+  if (has_dashes_)
+    vtkPolyDataMapper::SafeDownCast(cut_->GetMapper())->SetInputData(dashes_where_cut(view, sight, faces_));
 }
 
 }  // namespace riis::vtk

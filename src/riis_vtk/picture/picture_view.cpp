@@ -32,10 +32,11 @@ Extent around(const Extent &extent, double factor) {
 }
 
 // Returns the extent along one axis that must be visible. `size` is the surface's size.
-Extent wanted(const Extent &surface, const Extent &mesh, double size) {
+Extent wanted(const Extent &surface, const Extent &mesh, double size, double reach) {
   const Extent both = hull(surface, mesh);
-  if (both.half() <= not_much_larger * size || !surface.meets(mesh)) return both;
-  return around(surface, neighbourhood);
+  if (both.half() <= not_much_larger * reach * size || !surface.meets(mesh)) return both;
+  const Extent near = around(surface, neighbourhood * reach);
+  return reach > 1 ? Extent{std::max(near.lower, both.lower), std::min(near.upper, both.upper)} : near;
 }
 
 Extents no_extents() {
@@ -198,11 +199,11 @@ Extents View::extents_of(const Bounds &bounds) const {
   return extents;
 }
 
-Sight sight_of(const Extents &surface, const Extents *mesh, double aspect, double least) {
+Sight sight_of(const Extents &surface, const Extents *mesh, double aspect, double least, double reach) {
   Extents seen = surface;
   if (mesh) {
     const double size = std::max(surface[0].half(), surface[1].half());
-    for (std::size_t k = 0; k < 2; ++k) seen[k] = wanted(surface[k], (*mesh)[k], size);
+    for (std::size_t k = 0; k < 2; ++k) seen[k] = wanted(surface[k], (*mesh)[k], size, reach);
     seen[2] = hull(surface[2], (*mesh)[2]);
   }
   const double half_height = std::max(least, margin * std::max(seen[1].half(), seen[0].half() / aspect));

@@ -130,6 +130,30 @@ class FoamFile {
         });
   }
 
+  // Reads the values of a field of vectors in the cells. A uniform field has the same value in all `n_cells` cells.
+  void read_vectors_of_cells(std::int64_t n_cells, vtkDoubleArray *values) {
+    if (class_ != "volVectorField") fail_file(path_, "has the class ", class_, "; a velocity is a volVectorField");
+    for (std::string_view key = token(); key != "internalField"; key = token()) {
+      if (key.empty()) fail_file(path_, "has no internalField");
+      entry("an entry");
+    }
+    const std::string_view how = token();
+    if (how == "uniform") {
+      double value[3];
+      expect("(");
+      for (double &part : value) part = in_->real_of(token());
+      expect(")");
+      for (std::int64_t i = 0; i < n_cells; ++i) values->InsertNextTuple(value);
+    } else if (how == "nonuniform") {
+      expect("List<vector>");
+      read_points(values);
+    } else {
+      in_->refuse("internalField begins with \"", std::string(how.substr(0, 40)), "\", not uniform or nonuniform");
+    }
+    if (values->GetNumberOfTuples() != n_cells)
+      fail_file(path_, "has ", values->GetNumberOfTuples(), " values, and the mesh has ", n_cells, " cells");
+  }
+
   // Reads the names and the types of the patches in a file boundary.
   std::vector<std::array<std::string, 2>> patches() {
     std::vector<std::array<std::string, 2>> found;
@@ -595,6 +619,14 @@ std::string foam_case_of(const std::string &path) {
 
 std::vector<std::array<std::string, 2>> read_patches(const std::string &foam_case) {
   return FoamFile(fs::path(foam_case) / "constant" / "polyMesh", "boundary").patches();
+}
+
+vtkSmartPointer<vtkDoubleArray> read_foam_vectors(const std::string &folder, const std::string &name,
+                                                  std::int64_t n_cells) {
+  const auto values = vtkSmartPointer<vtkDoubleArray>::New();
+  values->SetNumberOfComponents(3);
+  FoamFile(folder, name.c_str()).read_vectors_of_cells(n_cells, values);
+  return values;
 }
 
 vtkSmartPointer<vtkUnstructuredGrid> read_openfoam(const std::string &path) {

@@ -40,6 +40,9 @@ std::string foam_case_of(const std::string &path);
 
 // Returns whether the path is the folder of a time in an OpenFOAM case. The folder need not exist.
 bool is_foam_time(const std::string &path);
+// Reads a field of vectors in the cells, such as U, from the folder of a time.
+vtkSmartPointer<vtkDoubleArray> read_foam_vectors(const std::string &folder, const std::string &name,
+                                                  std::int64_t n_cells);
 
 // Reads XDMF files, whose data is in the file or in HDF5 files (xdmf.cpp).
 vtkSmartPointer<vtkUnstructuredGrid> read_xdmf(const std::string &path);

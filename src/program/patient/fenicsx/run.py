@@ -256,7 +256,7 @@ def main(n_steps):
                     csv.writer(table).writerows([COLUMNS, *rows])
     file.close()
     if comm.rank == 0:
-        print(report.table()[0])
+        report.table()
 
 
 if __name__ == "__main__":

@@ -1,16 +1,18 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""report.py [CASE]: prints a table of the last beat of a case that riis patient wrote, and what it should be.
+"""report.py [--picture]: prints a table of the last beat of this case, and what it should be, and writes report.txt.
 
-It ends with 1 if a value is not as it should be, unless the run is not complete.
+It ends with 1 if a value is not as it should be, and with 2 if the beat is not complete. With --picture, it prints only the
+arguments of riis for a picture of the flow, one a line: of the written time of the last beat with the largest flow.
 """
 import pathlib
 import re
 import sys
 
-from beat_table import beat_table
+from beat_table import beat_table, save_and_print
 
 BEAT = float("@PERIOD@")  # of the tables in 0/p [s]
+CASE = pathlib.Path(__file__).resolve().parent
 
 
 def rows_of(case, name, file):
@@ -47,10 +49,12 @@ def steps_of(case, closed_area):
     valve = rows_of(case, "valve", "riisValve.dat")
     flows = [rows_of(case, path.name, "surfaceFieldValue.dat") for path in (case / "postProcessing").glob("flow_*")]
     fastest = rows_of(case, "fastest", "fieldMinMax.dat")
+    arterial = rows_of(case, "pressure_outlet", "surfaceFieldValue.dat")  # of an aortic valve only
     if not valve or not flows:
         sys.exit(f"report.py: {case} has no tables in postProcessing: ./Allrun makes them")
     options = (case / "system/fvOptions").read_text()
     resistance, half_thickness = number_after("resistance", options), number_after("halfThickness", options)
+    rho = number_after("rho", options)
     steps = []
     for time in sorted(valve):
         if not all(time in table for table in [*flows, fastest]):
@@ -60,17 +64,37 @@ def steps_of(case, closed_area):
         # value.
         speed = float(fastest[time][2 if len(fastest[time]) < 5 else 3])
         steps.append({"time": time, "opening": opening, "difference": difference, "flow": flow, "band": float(valve[time][8]),
-                      "fastest": speed, "balance": sum(float(table[time][0]) for table in flows),
+                      "arterial": rho * float(arterial[time][0]) if time in arterial else None,
+                      "orifice": float(valve[time][5]), "fastest": speed, "balance": sum(float(table[time][0]) for table in flows),
                       "leak": closed_area and -difference * half_thickness * closed_area / resistance})
     return steps
 
 
+def picture_words(case):
+    """Returns the arguments of riis for a picture at the written time of the last beat with the largest flow through the valve."""
+    valve = rows_of(case, "valve", "riisValve.dat")
+    written = {float(path.parent.name): path.parent.name for path in case.glob("*/U") if re.fullmatch(r"[\d.e-]+", path.parent.name)}
+    end = max(valve, default=0.0)
+    # The table of the valve gets the row of a time after the fields of this time are written.
+    shown = [time for time in written if time in valve and time > end - BEAT - 1e-9]
+    if not shown:
+        sys.exit("report.py: no written time has a row in postProcessing/valve: there is nothing to draw yet")
+    time = max(shown, key=lambda time: float(valve[time][2]))
+    return ["mark", written[time], "--valve", "placed.json", "--skirt", "@SKIRT@", "--wall", "wall.stl", "--half-thickness",
+            "@HALF_THICKNESS@", "--opening", f"{float(valve[time][0]):g}", "--picture", "flow.png", "--picture-velocity", "U",
+            "--view", "valve-side"]
+
+
 def main():
-    case = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ".")
-    area, drop = forecast_of(case)
-    text, is_fine = beat_table(steps_of(case, area), BEAT, drop)
-    print(text)
-    return 0 if is_fine else 1
+    if sys.argv[1:] == ["--picture"]:
+        print("\n".join(picture_words(CASE)))
+        return 0
+    if len(sys.argv) > 1:
+        sys.exit(f"report.py takes --picture or nothing, but got '{' '.join(sys.argv[1:])}'")
+    area, drop = forecast_of(CASE)
+    text, status = beat_table(steps_of(CASE, area), BEAT, drop)
+    save_and_print(text, CASE)
+    return status
 
 
 if __name__ == "__main__":

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""report.py RESULTS: prints a table of the last beat of a run of solver.xml, and what it should be.
+"""report.py RESULTS: prints a table of the last beat of a run of solver.xml, and what it should be, and writes report.txt.
 
 RESULTS is a folder such as 1-procs. A continued run writes some steps again, and the later ones count. It ends with 1 if a value
-is not as it should be, unless the run is not complete.
+is not as it should be, and with 2 if the beat is not complete.
 """
 import base64
 import pathlib
@@ -13,7 +13,7 @@ import sys
 import xml.etree.ElementTree as xml
 import zlib
 
-from beat_table import beat_table
+from beat_table import beat_table, save_and_print
 
 HERE = pathlib.Path(__file__).resolve().parent
 PASCALS, CUBIC_METRES = 0.1, 1e-6  # in a dyn/cm2, and in a cm3
@@ -120,7 +120,8 @@ def steps_of(results, case):
         outlets = [p for name, p in pressures[step].items() if name.startswith("outlet")]
         difference = PASCALS * (pressures[step]["inlet"] - sum(outlets) / len(outlets))
         # Blood enters at the inlet. The flow out of the inlet is therefore negative while the valve is open.
-        steps.append({"time": dt * step, "opening": openings[step], "flow": -CUBIC_METRES * flows[step]["inlet"],
+        is_aortic = valve.get("name").startswith("aortic")
+        steps.append({"arterial": PASCALS * sum(outlets) / len(outlets) if is_aortic else None, "time": dt * step, "opening": openings[step], "flow": -CUBIC_METRES * flows[step]["inlet"],
                       "difference": difference, "balance": CUBIC_METRES * sum(flows[step].values()),
                       "fastest": speeds.get(step),
                       "leak": area and -difference / PASCALS * eps * float(area[1]) / resistance * CUBIC_METRES})
@@ -133,11 +134,10 @@ def main():
     results = pathlib.Path(sys.argv[1])
     steps = steps_of(results, (HERE / "solver.xml").read_text("utf-8"))
     period = float((HERE / "ventricle.dat").read_text("ascii").split()[-2])  # the time of its last pressure
-    text, is_fine = beat_table(steps, period, where="node")
-    print(text)
-    print("pressures are means over the ends, and speeds are those of the written files")
+    text, status = beat_table(steps, period, where="node")
+    save_and_print(text + "\npressures are means over the ends, and speeds are those of the written files", HERE)
     print(f"{results} has the pressures and flows of each step. ParaView opens {results}/result_*.vtu")
-    return 0 if is_fine else 1
+    return status
 
 
 if __name__ == "__main__":

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "riis_vtk/picture/picture_flow.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <iterator>
+
+#include <vtkActor.h>
+#include <vtkCellData.h>
+#include <vtkCellDataToPointData.h>
+#include <vtkCutter.h>
+#include <vtkDataArray.h>
+#include <vtkIdList.h>
+#include <vtkMath.h>
+#include <vtkNew.h>
+#include <vtkPlane.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkRenderer.h>
+#include <vtkTriangle.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkUnstructuredGrid.h>
+
+#include "common/elementary.hpp"
+#include "riis_vtk/base/files.hpp"
+#include "riis_vtk/mesh/mesh.hpp"
+#include "riis_vtk/picture/drawing.hpp"
+#include "riis_vtk/read/other_files.hpp"
+
+namespace riis::vtk {
+namespace {
+
+// The colours of matplotlib's map viridis, at equal distances. People with any kind of colour vision see its order.
+constexpr unsigned char viridis[][3] = {{68, 1, 84},    {71, 44, 122}, {59, 81, 139},  {44, 113, 142}, {33, 144, 141},
+                                        {39, 173, 129}, {92, 200, 99}, {170, 220, 50}, {253, 231, 37}};
+
+// Returns the smallest round number that is not below the given number.
+double rounded_up(double number) {
+  if (!(number > 0)) return 1;
+  const double power = std::pow(10, std::floor(std::log10(number)));
+  for (const double digit : {1.0, 1.2, 1.6, 2.0, 2.4, 3.0, 4.0, 5.0, 6.0, 8.0})
+    if (digit * power >= number * (1 - 1e-9)) return digit * power;
+  return 10 * power;
+}
+
+vtkSmartPointer<vtkPolyData> cut(vtkDataSet *data, const View &view, const Vector &origin) {
+  vtkNew<vtkPlane> plane;
+  plane->SetOrigin(origin.data());
+  plane->SetNormal(view.away().data());
+  vtkNew<vtkCutter> cutter;
+  cutter->SetCutFunction(plane);
+  cutter->SetInputData(data);
+  cutter->Update();
+  return cutter->GetOutput();
+}
+
+void set_data(vtkActor *actor, vtkPolyData *data) {
+  vtkPolyDataMapper::SafeDownCast(actor->GetMapper())->SetInputData(data);
+}
+
+vtkSmartPointer<vtkActor> line_actor(const Colour &colour, double pixels) {
+  vtkNew<vtkPolyData> nothing;
+  const vtkSmartPointer<vtkActor> actor = actor_of(nothing);
+  actor->GetMapper()->ScalarVisibilityOff();
+  actor->GetProperty()->SetColor(colour[0], colour[1], colour[2]);
+  actor->GetProperty()->LightingOff();
+  actor->GetProperty()->SetLineWidth(static_cast<float>(pixels));
+  return actor;
+}
+
+// Returns the centre of the surface's area.
+Vector middle_of(vtkPolyData *surface) {
+  Vector sum = {0, 0, 0};
+  double area = 0;
+  vtkNew<vtkIdList> corners;
+  for (vtkIdType face = 0; face < surface->GetNumberOfCells(); ++face) {
+    surface->GetCellPoints(face, corners);
+    double a[3], b[3], c[3];
+    surface->GetPoint(corners->GetId(0), a);
+    surface->GetPoint(corners->GetId(1), b);
+    surface->GetPoint(corners->GetId(2), c);
+    const double part = vtkTriangle::TriangleArea(a, b, c);
+    area += part;
+    for (std::size_t k = 0; k < 3; ++k) sum[k] += part * (a[k] + b[k] + c[k]) / 3;
+  }
+  for (double &coordinate : sum) coordinate /= area;
+  return sum;
+}
+
+// Moves an actor towards the eye, so that it is drawn in front of the plane. Without perspective, the actor looks the same.
+void move_near(vtkActor *actor, const View &view, double length) {
+  actor->SetPosition(-length * view.away()[0], -length * view.away()[1], -length * view.away()[2]);
+}
+
+}  // namespace
+
+Flow flow_of(const riis_vtk_mesh &mesh, const std::string &name) {
+  vtkUnstructuredGrid *const grid = mesh.grid();
+  vtkSmartPointer<vtkDataArray> at_points = grid->GetPointData()->GetArray(name.c_str()),
+                                in_cells = grid->GetCellData()->GetArray(name.c_str());
+  Flow flow;
+  if (!at_points && !in_cells && !mesh.foam_time.empty()) {
+    in_cells = read_foam_vectors(mesh.foam_time, name, grid->GetNumberOfCells());
+    in_cells->SetName(name.c_str());
+    flow.unit = "m/s";
+    flow.time = std::filesystem::path(mesh.foam_time).filename().string();
+  }
+  vtkDataArray *const found = at_points ? at_points : in_cells;
+  if (!found) refuse_argument("options->velocity is \"", name, "\", which is no array of the mesh");
+  if (found->GetNumberOfComponents() != 3)
+    refuse_argument("options->velocity is \"", name, "\", whose number of components is ",
+                    found->GetNumberOfComponents(), ", not 3");
+  if (found->GetInformation()->Has(vtkDataArray::UNITS_LABEL()))
+    flow.unit = found->GetInformation()->Get(vtkDataArray::UNITS_LABEL());
+  vtkNew<vtkUnstructuredGrid> plain;
+  plain->CopyStructure(grid);
+  if (at_points) {
+    plain->GetPointData()->SetVectors(at_points);
+    flow.grid = plain;
+    return flow;
+  }
+  plain->GetCellData()->SetVectors(in_cells);
+  vtkNew<vtkCellDataToPointData> averaged;
+  averaged->SetInputData(plain);
+  averaged->Update();
+  flow.grid = averaged->GetUnstructuredGridOutput();
+  flow.grid->GetPointData()->SetActiveVectors(name.c_str());
+  return flow;
+}
+
+Colour colour_of_speed(double share) {
+  constexpr std::size_t last = std::size(viridis) - 1;
+  const double at = last * std::clamp(share, 0.0, 1.0);
+  const auto below = std::min(last - 1, static_cast<std::size_t>(at));
+  Colour colour;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double a = viridis[below][k], b = viridis[below + 1][k];
+    colour[k] = (a + (at - static_cast<double>(below)) * (b - a)) / 255;
+  }
+  return colour;
+}
+
+FlowPanel::FlowPanel(const Flow &flow, vtkPolyData *wall, const Colour &line, double pixels)
+    : flow_(flow), pixels_(pixels), renderer_(two_sided_renderer()), faces_(wall) {
+  vtkNew<vtkPolyData> nothing;
+  plane_ = actor_of(nothing);
+  plane_->GetMapper()->SetScalarModeToUsePointData();
+  plane_->GetMapper()->SetColorModeToDirectScalars();
+  plane_->GetProperty()->LightingOff();
+  wall_ = line_actor(line, 1.5 * pixels_);
+  // White lines with a dark edge are visible on every colour of the plane, and on every background.
+  around_leaflets_ = line_actor({0.1, 0.1, 0.1}, 5.5 * pixels_);
+  leaflets_ = line_actor({1, 1, 1}, 3 * pixels_);
+  for (vtkActor *actor : {plane_.Get(), wall_.Get(), around_leaflets_.Get(), leaflets_.Get()})
+    renderer_->AddActor(actor);
+}
+
+vtkSmartPointer<vtkPolyData> FlowPanel::plane_of(const View &view) const {
+  vtkSmartPointer<vtkPolyData> plane = cut(flow_.grid, view, middle_);
+  vtkDataArray *const velocity = plane->GetPointData()->GetVectors();
+  vtkNew<vtkDoubleArray> speed;
+  for (vtkIdType i = 0; i < plane->GetNumberOfPoints(); ++i) {
+    double v[3];
+    velocity->GetTuple(i, v);
+    speed->InsertNextValue(hypotenuse(v[0], v[1], v[2]));
+  }
+  plane->GetPointData()->Initialize();
+  plane->GetPointData()->SetScalars(speed);
+  return plane;
+}
+
+void FlowPanel::show(vtkPolyData *surface, const std::vector<View> &views) {
+  surface_ = surface;
+  middle_ = middle_of(surface);
+  fastest_ = 0;
+  for (const View &view : views) {
+    const vtkSmartPointer<vtkPolyData> plane = plane_of(view);
+    if (plane->GetNumberOfPoints() > 0)
+      fastest_ = std::max(fastest_, plane->GetPointData()->GetScalars()->GetRange()[1]);
+  }
+  upper_end_ = rounded_up(fastest_);
+}
+
+void FlowPanel::look(const View &view, const Sight &sight) {
+  const vtkSmartPointer<vtkPolyData> plane = plane_of(view);
+  vtkDataArray *const speed = plane->GetPointData()->GetScalars();
+  vtkNew<vtkUnsignedCharArray> colours;
+  colours->SetNumberOfComponents(3);
+  for (vtkIdType i = 0; i < plane->GetNumberOfPoints(); ++i)
+    for (const double part : colour_of_speed(speed->GetComponent(i, 0) / upper_end_))
+      colours->InsertNextValue(static_cast<unsigned char>(255 * part + 0.5));
+  plane->GetPointData()->SetScalars(colours);
+  set_data(plane_, plane);
+  set_data(wall_, cut(faces_, view, middle_));
+  const vtkSmartPointer<vtkPolyData> leaflets = cut(surface_, view, middle_);
+  set_data(around_leaflets_, leaflets);
+  set_data(leaflets_, leaflets);
+  const double step = 0.002 * sight.shown[1].half();
+  move_near(wall_, view, step);
+  move_near(around_leaflets_, view, 2 * step);
+  move_near(leaflets_, view, 3 * step);
+}
+
+}  // namespace riis::vtk

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// In: a mesh with a velocity, and a surface. Out: the panel with the speed in the plane of a view through the middle of the
+// surface. Lines show the wall and the leaflets where the plane cuts them.
+#pragma once
+
+#include <vtkSmartPointer.h>
+
+#include <string>
+#include <vector>
+
+#include "riis_vtk/picture/picture_view.hpp"
+
+class vtkActor;
+class vtkPolyData;
+class vtkRenderer;
+class vtkUnstructuredGrid;
+struct riis_vtk_mesh;
+
+namespace riis::vtk {
+
+// A velocity at the nodes of a mesh.
+struct Flow {
+  vtkSmartPointer<vtkUnstructuredGrid> grid;  // its only point array is the velocity
+  std::string unit;                           // of the velocity; "" if the file does not tell
+  std::string time;                           // the folder of a time of OpenFOAM; otherwise ""
+};
+
+// Finds the velocity by the name of a point array or cell array with three components. If the mesh was read from a time of
+// OpenFOAM, the velocity may also be a field of this time. Values of cells are averaged at the nodes. Fails if the mesh has no
+// such array.
+Flow flow_of(const riis_vtk_mesh &mesh, const std::string &name);
+
+// Returns the colour of a speed. `share` is the speed divided by the speed at the upper end of the bar of colours.
+Colour colour_of_speed(double share);
+
+class FlowPanel {
+ public:
+  // `wall` has the faces of the mesh's boundary. `line` is the colour of the wall's line, and `pixels` is the width of a line.
+  FlowPanel(const Flow &flow, vtkPolyData *wall, const Colour &line, double pixels);
+  // Replaces the surface that was shown before. The bar of colours then ends at the fastest speed in the planes of the views.
+  void show(vtkPolyData *surface, const std::vector<View> &views);
+  void look(const View &view, const Sight &sight);
+  vtkRenderer *renderer() const { return renderer_; }
+  // The speed at the upper end of the bar, which is a round number, and the fastest speed in the planes.
+  double upper_end() const { return upper_end_; }
+  double fastest() const { return fastest_; }
+  const std::string &unit() const { return flow_.unit; }
+  const std::string &time() const { return flow_.time; }
+
+ private:
+  // Returns the cut of the plane through the mesh, with the speed at its points.
+  vtkSmartPointer<vtkPolyData> plane_of(const View &view) const;
+
+  Flow flow_;
+  Vector middle_ = {0, 0, 0};
+  double upper_end_ = 1, fastest_ = 0, pixels_;
+  vtkSmartPointer<vtkRenderer> renderer_;
+  vtkSmartPointer<vtkPolyData> faces_, surface_;
+  vtkSmartPointer<vtkActor> plane_, wall_, around_leaflets_, leaflets_;
+};
+
+}  // namespace riis::vtk
