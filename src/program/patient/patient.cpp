@@ -238,7 +238,7 @@ class PatientRun {
     show_warnings(end);
     const Json placed = parse_json_file("placed.json", "a placed valve");
     const Json &fit = placed["fit"];
-    std::string text = "the fitted " + kind_ + " valve misses the landmarks by " + in_mm(fit["rms"]) + " (rms)";
+    std::string text = "the fitted " + the_.kind + " valve misses the landmarks by " + in_mm(fit["rms"]) + " (rms)";
     if (fit.contains("warped_rms")) text += ", and by " + in_mm(fit["warped_rms"]) + " after a warp bends it to them";
     steps_.say("place", text, end.seconds);
     if (!fit["undetermined"].empty())
