@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <ios>  // before fail becomes a macro of CMocka
 #include <map>
 #include <string>
 #include <vector>
