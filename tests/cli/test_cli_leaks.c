@@ -448,7 +448,7 @@ TEST(test_unknown) {
       strstr(program_err,
              "riis: whether unmarked nodes join 0.1 0 0.6 and 5.1 0 0.6 is unknown: riis does not know the edges "
              "of 1 of 3 volume cells in "));
-  assert_non_null(strstr(program_out, "\npassage   unknown; along the known edges none: "));
+  assert_non_null(strstr(program_out, "\npassage   unknown; along the known edges none, because "));
   char *json = scratch_read(scratch_path("stats.json"), NULL);
   assert_true(json_has_text(json, "state", "\"unknown\""));
   free(json);
