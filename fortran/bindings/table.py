@@ -150,7 +150,7 @@ class Subroutines:
             self.read_block(place, block)
 
     def read_block(self, place, block):
-        """A block in which {marked/within_limit} stands is two blocks."""
+        """A block in which {marked/within_limit} stands is a block for each of the names."""
         head, colon, rest = block[0].partition(": ")
         lines = [rest] if colon else []
         for line in block[1:]:
