@@ -18,10 +18,10 @@ from typing import Any
 import numpy
 
 from riis._errors import MarksWarning
-from riis._plot import COLOURS, _egl_works, _pyvista, add_scale_bar, boundary_of, coloured, drop_scale_bar, widget_of
+from riis._plot import COLOURS, WALL, _egl_works, _pyvista, add_scale_bar, boundary_of, coloured, drop_scale_bar, widget_of
 from riis.view._valves import point, refuse
 
-WALL, PARTLY, LEAK, CROSSING, ORIFICE, HANDLE = "#c9ced6", "#9aa3b2", "#d50000", "#cc00aa", "#111111", "#333333"
+PARTLY, LEAK, CROSSING, ORIFICE, HANDLE = "#9aa3b2", "#d50000", "#cc00aa", "#111111", "#333333"
 BUMP, LANDMARK, CHOSEN, GAP = "#5e35b1", "#1b5e20", "#d50000", "#ff7043"
 WALLS = ("cut", "clear", "none")
 CELLS = ("partly", "marked", "none")
