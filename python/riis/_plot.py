@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 # Blue, orange, bluish green, reddish purple, vermilion and sky blue can be distinguished with every kind of colour vision (Okabe,
 # Ito 2008). The program's pictures have the same colours in the same order.
 COLOURS = ("#0072b2", "#e69f00", "#009e73", "#cc79a7", "#d55e00", "#56b4e9")
+WALL = "#c9ced6"
 
 
 def _pyvista() -> Any:
@@ -301,7 +302,7 @@ def plot(
         plotter = _new_plotter(interactive or screenshot is not None, notebook=True if interactive else None)
     _draw(plotter, surface, mesh, marks)
     if grid is not None:
-        plotter.add_mesh(boundary_of(grid), color="#c9ced6", opacity=0.16, pickable=False, name="riis grid", reset_camera=False)
+        plotter.add_mesh(boundary_of(grid), color=WALL, opacity=0.16, pickable=False, name="riis grid", reset_camera=False)
     if not given:
         info = surface.info
         at_valve = grid is not None and not (marks is not None and len(marks) == 0)

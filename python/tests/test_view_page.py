@@ -595,6 +595,11 @@ def test_a_widget_warns_of_a_valve_outside_the_mesh():
         warnings.simplefilter("error", riis.MarksWarning)
         scene.widget(model, grid)
     assert len(model.update().marked) > 0
+    grid = box(12).scale(10.0)  # in millimetres
+    model = Model(**reading.arrays_of(grid))
+    model.place(model.add("coapting"), origin=grid.center)
+    with pytest.warns(riis.MarksWarning, match="the mesh looks as if it were in millimetres: scale the valve by 10"):
+        scene.widget(model, grid)
 
 
 def test_pictures_of_a_scene():

@@ -18,10 +18,10 @@ from typing import Any
 import numpy
 
 from riis._errors import MarksWarning
-from riis._plot import COLOURS, _egl_works, _pyvista, add_scale_bar, boundary_of, coloured, drop_scale_bar, widget_of
+from riis._plot import COLOURS, WALL, _egl_works, _pyvista, add_scale_bar, boundary_of, coloured, drop_scale_bar, widget_of
 from riis.view._valves import point, refuse
 
-WALL, PARTLY, LEAK, CROSSING, ORIFICE, HANDLE = "#c9ced6", "#9aa3b2", "#d50000", "#cc00aa", "#111111", "#333333"
+PARTLY, LEAK, CROSSING, ORIFICE, HANDLE = "#9aa3b2", "#d50000", "#cc00aa", "#111111", "#333333"
 BUMP, LANDMARK, CHOSEN, GAP = "#5e35b1", "#1b5e20", "#d50000", "#ff7043"
 WALLS = ("cut", "clear", "none")
 CELLS = ("partly", "marked", "none")
@@ -614,8 +614,8 @@ def widget(model: Any, grid: Any = None) -> Any:
     model  a riis.view.model.Model
     grid   its mesh as pyvista.UnstructuredGrid; without it the leaflets are alone
 
-    The mouse turns the scene. Call it again after a change of the model. If no node is marked, it gives a riis.MarksWarning. It
-    needs pyvista[jupyter].
+    The mouse turns the scene. Call it again after a change of the model. If no node is marked, or the unit looks
+    wrong, it gives a riis.MarksWarning. It needs pyvista[jupyter].
     """
     check_of_graphics()
     scene = Scene(model, grid, plotter=_pyvista().Plotter(notebook=True, off_screen=True, window_size=(900, 600)))
@@ -633,10 +633,10 @@ def widget(model: Any, grid: Any = None) -> Any:
     scene.show_cut()
     lights = model.lights()
     scene.show_lights(lights)
-    if is_unmarked:
-        wrong = [one for one in lights if one.name in ("unit", "inside") and one.level in ("bad", "warn")]
-        reasons = [f"{one.text}: {one.advice}" for one in wrong]
-        warnings.warn("; ".join(reasons), MarksWarning, stacklevel=2)
+    judged = ("unit", "inside") if is_unmarked else ("unit",)
+    wrong = [f"{one.text}: {one.advice}" for one in lights if one.name in judged and one.level in ("bad", "warn")]
+    if wrong:
+        warnings.warn("; ".join(wrong), MarksWarning, stacklevel=2)
     scene.freeze()
     return widget_of(scene.plotter)
 
