@@ -421,8 +421,8 @@ typedef struct riis_vtk_picture_options {
   int32_t captions;       /* RIIS_VTK_CAPTIONS_*. Default RIIS_VTK_CAPTIONS_ALL */
   int32_t panels;         /* RIIS_VTK_PANELS_*. Default RIIS_VTK_PANELS_BOTH */
   const char *velocity;   /* the name of a velocity: a point array or cell array of the mesh with three components. For a mesh
-                             that was read from a time of OpenFOAM, also a field of this time, such as "U". The panel of the marked
-                             cells then shows the speed instead, in the plane of the view through the middle of the surface.
+                             that was read from a time of OpenFOAM, also a field of this time, such as "U". The panel of the
+                             marked cells then shows the speed in the plane of the view through the middle of the surface.
                              Default NULL: none */
 } riis_vtk_picture_options;
 /* Fills *options with the defaults. */
@@ -438,7 +438,7 @@ RIIS_API riis_status riis_vtk_picture_options_init(riis_vtk_picture_options *opt
  *   such as a box, is drawn whole.
  * - The captions give the half thickness and the number of marked nodes.
  * - With a velocity, the right panel shows the speed in the plane of the view through the centre of the surface's area. Lines
- *   show the wall and the leaflets where the plane cuts them. The bar of colours has the unit of the array, otherwise `unit` "/s".
+ *   show the wall and the leaflets where the plane cuts them. The bar of colours has the array's unit, otherwise `unit` "/s".
  * - Axes and a scale bar are below the panels. A mesh that is much longer than the surface is cut off, and captions explain the
  *   dashed lines there. Pictures lower than 120 pixels have no texts, axes or bar.
  * - RIIS_VTK_VIEW_THREE and RIIS_VTK_VIEW_VALVE_THREE draw one column for each view, with one panel above the other. All columns

@@ -309,7 +309,7 @@ class OpenfoamCase(unittest.TestCase):
         done = self.run_case(case, "picture", tools=tools)
         self.assertEqual(done.returncode, 2, done.stdout + done.stderr)
         self.assertIn("there is nothing to draw yet", done.stderr)
-        self.assertIn("the last beat is not complete: ./Allrun goes on", done.stderr)
+        self.assertIn("./Allrun goes on to endTime", done.stderr)
 
     def test_a_beat_that_is_not_complete_has_a_status(self):
         case, _ = self.write()

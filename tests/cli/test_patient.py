@@ -225,6 +225,12 @@ class Patient(unittest.TestCase):
         commands = (case / "commands.sh").read_text(encoding="utf-8")
         printed = re.findall(r"^(riis (?:place|size-field) .*)$", commands, re.MULTILINE)
         self.assertEqual(len(printed), 2, commands)
+        # The picture for a talk has the skirt and the wall.
+        self.assertRegex(commands, r"\n# a picture for a talk:\n# riis mark mesh.msh --valve placed.json --skirt 6 --wall wall.stl .*"
+                         "--picture talk.png")
+        self.assertNotIn("$ riis", done.stdout)
+        self.assertIn("commands.sh has the command of each next step", done.stdout)
+        self.assertRegex(done.stdout, r"skirt +closes the gap between valve and wall, at most [\d.]+ mm")
         before = {name: (case / name).read_bytes() for name in ("placed.json", "valve.dat")}
         for command in printed:
             subprocess.run([PROGRAM, *shlex.split(command)[1:]], cwd=case, check=True, capture_output=True)
@@ -312,7 +318,9 @@ exec '{shutil.which("gmsh")}' "$@" $longer
         # In both meshes, pressures are read at the same places, up to an edge length.
         for name in "upstream", "downstream":
             self.assertLess(math.dist(report[name], first[name]), report["band_edge"] * report["half_thickness"], name)
-        self.assertEqual(done.stdout.count("--band-edge 0.855"), 2, done.stdout)  # of riis size-field, and in the last lines
+        # The option is in a command, and in the last lines.
+        self.assertIn("--band-edge 0.855", (case / "commands.sh").read_text(encoding="utf-8"))
+        self.assertEqual(done.stdout.count("--band-edge 0.855"), 1, done.stdout)
         self.assertEqual((case / "mine.txt").read_text(encoding="utf-8"), "kept")
         if sick:
             self.assertEqual(report["disease"], "aortic_regurgitation_severe")
@@ -403,6 +411,36 @@ exec '{shutil.which("gmsh")}' "$@" $longer
             less = {name: value for name, value in text.items() if name != key}
             (self.folder / "landmarks.json").write_text(json.dumps(less), encoding="utf-8")
             self.refused(1, message)
+
+    def test_numbers_in_another_unit_than_stated(self):
+        """The numbers are in cm or m, and the file states mm, or the other way round."""
+        for factor, unit, stated in (0.1, "cm", "mm"), (1e-3, "m", "mm"), (1, "mm", "cm"), (0.1, "cm", "m"):
+            self.files(factor=factor, unit=stated)
+            done = self.refused(1, f"landmarks.json: its numbers are probably in {unit}, but it states {stated}: .*: "
+                                   f'write "unit": "{unit}" in it', output="none")
+            self.assertFalse((self.folder / "none").exists(), done.stderr)
+        # What the message says cures the file.
+        text = (self.folder / "landmarks.json").read_text(encoding="utf-8")
+        (self.folder / "landmarks.json").write_text(text.replace('"unit": "m"', '"unit": "cm"'), encoding="utf-8")
+        self.refused(2, "--half-thickness: 9 mm is not from", "--half-thickness", "9 mm", output="none")
+
+    def test_names_of_landmarks(self):
+        self.files()
+        text = json.loads((self.folder / "landmarks.json").read_text(encoding="utf-8"))
+        points = text["landmarks"]
+        less = {name: point for name, point in points.items() if name != "commissure_left_non_coronary"}
+        self.assertEqual(len(less), len(points) - 1)
+        (self.folder / "landmarks.json").write_text(json.dumps({**text, "landmarks": less}), encoding="utf-8")
+        self.refused(1, "landmarks.json: lacks commissure_left_non_coronary, which the coapting valve needs: add this point",
+                     output="none")
+        slicer = {f"F-{i + 1}": point for i, point in enumerate(points.values())}
+        (self.folder / "landmarks.json").write_text(json.dumps({**text, "landmarks": slicer}), encoding="utf-8")
+        done = self.refused(1, '"F-1" is not the name of a landmark.*nadir_right, nadir_left, nadir_non_coronary, '
+                               "commissure_right_left, commissure_left_non_coronary, commissure_non_coronary_right; a mitral",
+                            output="none")
+        self.assertNotIn("...;", done.stderr)
+        self.refused(1, "the mitral valve has annulus_1, annulus_2, .* and anterior_horn; riis help landmarks lists", "--valve",
+                     "mitral", output="none")
 
     def test_refused_folders(self):
         self.files()

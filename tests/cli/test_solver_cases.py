@@ -246,7 +246,8 @@ class Cases(unittest.TestCase):
         self.assertIn("ended with the status 1", allrun(status=1, program="false"))
         said = allrun(status=2)
         self.assertIn("what follows is preliminary\nthe valve does not move\n", said)
-        for line in ("heart rate +75 /min\n", r"forward volume +0.8 ml\n", r"backward volume +0.004 ml\n", r"largest flow +400 ml/s +at 0.006 s\n"):
+        for line in ("heart rate +75 /min\n", r"forward volume +0.8 ml\n", r"backward volume +0.004 ml\n",
+                     r"largest flow +400 ml/s +at 0.006 s\n"):
             self.assertRegex(said, line)
         self.assertIn("<Continue_previous_simulation> false", (folder / "ran.xml").read_text())
         self.assertIn("the run goes on", allrun(status=2))
@@ -309,8 +310,10 @@ class Cases(unittest.TestCase):
         back = leak * 0.002 * (n_steps - 71)
         for line in (rf"forward volume +{300 * 0.142:.4g} ml\n",
                      rf"backward volume +{back:.4g} ml +met: below 12 %, {100 * back / 42.6:.1f} %\n",
-                     r"largest flow +300 ml/s +at 0.050 s\n", r"inflow less outflow, as a share of the largest flow +1.0e-06 +met: ",
-                     rf"leak of the closed valve at 80 mmHg +{leak:.4g} ml/s\n", r"as a multiple of an ideal valve's leak +1.25\n",
+                     r"largest flow +300 ml/s +at 0.050 s\n",
+                     r"inflow less outflow, as a share of the largest flow +1.0e-06 +met: ",
+                     rf"leak of the closed valve at 80 mmHg +{leak:.4g} ml/s\n",
+                     r"as a multiple of an ideal valve's leak +1.25\n",
                      r"fastest node while the valve moves, in 4 files +2.5 m/s\n",
                      r"fastest node while the valve is at rest, in 36 files +1.5 m/s\n"):
             self.assertRegex(done.stdout, line)

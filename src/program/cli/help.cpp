@@ -250,7 +250,7 @@ Landmarks are those of the closed valve. The report's residuals are distances fr
 riis patient WALL LANDMARKS --output FOLDER makes all files for a patient's valve: an aortic valve in its root, or a mitral
 valve in a ventricle with the ends of the atrium and of the aorta. The command finds the sizes and the place of the valve, warps
 it to the landmarks, adds a skirt to the wall, makes a mesh by gmsh, and marks the mesh. Each of these steps is a command. The
-file commands.sh in FOLDER has these commands. You can also run them one by one in FOLDER. The unit and the axes of WALL are those with
+file commands.sh in FOLDER has them, and you can also run them one by one in FOLDER. The unit and the axes of WALL are those with
 which the landmarks lie at the wall. If two possibilities fit, riis patient stops, and an option must choose. The flat ends of
 the wall become the boundaries inlet, outlet, outlet_2 and so on, and the rest becomes wall. --inlet and --outlet name ends by
 points near them.

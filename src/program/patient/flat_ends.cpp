@@ -330,8 +330,8 @@ constexpr double at_wall = 5;
 // Another unit or other axes are excluded if they would put the landmarks clearly farther from the wall.
 constexpr double clearly_farther = 2;
 
-// The mean distance of a usual valve's landmarks from their middle, in centimetres. The range is narrower than a factor of ten, so
-// that at most one unit fits.
+// The mean distance of a usual valve's landmarks from their middle, in centimetres. The range is narrower than a factor of ten,
+// so that at most one unit fits.
 constexpr double least_size = 0.4, largest_size = 3;
 
 std::string mm_text(double length) { return printed("%.3g", length) + " mm"; }

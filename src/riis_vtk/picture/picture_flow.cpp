@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include <vtkActor.h>
+#include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkCellDataToPointData.h>
 #include <vtkCutter.h>
@@ -16,6 +17,7 @@
 #include <vtkNew.h>
 #include <vtkPlane.h>
 #include <vtkPointData.h>
+#include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
@@ -61,14 +63,47 @@ void set_data(vtkActor *actor, vtkPolyData *data) {
   vtkPolyDataMapper::SafeDownCast(actor->GetMapper())->SetInputData(data);
 }
 
-vtkSmartPointer<vtkActor> line_actor(const Colour &colour, double pixels) {
+vtkSmartPointer<vtkActor> plain_actor(const Colour &colour) {
   vtkNew<vtkPolyData> nothing;
   const vtkSmartPointer<vtkActor> actor = actor_of(nothing);
   actor->GetMapper()->ScalarVisibilityOff();
   actor->GetProperty()->SetColor(colour[0], colour[1], colour[2]);
   actor->GetProperty()->LightingOff();
-  actor->GetProperty()->SetLineWidth(static_cast<float>(pixels));
   return actor;
+}
+
+// Returns a strip of the given width along each line, in the plane of the view. OpenGL limits the width of lines.
+vtkSmartPointer<vtkPolyData> strips(vtkPolyData *lines, const View &view, double width) {
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkCellArray> faces;
+  vtkNew<vtkIdList> ends;
+  for (vtkIdType line = 0; line < lines->GetNumberOfCells(); ++line) {
+    lines->GetCellPoints(line, ends);
+    for (vtkIdType i = 0; i + 1 < ends->GetNumberOfIds(); ++i) {
+      double a[3], b[3], along[3], across[3];
+      lines->GetPoint(ends->GetId(i), a);
+      lines->GetPoint(ends->GetId(i + 1), b);
+      vtkMath::Subtract(b, a, along);
+      if (vtkMath::Normalize(along) == 0) continue;
+      vtkMath::Cross(view.away().data(), along, across);
+      // A strip is longer than its line by half of its width at each end. Strips thus overlap at corners.
+      const double half = 0.5 * width;
+      vtkIdType corners[4];
+      for (int corner = 0; corner < 4; ++corner) {
+        const bool is_at_b = corner == 1 || corner == 2;
+        double at[3];
+        for (int k = 0; k < 3; ++k)
+          at[k] = (is_at_b ? b[k] + half * along[k] : a[k] - half * along[k]) + (corner < 2 ? -half : half) * across[k];
+        corners[corner] = points->InsertNextPoint(at);
+      }
+      faces->InsertNextCell(4, corners);
+    }
+  }
+  const auto made = vtkSmartPointer<vtkPolyData>::New();
+  made->SetPoints(points);
+  made->SetPolys(faces);
+  return made;
 }
 
 // Returns the centre of the surface's area.
@@ -143,17 +178,17 @@ Colour colour_of_speed(double share) {
   return colour;
 }
 
-FlowPanel::FlowPanel(const Flow &flow, vtkPolyData *wall, const Colour &line, double pixels)
-    : flow_(flow), pixels_(pixels), renderer_(two_sided_renderer()), faces_(wall) {
+FlowPanel::FlowPanel(const Flow &flow, vtkPolyData *wall, const Colour &line)
+    : flow_(flow), renderer_(two_sided_renderer()), faces_(wall) {
   vtkNew<vtkPolyData> nothing;
   plane_ = actor_of(nothing);
   plane_->GetMapper()->SetScalarModeToUsePointData();
   plane_->GetMapper()->SetColorModeToDirectScalars();
   plane_->GetProperty()->LightingOff();
-  wall_ = line_actor(line, 1.5 * pixels_);
-  // White lines with a dark edge are visible on every colour of the plane, and on every background.
-  around_leaflets_ = line_actor({0.1, 0.1, 0.1}, 5.5 * pixels_);
-  leaflets_ = line_actor({1, 1, 1}, 3 * pixels_);
+  wall_ = plain_actor(line);
+  // White strips with a dark edge are visible on every colour of the plane, and on every background.
+  around_leaflets_ = plain_actor({0.1, 0.1, 0.1});
+  leaflets_ = plain_actor({1, 1, 1});
   for (vtkActor *actor : {plane_.Get(), wall_.Get(), around_leaflets_.Get(), leaflets_.Get()})
     renderer_->AddActor(actor);
 }
@@ -194,10 +229,11 @@ void FlowPanel::look(const View &view, const Sight &sight) {
       colours->InsertNextValue(static_cast<unsigned char>(255 * part + 0.5));
   plane->GetPointData()->SetScalars(colours);
   set_data(plane_, plane);
-  set_data(wall_, cut(faces_, view, middle_));
+  const double pixel = sight.shown[1].half() / 250;  // about a line's width
+  set_data(wall_, strips(cut(faces_, view, middle_), view, 1.5 * pixel));
   const vtkSmartPointer<vtkPolyData> leaflets = cut(surface_, view, middle_);
-  set_data(around_leaflets_, leaflets);
-  set_data(leaflets_, leaflets);
+  set_data(around_leaflets_, strips(leaflets, view, 4.5 * pixel));
+  set_data(leaflets_, strips(leaflets, view, 2.5 * pixel));
   const double step = 0.002 * sight.shown[1].half();
   move_near(wall_, view, step);
   move_near(around_leaflets_, view, 2 * step);

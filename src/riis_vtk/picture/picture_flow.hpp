@@ -35,8 +35,8 @@ Colour colour_of_speed(double share);
 
 class FlowPanel {
  public:
-  // `wall` has the faces of the mesh's boundary. `line` is the colour of the wall's line, and `pixels` is the width of a line.
-  FlowPanel(const Flow &flow, vtkPolyData *wall, const Colour &line, double pixels);
+  // `wall` has the faces of the mesh's boundary, and `line` is the colour of the wall's line.
+  FlowPanel(const Flow &flow, vtkPolyData *wall, const Colour &line);
   // Replaces the surface that was shown before. The bar of colours then ends at the fastest speed in the planes of the views.
   void show(vtkPolyData *surface, const std::vector<View> &views);
   void look(const View &view, const Sight &sight);
@@ -53,7 +53,7 @@ class FlowPanel {
 
   Flow flow_;
   Vector middle_ = {0, 0, 0};
-  double upper_end_ = 1, fastest_ = 0, pixels_;
+  double upper_end_ = 1, fastest_ = 0;
   vtkSmartPointer<vtkRenderer> renderer_;
   vtkSmartPointer<vtkPolyData> faces_, surface_;
   vtkSmartPointer<vtkActor> plane_, wall_, around_leaflets_, leaflets_;

@@ -398,7 +398,7 @@ Scene::Scene(vtkUnstructuredGrid *grid, const riis_vtk_picture_options &options,
   const vtkSmartPointer<vtkPolyData> wall = wall_of(grid, options);
   if (grid_ && style_.panels != RIIS_VTK_PANELS_VALVE) {
     if (flow)
-      flow_.emplace(*flow, wall, style_.ink, layout_.line_width());
+      flow_.emplace(*flow, wall, style_.ink);
     else
       marks_.emplace(layout_.line_width());
   }

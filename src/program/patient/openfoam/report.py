@@ -3,7 +3,8 @@
 """report.py [--picture]: prints a table of the last beat of this case, and what it should be, and writes report.txt.
 
 It ends with 1 if a value is not as it should be, and with 2 if the beat is not complete. With --picture, it prints only the
-arguments of riis for a picture of the flow, one a line: of the written time of the last beat with the largest flow.
+arguments of riis for a picture of the flow, one a line. The picture shows the last beat at the written time with the largest
+flow through the fully open valve.
 """
 import pathlib
 import re
@@ -65,23 +66,27 @@ def steps_of(case, closed_area):
         speed = float(fastest[time][2 if len(fastest[time]) < 5 else 3])
         steps.append({"time": time, "opening": opening, "difference": difference, "flow": flow, "band": float(valve[time][8]),
                       "arterial": rho * float(arterial[time][0]) if time in arterial else None,
-                      "orifice": float(valve[time][5]), "fastest": speed, "balance": sum(float(table[time][0]) for table in flows),
+                      "orifice": float(valve[time][5]), "fastest": speed,
+                      "balance": sum(float(table[time][0]) for table in flows),
                       "leak": closed_area and -difference * half_thickness * closed_area / resistance})
     return steps
 
 
 def picture_words(case):
-    """Returns the arguments of riis for a picture at the written time of the last beat with the largest flow through the valve."""
+    """Returns the arguments of riis for a picture of the last beat, at the written time with the largest flow."""
     valve = rows_of(case, "valve", "riisValve.dat")
-    written = {float(path.parent.name): path.parent.name for path in case.glob("*/U") if re.fullmatch(r"[\d.e-]+", path.parent.name)}
+    names = [path.parent.name for path in case.glob("*/U")]
+    written = {float(name): name for name in names if re.fullmatch(r"[\d.e-]+", name)}
     end = max(valve, default=0.0)
     # The table of the valve gets the row of a time after the fields of this time are written.
     shown = [time for time in written if time in valve and time > end - BEAT - 1e-9]
     if not shown:
         sys.exit("report.py: no written time has a row in postProcessing/valve: there is nothing to draw yet")
-    time = max(shown, key=lambda time: float(valve[time][2]))
+    # While the valve still opens, the jet has not formed.
+    is_open = [time for time in shown if float(valve[time][0]) > 0.999]
+    time = max(is_open or shown, key=lambda time: float(valve[time][2]))
     return ["mark", written[time], "--valve", "placed.json", "--skirt", "@SKIRT@", "--wall", "wall.stl", "--half-thickness",
-            "@HALF_THICKNESS@", "--opening", f"{float(valve[time][0]):g}", "--picture", "flow.png", "--picture-velocity", "U",
+            "@HALF_THICKNESS@", "--opening", f"{float(valve[time][0]):.4g}", "--picture", "flow.png", "--picture-velocity", "U",
             "--view", "valve-side"]
 
 

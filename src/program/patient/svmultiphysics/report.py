@@ -120,9 +120,9 @@ def steps_of(results, case):
         outlets = [p for name, p in pressures[step].items() if name.startswith("outlet")]
         difference = PASCALS * (pressures[step]["inlet"] - sum(outlets) / len(outlets))
         # Blood enters at the inlet. The flow out of the inlet is therefore negative while the valve is open.
-        is_aortic = valve.get("name").startswith("aortic")
-        steps.append({"arterial": PASCALS * sum(outlets) / len(outlets) if is_aortic else None, "time": dt * step, "opening": openings[step], "flow": -CUBIC_METRES * flows[step]["inlet"],
-                      "difference": difference, "balance": CUBIC_METRES * sum(flows[step].values()),
+        arterial = PASCALS * sum(outlets) / len(outlets) if valve.get("name").startswith("aortic") else None
+        steps.append({"time": dt * step, "opening": openings[step], "flow": -CUBIC_METRES * flows[step]["inlet"],
+                      "difference": difference, "arterial": arterial, "balance": CUBIC_METRES * sum(flows[step].values()),
                       "fastest": speeds.get(step),
                       "leak": area and -difference / PASCALS * eps * float(area[1]) / resistance * CUBIC_METRES})
     return steps
