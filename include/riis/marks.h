@@ -74,7 +74,7 @@ enum {
  * from the middle of the band, |s - o eps|. Here eps is the half thickness of this resistance (riis_surface_create). */
 typedef struct riis_resistance {
   int64_t struct_size;   /* set by the init function */
-  double R;              /* 0 to 1e60, in mass / (length time), such as kg/(m s). A flat closed valve in a flow of velocity u has
+  double R;              /* 0, or 1e-300 to 1e60: mass / (length time), as kg/(m s). A flat closed valve in a flow of speed u has
                             a pressure drop of (R / eps) u. Default NaN, which is refused */
   double half_thickness; /* eps, at least 1e-50. With the offset o, (1 + |o|) eps is at most the distance limit. Default
                             RIIS_AUTO: the marking's half thickness */

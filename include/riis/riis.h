@@ -13,8 +13,8 @@
  *
  *   riis_valve *valve = NULL; riis_surface *surface = NULL; riis_mesh *mesh = NULL; riis_marks *marks = NULL;
  *   riis_mark_list marked;
- *   riis_valve_create("aortic", &valve);
- *   riis_surface_create(valve, NULL, &surface);
+ *   riis_valve_create("coapting", &valve);
+ *   riis_surface_create(valve, NULL, &surface);               (for a mesh in cm; options.scale is 0.01 for metres)
  *   riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, &mesh);
  *   riis_marks_create(&marks);
  *   riis_mark_nodes(surface, mesh, NULL, marks);                                   (once a time step)
@@ -27,9 +27,9 @@
  * - Ids: values called *_id count from 0, also in messages. If a struct has a field index_base, the ids in this struct count from
  *   that base, 0 (default) or 1. A field id_bits gives the ids' width: 32 (default) or 64.
  * - Points: point i is x[i * stride], y[i * stride], z[i * stride]. Coordinates are finite, of magnitude at most 1e60. The stride
- *   counts numbers, not bytes, and is at least 1. Separate arrays have the stride 1; xyz(3,n) with y = x + 1 and z = x + 2 has
- *   the stride 3. A field real_bits gives the width of the numbers: 64 bits (default) or 32 bits. Without this field the numbers
- *   are doubles. These rules also hold for vectors.
+ *   counts numbers, not bytes, and is at least 1: 1 for separate arrays, and 3 for xyz(3,n) with y = x + 1 and z = x + 2. Calls
+ *   refuse components that overlap. A field real_bits gives the width of the numbers: 64 bits (default) or 32 bits. Without this
+ *   field the numbers are doubles. These rules also hold for vectors.
  * - Order: the first argument is the object that the function is named after. Then come arguments that the call reads,
  *   then options, then arguments that it writes. Functions with `get` in their names return content.
  * - Status: a function that can fail returns a riis_status; 0 is success, and riis_last_error() gives the message of a failure.

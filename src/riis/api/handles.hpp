@@ -3,14 +3,18 @@
 #pragma once
 
 #include <riis/riis.h>
+#include <unistd.h>
 
+#include <array>
 #include <atomic>
 #include <cstdint>
+#include <type_traits>
 #include <utility>
 
 #include "arrays/user_arrays.hpp"
 #include "base/errors.hpp"
 #include "base/recycled.hpp"
+#include "common/array_view.hpp"
 #include "marks/marks.hpp"
 #include "measures/measures.hpp"
 #include "mesh/mesh.hpp"
@@ -38,17 +42,104 @@ enum class HandleKind : std::uint64_t {
   warp = 0x7269697377617270
 };
 
+// The calls that use a handle now. While a call writes a handle, a call of another thread that uses it fails instead of crashing
+// (riis.h, "Threads"). Calls that only read count themselves without waiting, and order nothing between each other.
+class Uses {
+ public:
+  // Returns false if a call of another thread excludes this one.
+  bool begin(bool writes) noexcept {
+    if (!writes) {
+      n_begun_.fetch_add(1);
+      if (is_readable()) return true;
+      n_ended_.fetch_add(1, std::memory_order_relaxed);
+      return false;
+    }
+    if (is_written_.exchange(true)) return is_inherited();
+    const std::uint64_t n_ended = n_ended_.load(std::memory_order_acquire);
+    if (n_begun_.load() == n_ended || is_inherited()) return true;
+    is_written_.store(false, std::memory_order_relaxed);
+    return false;
+  }
+  void end(bool wrote) noexcept {
+    if (wrote)
+      is_written_.store(false, std::memory_order_release);
+    else
+      n_ended_.fetch_add(1, std::memory_order_release);
+  }
+  bool is_readable() const noexcept { return !is_written_.load() || is_inherited(); }
+
+ private:
+  // The calls of another process's threads never end in this child of fork().
+  bool is_inherited() const noexcept { return getpid() != maker_; }
+  const pid_t maker_ = getpid();
+  std::atomic<std::uint64_t> n_begun_{0}, n_ended_{0};  // calls that only read
+  std::atomic<bool> is_written_{false};
+};
+
 template <HandleKind the_kind>
 struct Handle {
   static constexpr HandleKind own_kind = the_kind;
   HandleKind kind = own_kind;
+  mutable Uses uses = {};
 };
 
-// Returns the handle, or fails if it is null or of another kind.
-template <class AnyHandle>
-AnyHandle *require_handle(AnyHandle *handle, const char *argument) {
+// The handles that a call uses until its end. A call may name a handle twice.
+class UsesOfCall {
+ public:
+  UsesOfCall() noexcept : outer_(innermost) { innermost = this; }
+  ~UsesOfCall() {
+    for (int i = 0; i < n_; ++i) view(used_)[i].uses->end(view(used_)[i].writes);
+    innermost = outer_;
+  }
+  UsesOfCall(const UsesOfCall &) = delete;
+  UsesOfCall &operator=(const UsesOfCall &) = delete;
+  static bool add(Uses &uses, bool writes) {
+    UsesOfCall &call = *innermost;
+    for (int i = 0; i < call.n_; ++i)
+      if (view(call.used_)[i].uses == &uses) return true;
+    if (!uses.begin(writes)) return false;
+    view(call.used_)[call.n_++] = {&uses, writes};
+    return true;
+  }
+
+ private:
+  struct Use {
+    Uses *uses;
+    bool writes;
+  };
+  inline static thread_local UsesOfCall *innermost = nullptr;
+  UsesOfCall *outer_;
+  int n_ = 0;
+  std::array<Use, 4> used_{};  // no call takes more handles
+};
+
+namespace handles {
+
+// Runs the body of a public function that takes handles.
+template <class Body>
+riis_status guarded(Body &&body) noexcept {
+  return riis::guarded([&] {
+    const UsesOfCall uses;
+    body();
+  });
+}
+
+}  // namespace handles
+
+// Fails if the handle is null or of another kind, or if `may_use` finds that a call of another thread excludes this one.
+template <class AnyHandle, class MayUse>
+void check_handle(const AnyHandle *handle, const char *argument, const MayUse &may_use) {
   require(handle, argument);
   if (handle->kind != AnyHandle::own_kind) fail(RIIS_INVALID_ARGUMENT, argument, " is a handle of another kind");
+  if (!may_use(handle->uses))
+    fail(RIIS_INVALID_ARGUMENT, argument,
+         " is in use by another thread: while a call writes a handle, no other thread may use it");
+}
+
+// Returns the checked handle for use until the end of the call. A call writes the handles that it does not take as const.
+template <class AnyHandle>
+AnyHandle *require_handle(AnyHandle *handle, const char *argument) {
+  check_handle(handle, argument, [](Uses &uses) { return UsesOfCall::add(uses, !std::is_const_v<AnyHandle>); });
   return handle;
 }
 
@@ -61,12 +152,12 @@ riis_status create_handle(AnyHandle **handle, const char *argument) noexcept {
   });
 }
 
-// The body of a destroy function. A handle of another kind is not destroyed: losing its memory is better than freeing it as the
-// wrong type.
+// The body of a destroy function. A handle of another kind, or in use by another thread, is not destroyed: losing its memory is
+// better than freeing it as the wrong type or too early.
 template <class AnyHandle>
 void destroy_handle(AnyHandle **handle, const char *argument) noexcept {
   if (!handle || !*handle) return;
-  if (guarded([&] { require_handle(*handle, argument); }) != RIIS_OK) return;
+  if (handles::guarded([&] { require_handle(*handle, argument); }) != RIIS_OK) return;
   delete *handle;
   *handle = nullptr;
 }
@@ -137,6 +228,12 @@ namespace riis {
 
 inline const Surface &content_of(const riis_surface *surface) {
   return require_handle(surface, "surface")->updatable.surface();
+}
+
+// Does the same for a call that is too short to be counted: many threads would wait for the count.
+inline const Surface &content_for_one_query(const riis_surface *surface) {
+  check_handle(surface, "surface", [](const Uses &uses) { return uses.is_readable(); });
+  return surface->updatable.surface();
 }
 
 }  // namespace riis
