@@ -48,8 +48,8 @@
  * - Structs that a call reads begin with struct_size. The init function of a struct sets struct_size and the defaults, and sets
  *   all other fields to 0 or NULL. A NULL options pointer means all defaults. New fields are appended, or replace `reserved`,
  *   which must be 0.
- * - Threads: any number of threads may read a handle (const) at once. One thread may write a handle while no other thread reads
- *   it. Different handles never interfere. Results are bitwise the same for any number of threads.
+ * - Threads: any number of threads may read a handle (const) at once. While a thread writes a handle, no other thread may use it,
+ *   and most calls that try are refused. Different handles never interfere. Results have the same bits for any number of threads.
  * - n_threads: 1 to 1024, or 0, the default. By default a call takes one thread, and one more for each 4096 triangles, 16,384
  *   nodes, cells or faces, or 2048 points. The triangles are those of a surface's last content. The default never exceeds the
  *   number of processors in the calling thread's affinity mask. Parts of a call with little work take one thread by default. With

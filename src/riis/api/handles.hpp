@@ -14,7 +14,6 @@
 #include "arrays/user_arrays.hpp"
 #include "base/errors.hpp"
 #include "base/recycled.hpp"
-#include "common/array_view.hpp"
 #include "marks/marks.hpp"
 #include "measures/measures.hpp"
 #include "mesh/mesh.hpp"
@@ -48,17 +47,11 @@ class Uses {
  public:
   // Returns false if a call of another thread excludes this one.
   bool begin(bool writes) noexcept {
-    if (!writes) {
-      n_begun_.fetch_add(1);
-      if (is_readable()) return true;
-      n_ended_.fetch_add(1, std::memory_order_relaxed);
-      return false;
-    }
-    if (is_written_.exchange(true)) return is_inherited();
-    const std::uint64_t n_ended = n_ended_.load(std::memory_order_acquire);
-    if (n_begun_.load() == n_ended || is_inherited()) return true;
-    is_written_.store(false, std::memory_order_relaxed);
-    return false;
+    if (writes && is_written_.exchange(true)) return is_inherited();
+    if (!writes) n_begun_.fetch_add(1);
+    const bool is_free = writes ? is_unread() : is_readable();
+    if (!is_free) end(writes);
+    return is_free;
   }
   void end(bool wrote) noexcept {
     if (wrote)
@@ -71,6 +64,10 @@ class Uses {
  private:
   // The calls of another process's threads never end in this child of fork().
   bool is_inherited() const noexcept { return getpid() != maker_; }
+  bool is_unread() const noexcept {
+    const std::uint64_t n_ended = n_ended_.load(std::memory_order_acquire);
+    return n_begun_.load() == n_ended || is_inherited();
+  }
   const pid_t maker_ = getpid();
   std::atomic<std::uint64_t> n_begun_{0}, n_ended_{0};  // calls that only read
   std::atomic<bool> is_written_{false};
@@ -83,39 +80,36 @@ struct Handle {
   mutable Uses uses = {};
 };
 
-// The handles that a call uses until its end. A call may name a handle twice.
+// The handles that a call uses until its end, each with whether the call writes it. A call may name a handle twice.
 class UsesOfCall {
  public:
   UsesOfCall() noexcept : outer_(innermost) { innermost = this; }
   ~UsesOfCall() {
-    for (int i = 0; i < n_; ++i) view(used_)[i].uses->end(view(used_)[i].writes);
+    for (const auto &[uses, writes] : used_)
+      if (uses) uses->end(writes);
     innermost = outer_;
   }
   UsesOfCall(const UsesOfCall &) = delete;
   UsesOfCall &operator=(const UsesOfCall &) = delete;
   static bool add(Uses &uses, bool writes) {
-    UsesOfCall &call = *innermost;
-    for (int i = 0; i < call.n_; ++i)
-      if (view(call.used_)[i].uses == &uses) return true;
-    if (!uses.begin(writes)) return false;
-    view(call.used_)[call.n_++] = {&uses, writes};
-    return true;
+    for (auto &[used, is_written] : innermost->used_) {
+      if (used == &uses) return true;
+      if (used) continue;
+      if (!uses.begin(writes)) return false;
+      used = &uses, is_written = writes;
+      return true;
+    }
+    fail(RIIS_INTERNAL_ERROR, "a call takes more handles than can be counted");
   }
 
  private:
-  struct Use {
-    Uses *uses;
-    bool writes;
-  };
   inline static thread_local UsesOfCall *innermost = nullptr;
   UsesOfCall *outer_;
-  int n_ = 0;
-  std::array<Use, 4> used_{};  // no call takes more handles
+  std::array<std::pair<Uses *, bool>, 4> used_{};
 };
 
-namespace handles {
-
 // Runs the body of a public function that takes handles.
+namespace handles {
 template <class Body>
 riis_status guarded(Body &&body) noexcept {
   return riis::guarded([&] {
@@ -123,23 +117,17 @@ riis_status guarded(Body &&body) noexcept {
     body();
   });
 }
-
 }  // namespace handles
 
-// Fails if the handle is null or of another kind, or if `may_use` finds that a call of another thread excludes this one.
-template <class AnyHandle, class MayUse>
-void check_handle(const AnyHandle *handle, const char *argument, const MayUse &may_use) {
+// Returns the handle, or fails if it is null or of another kind, or if a call of another thread excludes this one. A call writes
+// the handles that it does not take as const. A call that is short is not counted, because many threads would wait for the count.
+template <class AnyHandle>
+AnyHandle *require_handle(AnyHandle *handle, const char *argument, bool is_counted = true) {
   require(handle, argument);
   if (handle->kind != AnyHandle::own_kind) fail(RIIS_INVALID_ARGUMENT, argument, " is a handle of another kind");
-  if (!may_use(handle->uses))
+  if (is_counted ? !UsesOfCall::add(handle->uses, !std::is_const_v<AnyHandle>) : !handle->uses.is_readable())
     fail(RIIS_INVALID_ARGUMENT, argument,
          " is in use by another thread: while a call writes a handle, no other thread may use it");
-}
-
-// Returns the checked handle for use until the end of the call. A call writes the handles that it does not take as const.
-template <class AnyHandle>
-AnyHandle *require_handle(AnyHandle *handle, const char *argument) {
-  check_handle(handle, argument, [](Uses &uses) { return UsesOfCall::add(uses, !std::is_const_v<AnyHandle>); });
   return handle;
 }
 
@@ -226,14 +214,8 @@ struct riis_crossings : riis::Handle<riis::HandleKind::crossings> {
 
 namespace riis {
 
-inline const Surface &content_of(const riis_surface *surface) {
-  return require_handle(surface, "surface")->updatable.surface();
-}
-
-// Does the same for a call that is too short to be counted: many threads would wait for the count.
-inline const Surface &content_for_one_query(const riis_surface *surface) {
-  check_handle(surface, "surface", [](const Uses &uses) { return uses.is_readable(); });
-  return surface->updatable.surface();
+inline const Surface &content_of(const riis_surface *surface, bool is_counted = true) {
+  return require_handle(surface, "surface", is_counted)->updatable.surface();
 }
 
 }  // namespace riis
