@@ -126,7 +126,7 @@ AnyHandle *require_handle(AnyHandle *handle, const char *argument, bool is_count
   require(handle, argument);
   if (handle->kind != AnyHandle::own_kind) fail(RIIS_INVALID_ARGUMENT, argument, " is a handle of another kind");
   if (is_counted ? !UsesOfCall::add(handle->uses, !std::is_const_v<AnyHandle>) : !handle->uses.is_readable())
-    fail(RIIS_INVALID_ARGUMENT, argument,
+    fail(RIIS_UNAVAILABLE, argument,
          " is in use by another thread: while a call writes a handle, no other thread may use it");
   return handle;
 }
