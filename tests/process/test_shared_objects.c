@@ -185,8 +185,7 @@ static void use_what_is_updated(const shared_objects *of) {
   riis_closest closest;
   riis_surface *surface = of->surface, *other = NULL;
   riis_surface_info info;
-#define IS_HELD(name, call) \
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, name " is in use by another thread: while a call", call)
+#define IS_HELD(name, call) CHECK_REFUSED(RIIS_UNAVAILABLE, name " is in use by another thread: while a call", call)
   IS_HELD("surface", riis_surface_update(surface, of->valve, NULL));
   IS_HELD("surface", riis_mark_nodes(surface, of->mesh, NULL, shared_marks));
   IS_HELD("surface", riis_closest_point(surface, origin, &closest, sizeof closest));
