@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Marks the nodes of a box that are near the default aortic valve. Lengths are in cm, like the valve's default parameters. */
+ * Marks the nodes of a box that are near the default coapting valve. Lengths are in cm, like the valve's default parameters. */
 #include <riis/riis.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -29,7 +29,7 @@ int main(void) {
   riis_mesh *mesh = NULL;
   riis_marks *marks = NULL;
 
-  check(riis_valve_create("aortic", &valve));
+  check(riis_valve_create("coapting", &valve));
   check(riis_surface_create(valve, NULL, &surface)); /* half thickness 0.1 cm, tolerance 5 % of the half thickness */
   check(riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, &mesh));
   check(riis_marks_create(&marks));

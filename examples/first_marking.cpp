@@ -24,7 +24,7 @@ int main() try {
   riis::Surface surface;
   riis::Mesh mesh;
   riis::Marks marks;
-  riis::check(riis_valve_create("aortic", valve.out()));
+  riis::check(riis_valve_create("coapting", valve.out()));
   // Half thickness 0.1 cm, tolerance 5 % of the half thickness.
   riis::check(riis_surface_create(valve, nullptr, surface.out()));
   riis::check(riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, mesh.out()));

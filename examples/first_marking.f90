@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: Apache-2.0
-! Marks the nodes of a box that are near the default aortic valve. Lengths are in cm, like the valve's default parameters.
+! Marks the nodes of a box that are near the default coapting valve. Lengths are in cm, like the valve's default parameters.
 program first_marking
   use riis
   implicit none
@@ -19,7 +19,7 @@ program first_marking
   end do
 
   ! Without a status argument an error stops the program with a message.
-  call valve%create('aortic')
+  call valve%create('coapting')
   call surface%create(valve) ! half thickness 0.1 cm, tolerance 5 % of the half thickness
   call mesh%create(xyz)
   call riis_mark_nodes(surface, mesh, result) ! repeated in every time step

@@ -3,10 +3,13 @@ C     A code in the style of Fortran 77 on the ranks of MPI. Each rank
 C     has some planes of a structured grid, with its velocity in three
 C     arrays. The aortic valve opens, and each rank gets K, K u_surface
 C     and its share of the force on the valve. Rank 0 compares the sums
-C     of all ranks with those of the whole grid. Lengths are in cm.
+C     of all ranks with those of the whole grid. Lengths are in cm. USE
+C     RIISF lets the compiler check all arguments. Without modules, omit
+C     this line. The constants are in riisf.h.
 C       mpifort mpi_fixed_form.f $(pkg-config --cflags --libs \
 C         riis-fortran) && mpirun -n 4 ./a.out
       PROGRAM PLANES
+      USE RIISF
       IMPLICIT NONE
       INCLUDE 'mpif.h'
       INCLUDE 'riisf.h'
@@ -69,6 +72,7 @@ C         The order of a sum changes its last digits.
 C     Marks the planes FIRST to LAST of the grid. Gives the number of
 C     marked nodes, the sums of K and K u_surface, and the force.
       SUBROUTINE SUMSOF(SURF, FIRST, LAST, SUMS)
+      USE RIISF
       IMPLICIT NONE
       INCLUDE 'riisf.h'
       INTEGER N, FIRST, LAST, NK, NN, NMARKD, STAT, I, J, K
@@ -142,6 +146,7 @@ C     Then the force uses the new velocity.
 
 C     Stops all ranks after an error.
       SUBROUTINE CHECK(STAT)
+      USE RIISF
       IMPLICIT NONE
       INCLUDE 'mpif.h'
       INTEGER STAT, IERR

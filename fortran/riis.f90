@@ -10,8 +10,8 @@
 !!     integer, allocatable :: node_num(:)
 !!     real(8), allocatable :: distance(:)
 !!
-!!     call valve%create('aortic')
-!!     call surface%create(valve)                        ! half thickness 0.1 cm, tolerance 5 % of it
+!!     call valve%create('coapting')
+!!     call surface%create(valve, scale=0.01d0)          ! a mesh in metres: half thickness 0.001 m, tolerance 5 % of it
 !!     call mesh%create(xyz)                             ! real(8) :: xyz(3, n_nodes), borrowed
 !!     call riis_mark_nodes(surface, mesh, result)       ! once a time step
 !!     call result%marked_nodes(node_num, distance)      ! xyz(:, node_num(i)) is distance(i) away

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// ./run bench ranks: measures the cost of a time step on each rank of a partitioned mesh, for the table of docs/solvers.md. METIS
-// cuts a mesh of a million nodes into 2 to 64 parts. The steps of the ranks run here one after the other, on one thread. Adapted
-// and fixed triangulations take turns. The marks of all parts together must equal the marks of the whole mesh, bit for bit.
-// Otherwise the program ends with status 1.
+// ./run bench ranks: measures the cost of a time step on each rank of a partitioned mesh, for the table of docs/performance.md.
+// METIS cuts a mesh of a million nodes into 2 to 64 parts. The steps of the ranks run here one after the other, on one thread.
+// Adapted and fixed triangulations take turns. The marks of all parts together must equal the marks of the whole mesh, bit for
+// bit. Otherwise the program ends with status 1.
 //   argv[1]  thousands of nodes instead of a million, for a quick look
 #include <metis.h>
 #include <riis/riis.h>

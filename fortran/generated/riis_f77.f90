@@ -3425,9 +3425,9 @@ subroutine riisf_mark_with_resistance(surface, mesh, distance_limit, search, n_t
   integer(int32), intent(in) :: search                    !< RIIS_SEARCH_*, usually RIIS_SEARCH_AUTO.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int32), intent(in) :: fields                    !< A sum of RIIS_FIELD_*, for the nodes of riis_mark_list. Usually 0.
-  real(c_double), intent(in) :: R                         !< The resistance, 0 to 1e60, in mass / (length time), such as kg/(m
-                                                          !! s). A flat closed valve in a flow of velocity u has a pressure
-                                                          !! drop of (R / eps) u.
+  real(c_double), intent(in) :: R                         !< The resistance, 0 or 1e-300 to 1e60, in mass / (length time), such
+                                                          !! as kg/(m s). A flat closed valve in a flow of velocity u has a
+                                                          !! pressure drop of (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit; RIIS_AUTO: the half thickness.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_*, usually RIIS_RIM_ROUND.
   integer(int64), intent(inout) :: marks                  !< 0, which creates them, or from an earlier call.
@@ -3633,9 +3633,9 @@ subroutine riisf_add_resistance(marks, R, half_thickness, rim, n_nodes, K, statu
       riis_resistance_arrays_init, riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
-  real(c_double), intent(in) :: R                         !< The resistance, 0 to 1e60, in mass / (length time), such as kg/(m
-                                                          !! s). A flat closed valve in a flow of velocity u has a pressure
-                                                          !! drop of (R / eps) u.
+  real(c_double), intent(in) :: R                         !< The resistance, 0 or 1e-300 to 1e60, in mass / (length time), such
+                                                          !! as kg/(m s). A flat closed valve in a flow of velocity u has a
+                                                          !! pressure drop of (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -3664,9 +3664,9 @@ subroutine riisf_add_resistance_64(marks, R, half_thickness, rim, n_nodes, K, st
       riis_resistance_arrays_init, riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
-  real(c_double), intent(in) :: R                         !< The resistance, 0 to 1e60, in mass / (length time), such as kg/(m
-                                                          !! s). A flat closed valve in a flow of velocity u has a pressure
-                                                          !! drop of (R / eps) u.
+  real(c_double), intent(in) :: R                         !< The resistance, 0 or 1e-300 to 1e60, in mass / (length time), such
+                                                          !! as kg/(m s). A flat closed valve in a flow of velocity u has a
+                                                          !! pressure drop of (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -3696,9 +3696,9 @@ subroutine riisf_add_moving_resistance(marks, R, half_thickness, rim, n_nodes, K
       riis_resistance_arrays_init, riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_VELOCITY.
-  real(c_double), intent(in) :: R                         !< The resistance, 0 to 1e60, in mass / (length time), such as kg/(m
-                                                          !! s). A flat closed valve in a flow of velocity u has a pressure
-                                                          !! drop of (R / eps) u.
+  real(c_double), intent(in) :: R                         !< The resistance, 0 or 1e-300 to 1e60, in mass / (length time), such
+                                                          !! as kg/(m s). A flat closed valve in a flow of velocity u has a
+                                                          !! pressure drop of (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -3732,9 +3732,9 @@ subroutine riisf_add_moving_resistance_64(marks, R, half_thickness, rim, n_nodes
       riis_resistance_arrays_init, riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_VELOCITY.
-  real(c_double), intent(in) :: R                         !< The resistance, 0 to 1e60, in mass / (length time), such as kg/(m
-                                                          !! s). A flat closed valve in a flow of velocity u has a pressure
-                                                          !! drop of (R / eps) u.
+  real(c_double), intent(in) :: R                         !< The resistance, 0 or 1e-300 to 1e60, in mass / (length time), such
+                                                          !! as kg/(m s). A flat closed valve in a flow of velocity u has a
+                                                          !! pressure drop of (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -3769,9 +3769,9 @@ subroutine riisf_add_resistance_components(marks, R, half_thickness, rim, n_node
       riis_resistance_arrays_init, riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_VELOCITY.
-  real(c_double), intent(in) :: R                         !< The resistance, 0 to 1e60, in mass / (length time), such as kg/(m
-                                                          !! s). A flat closed valve in a flow of velocity u has a pressure
-                                                          !! drop of (R / eps) u.
+  real(c_double), intent(in) :: R                         !< The resistance, 0 or 1e-300 to 1e60, in mass / (length time), such
+                                                          !! as kg/(m s). A flat closed valve in a flow of velocity u has a
+                                                          !! pressure drop of (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -3807,9 +3807,9 @@ subroutine riisf_add_resistance_components_64(marks, R, half_thickness, rim, n_n
       riis_resistance_arrays_init, riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_VELOCITY.
-  real(c_double), intent(in) :: R                         !< The resistance, 0 to 1e60, in mass / (length time), such as kg/(m
-                                                          !! s). A flat closed valve in a flow of velocity u has a pressure
-                                                          !! drop of (R / eps) u.
+  real(c_double), intent(in) :: R                         !< The resistance, 0 or 1e-300 to 1e60, in mass / (length time), such
+                                                          !! as kg/(m s). A flat closed valve in a flow of velocity u has a
+                                                          !! pressure drop of (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -3848,9 +3848,9 @@ subroutine riisf_add_reaction(marks, R, half_thickness, rim, n_nodes, velocity, 
       riis_reaction_init, riis_resistance, riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes or riisf_mark_with_fields.
-  real(c_double), intent(in) :: R                         !< The resistance, 0 to 1e60, in mass / (length time), such as kg/(m
-                                                          !! s). A flat closed valve in a flow of velocity u has a pressure
-                                                          !! drop of (R / eps) u.
+  real(c_double), intent(in) :: R                         !< The resistance, 0 or 1e-300 to 1e60, in mass / (length time), such
+                                                          !! as kg/(m s). A flat closed valve in a flow of velocity u has a
+                                                          !! pressure drop of (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -3889,9 +3889,9 @@ subroutine riisf_add_reaction_64(marks, R, half_thickness, rim, n_nodes, velocit
       riis_reaction_init, riis_resistance, riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes or riisf_mark_with_fields.
-  real(c_double), intent(in) :: R                         !< The resistance, 0 to 1e60, in mass / (length time), such as kg/(m
-                                                          !! s). A flat closed valve in a flow of velocity u has a pressure
-                                                          !! drop of (R / eps) u.
+  real(c_double), intent(in) :: R                         !< The resistance, 0 or 1e-300 to 1e60, in mass / (length time), such
+                                                          !! as kg/(m s). A flat closed valve in a flow of velocity u has a
+                                                          !! pressure drop of (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -3933,9 +3933,9 @@ subroutine riisf_add_reaction_components(marks, R, half_thickness, rim, n_nodes,
       riis_reaction_init, riis_resistance, riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes or riisf_mark_with_fields.
-  real(c_double), intent(in) :: R                         !< The resistance, 0 to 1e60, in mass / (length time), such as kg/(m
-                                                          !! s). A flat closed valve in a flow of velocity u has a pressure
-                                                          !! drop of (R / eps) u.
+  real(c_double), intent(in) :: R                         !< The resistance, 0 or 1e-300 to 1e60, in mass / (length time), such
+                                                          !! as kg/(m s). A flat closed valve in a flow of velocity u has a
+                                                          !! pressure drop of (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -3976,9 +3976,9 @@ subroutine riisf_add_reaction_components_64(marks, R, half_thickness, rim, n_nod
       riis_reaction_init, riis_resistance, riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes or riisf_mark_with_fields.
-  real(c_double), intent(in) :: R                         !< The resistance, 0 to 1e60, in mass / (length time), such as kg/(m
-                                                          !! s). A flat closed valve in a flow of velocity u has a pressure
-                                                          !! drop of (R / eps) u.
+  real(c_double), intent(in) :: R                         !< The resistance, 0 or 1e-300 to 1e60, in mass / (length time), such
+                                                          !! as kg/(m s). A flat closed valve in a flow of velocity u has a
+                                                          !! pressure drop of (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -4023,9 +4023,9 @@ subroutine riisf_add_leaflet_reaction(marks, R, half_thickness, rim, n_nodes, ve
       riis_reaction_init, riis_resistance, riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_POINT.
-  real(c_double), intent(in) :: R                         !< The resistance, 0 to 1e60, in mass / (length time), such as kg/(m
-                                                          !! s). A flat closed valve in a flow of velocity u has a pressure
-                                                          !! drop of (R / eps) u.
+  real(c_double), intent(in) :: R                         !< The resistance, 0 or 1e-300 to 1e60, in mass / (length time), such
+                                                          !! as kg/(m s). A flat closed valve in a flow of velocity u has a
+                                                          !! pressure drop of (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -4078,9 +4078,9 @@ subroutine riisf_add_leaflet_reaction_64(marks, R, half_thickness, rim, n_nodes,
       riis_reaction_init, riis_resistance, riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_POINT.
-  real(c_double), intent(in) :: R                         !< The resistance, 0 to 1e60, in mass / (length time), such as kg/(m
-                                                          !! s). A flat closed valve in a flow of velocity u has a pressure
-                                                          !! drop of (R / eps) u.
+  real(c_double), intent(in) :: R                         !< The resistance, 0 or 1e-300 to 1e60, in mass / (length time), such
+                                                          !! as kg/(m s). A flat closed valve in a flow of velocity u has a
+                                                          !! pressure drop of (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -4136,9 +4136,9 @@ subroutine riisf_add_leaflet_reaction_components(marks, R, half_thickness, rim, 
       riis_reaction_init, riis_resistance, riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_POINT.
-  real(c_double), intent(in) :: R                         !< The resistance, 0 to 1e60, in mass / (length time), such as kg/(m
-                                                          !! s). A flat closed valve in a flow of velocity u has a pressure
-                                                          !! drop of (R / eps) u.
+  real(c_double), intent(in) :: R                         !< The resistance, 0 or 1e-300 to 1e60, in mass / (length time), such
+                                                          !! as kg/(m s). A flat closed valve in a flow of velocity u has a
+                                                          !! pressure drop of (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -4193,9 +4193,9 @@ subroutine riisf_add_leaflet_reaction_components_64(marks, R, half_thickness, ri
       riis_reaction_init, riis_resistance, riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_POINT.
-  real(c_double), intent(in) :: R                         !< The resistance, 0 to 1e60, in mass / (length time), such as kg/(m
-                                                          !! s). A flat closed valve in a flow of velocity u has a pressure
-                                                          !! drop of (R / eps) u.
+  real(c_double), intent(in) :: R                         !< The resistance, 0 or 1e-300 to 1e60, in mass / (length time), such
+                                                          !! as kg/(m s). A flat closed valve in a flow of velocity u has a
+                                                          !! pressure drop of (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -4254,9 +4254,9 @@ subroutine riisf_add_edge_reaction(marks, R, half_thickness, rim, n_nodes, veloc
       riis_reaction_init, riis_resistance, riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_POINT.
-  real(c_double), intent(in) :: R                         !< The resistance, 0 to 1e60, in mass / (length time), such as kg/(m
-                                                          !! s). A flat closed valve in a flow of velocity u has a pressure
-                                                          !! drop of (R / eps) u.
+  real(c_double), intent(in) :: R                         !< The resistance, 0 or 1e-300 to 1e60, in mass / (length time), such
+                                                          !! as kg/(m s). A flat closed valve in a flow of velocity u has a
+                                                          !! pressure drop of (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -4310,9 +4310,9 @@ subroutine riisf_add_edge_reaction_64(marks, R, half_thickness, rim, n_nodes, ve
       riis_reaction_init, riis_resistance, riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_POINT.
-  real(c_double), intent(in) :: R                         !< The resistance, 0 to 1e60, in mass / (length time), such as kg/(m
-                                                          !! s). A flat closed valve in a flow of velocity u has a pressure
-                                                          !! drop of (R / eps) u.
+  real(c_double), intent(in) :: R                         !< The resistance, 0 or 1e-300 to 1e60, in mass / (length time), such
+                                                          !! as kg/(m s). A flat closed valve in a flow of velocity u has a
+                                                          !! pressure drop of (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -4370,9 +4370,9 @@ subroutine riisf_add_edge_reaction_components(marks, R, half_thickness, rim, n_n
       riis_reaction_init, riis_resistance, riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_POINT.
-  real(c_double), intent(in) :: R                         !< The resistance, 0 to 1e60, in mass / (length time), such as kg/(m
-                                                          !! s). A flat closed valve in a flow of velocity u has a pressure
-                                                          !! drop of (R / eps) u.
+  real(c_double), intent(in) :: R                         !< The resistance, 0 or 1e-300 to 1e60, in mass / (length time), such
+                                                          !! as kg/(m s). A flat closed valve in a flow of velocity u has a
+                                                          !! pressure drop of (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -4428,9 +4428,9 @@ subroutine riisf_add_edge_reaction_components_64(marks, R, half_thickness, rim, 
       riis_reaction_init, riis_resistance, riis_resistance_init, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_POINT.
-  real(c_double), intent(in) :: R                         !< The resistance, 0 to 1e60, in mass / (length time), such as kg/(m
-                                                          !! s). A flat closed valve in a flow of velocity u has a pressure
-                                                          !! drop of (R / eps) u.
+  real(c_double), intent(in) :: R                         !< The resistance, 0 or 1e-300 to 1e60, in mass / (length time), such
+                                                          !! as kg/(m s). A flat closed valve in a flow of velocity u has a
+                                                          !! pressure drop of (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -4490,9 +4490,9 @@ subroutine riisf_add_vertex_reaction(marks, surface, R, half_thickness, rim, n_n
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_BARYCENTRIC.
   integer(int64), intent(in) :: surface                   !< The surface of the marking. The surface must not have been updated
                                                           !! since the marking.
-  real(c_double), intent(in) :: R                         !< The resistance, 0 to 1e60, in mass / (length time), such as kg/(m
-                                                          !! s). A flat closed valve in a flow of velocity u has a pressure
-                                                          !! drop of (R / eps) u.
+  real(c_double), intent(in) :: R                         !< The resistance, 0 or 1e-300 to 1e60, in mass / (length time), such
+                                                          !! as kg/(m s). A flat closed valve in a flow of velocity u has a
+                                                          !! pressure drop of (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -4535,9 +4535,9 @@ subroutine riisf_add_vertex_reaction_64(marks, surface, R, half_thickness, rim, 
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_BARYCENTRIC.
   integer(int64), intent(in) :: surface                   !< The surface of the marking. The surface must not have been updated
                                                           !! since the marking.
-  real(c_double), intent(in) :: R                         !< The resistance, 0 to 1e60, in mass / (length time), such as kg/(m
-                                                          !! s). A flat closed valve in a flow of velocity u has a pressure
-                                                          !! drop of (R / eps) u.
+  real(c_double), intent(in) :: R                         !< The resistance, 0 or 1e-300 to 1e60, in mass / (length time), such
+                                                          !! as kg/(m s). A flat closed valve in a flow of velocity u has a
+                                                          !! pressure drop of (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -4582,9 +4582,9 @@ subroutine riisf_add_vertex_reaction_components(marks, surface, R, half_thicknes
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_BARYCENTRIC.
   integer(int64), intent(in) :: surface                   !< The surface of the marking. The surface must not have been updated
                                                           !! since the marking.
-  real(c_double), intent(in) :: R                         !< The resistance, 0 to 1e60, in mass / (length time), such as kg/(m
-                                                          !! s). A flat closed valve in a flow of velocity u has a pressure
-                                                          !! drop of (R / eps) u.
+  real(c_double), intent(in) :: R                         !< The resistance, 0 or 1e-300 to 1e60, in mass / (length time), such
+                                                          !! as kg/(m s). A flat closed valve in a flow of velocity u has a
+                                                          !! pressure drop of (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -4629,9 +4629,9 @@ subroutine riisf_add_vertex_reaction_components_64(marks, surface, R, half_thick
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_BARYCENTRIC.
   integer(int64), intent(in) :: surface                   !< The surface of the marking. The surface must not have been updated
                                                           !! since the marking.
-  real(c_double), intent(in) :: R                         !< The resistance, 0 to 1e60, in mass / (length time), such as kg/(m
-                                                          !! s). A flat closed valve in a flow of velocity u has a pressure
-                                                          !! drop of (R / eps) u.
+  real(c_double), intent(in) :: R                         !< The resistance, 0 or 1e-300 to 1e60, in mass / (length time), such
+                                                          !! as kg/(m s). A flat closed valve in a flow of velocity u has a
+                                                          !! pressure drop of (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.

@@ -2,7 +2,8 @@
 ! Written by fortran/bindings/generate.py from riis.h and from the files in that folder; run ./run bindings to repeat it.
 !> The explicit interfaces of the external subroutines riisf_*, for codes that call these and can use modules. With
 !! `use riisf` a compiler refuses a wrong kind, such as REAL where REAL*8 is due, and a wrong number of arguments. The
-!! subroutines are the same without `use riisf`. Their documentation is in riis_f77.f90.
+!! subroutines are the same without `use riisf`. Their documentation is in riis_f77.f90. The module has no constants, so
+!! the caller also includes riisf.h.
 module riisf
   implicit none
   private

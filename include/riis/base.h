@@ -34,7 +34,7 @@ enum {
   RIIS_LIMIT_EXCEEDED = 6,      /* the request is valid but too large for the library */
   RIIS_OUT_OF_MEMORY = 7,       /* memory ran out; nothing changed */
   RIIS_FILE_ERROR = 8,          /* a file cannot be read or written, or has other content (riis_vtk.h) */
-  RIIS_UNAVAILABLE = 9,         /* something outside the library is missing: threads after a fork(), a display */
+  RIIS_UNAVAILABLE = 9,         /* something is missing now: threads after a fork(), a display, a handle in use by a thread */
   RIIS_INTERNAL_ERROR = -1      /* an error in riis or in a library that it uses */
 };
 

@@ -74,8 +74,8 @@ enum {
  * distance from the middle of the band. Here eps is the half thickness of this resistance (riis_surface_create). */
 typedef struct riis_resistance {
   int64_t struct_size;   /* set by the init function */
-  double R;              /* the resistance, 0 to 1e60, in mass / (length time), such as kg/(m s). A flat closed valve in a flow of
-                            velocity u has a pressure drop of (R / eps) u. Default NaN, which is refused */
+  double R;              /* the resistance, 0 or 1e-300 to 1e60, in mass / (length time), such as kg/(m s). A flat closed valve in
+                            a flow of velocity u has a pressure drop of (R / eps) u. Default NaN, which is refused */
   double half_thickness; /* eps, at least 1e-50. If the surface has an offset o, (1 + |o|) eps must be at most the distance limit.
                             Default RIIS_AUTO: the marking's half thickness */
   int32_t rim;           /* RIIS_RIM_*, default RIIS_RIM_ROUND */

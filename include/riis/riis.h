@@ -13,8 +13,8 @@
  *
  *   riis_valve *valve = NULL; riis_surface *surface = NULL; riis_mesh *mesh = NULL; riis_marks *marks = NULL;
  *   riis_mark_list marked;
- *   riis_valve_create("aortic", &valve);
- *   riis_surface_create(valve, NULL, &surface);
+ *   riis_valve_create("coapting", &valve);
+ *   riis_surface_create(valve, NULL, &surface);               (for a mesh in cm; options.scale is 0.01 for metres)
  *   riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, &mesh);
  *   riis_marks_create(&marks);
  *   riis_mark_nodes(surface, mesh, NULL, marks);                                   (once a time step)
@@ -28,8 +28,8 @@
  *   struct count from that base, 0 (default) or 1. A field id_bits gives the ids' width: 32 (default) or 64.
  * - Points: point i is x[i * stride], y[i * stride], z[i * stride]. Coordinates are finite, of magnitude at most 1e60. The stride
  *   counts numbers, not bytes, and is at least 1. Separate arrays have the stride 1. An array xyz(3,n) has the stride 3, with y =
- *   x + 1 and z = x + 2. A field real_bits gives the width of the numbers: 64 bits (default) or 32 bits. Without this field the
- *   numbers are doubles. These rules also hold for vectors.
+ *   x + 1 and z = x + 2. Calls refuse components that overlap. A field real_bits gives the width of the numbers: 64 (default) or
+ *   32 bits. Without this field the numbers are doubles. These rules also hold for vectors.
  * - Order: the first argument is the object after which the function is named. The other arguments follow in this order: what the
  *   call reads, options, what the call writes. Functions with `get` in their names return the content of an object.
  * - Status: a function that can fail returns a riis_status; 0 is success, and riis_last_error() gives the message of a failure.
@@ -48,8 +48,9 @@
  * - Structs that a call reads begin with struct_size. The init function of a struct sets struct_size and the defaults, and sets
  *   all other fields to 0 or NULL. A NULL options pointer means all defaults. New fields are appended to a struct, or replace its
  *   field `reserved`, which must be 0.
- * - Threads: any number of threads may read a handle (const) at once. One thread may write a handle while no other thread reads
- *   it. Different handles never interfere. Results are bitwise the same for any number of threads.
+ * - Threads: any number of threads may read a handle (const) at once. While a thread writes a handle, no other thread may use
+ *   it, and most calls that try are refused. Different handles never interfere. Results are bitwise the same for any number of
+ *   threads.
  * - n_threads: 1 to 1024, or 0, the default. By default a call takes one thread, and one more for each 4096 triangles of the
  *   surface, 16,384 nodes, cells or faces, or 2048 points. For an update, the triangles before the update count. The default
  *   never exceeds the number of processors in the calling thread's affinity mask. By default, parts of a call with little work

@@ -246,6 +246,9 @@ C     Makes other meshes. One node moves in place.
       CALL RIISF_MESH_DESTROY(MESH2)
       CALL RIISF_MESH_CREATE(-1, X, Y, Z, 1, MESH2, STAT)
       CALL WANT(STAT, RIIS_INVALID_MESH, 'n_nodes is -1')
+C     X begins like XYZ(3,N), whose stride is 3.
+      CALL RIISF_MESH_CREATE(NN / 3, X, X(2), X(3), 1, MESH2, STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'xyz(3,n) have the stride')
       CALL RIISF_MESH_CREATE(0, X, Y, Z, 1, MESH2, STAT)
       CALL OK(STAT)
       CALL RIISF_MARK_NODES(SURF, MESH2, RIIS_AUTO, RIIS_SEARCH_AUTO, 1,
@@ -902,6 +905,9 @@ C     Tests K, K u, and the reaction to a flow upwards with speed 6.
       CALL RIISF_ADD_RESISTANCE(RES, -3D0, RIIS_AUTO, RIIS_RIM_ROUND,
      &  NN, K, STAT)
       CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'R is -3')
+      CALL RIISF_ADD_RESISTANCE(RES, 1D-301, RIIS_AUTO, RIIS_RIM_ROUND,
+     &  NN, K, STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'Is it a REAL*4')
       CALL RIISF_MARK_WITH_FIELDS(SURF, MESH, RIIS_AUTO,
      &  RIIS_SEARCH_AUTO, 1, RIIS_FIELD_SIDE, RES, STAT)
       CALL OK(STAT)

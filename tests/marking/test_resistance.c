@@ -478,6 +478,8 @@ TEST(refusals_leave_the_arrays) {
   CHANGED_IS_REFUSED(R = -1, "resistance.R is -1;");
   CHANGED_IS_REFUSED(R = -1e-300, "resistance.R is -1e-300;");
   CHANGED_IS_REFUSED(R = INFINITY, "resistance.R is inf;");
+  CHANGED_IS_REFUSED(R = 0x1p-1050, "resistance.R is 8.289046e-317; it must be 0, or from 1e-300|a REAL*4 or a float?");
+  CHANGED_IS_REFUSED(R = 0.99e-300, "resistance.R is 9.9e-301;");
   CHANGED_IS_REFUSED(R = 1.1e60, "resistance.R is 1.1e+60;");
   CHANGED_IS_REFUSED(half_thickness = 0.21,
                      "resistance.half_thickness is 0.21;|the distance limit of the marking, 0.2");
@@ -530,6 +532,24 @@ TEST(refusals_leave_the_arrays) {
   arrays.K_u_surface[0] = momentum;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "arrays.K_u_surface[1] is NULL",
                 riis_marks_add_resistance(f.result, &resistance, &arrays));
+  arrays.K_u_surface[1] = momentum + 1, arrays.K_u_surface[2] = momentum + 2;
+  CHECK_REFUSED(
+      RIIS_INVALID_ARGUMENT,
+      "arrays.K_u_surface[1] begins at entry 1 of arrays.K_u_surface[0]|arrays.K_u_surface_stride is 1;|stride 3",
+      riis_marks_add_resistance(f.result, &resistance, &arrays));
+  arrays.K_u_surface_stride = 3, arrays.K_u_surface[1] = momentum;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT,
+                "arrays.K_u_surface[1] is the same array as arrays.K_u_surface[0]; each component",
+                riis_marks_add_resistance(f.result, &resistance, &arrays));
+  riis_flow_arrays of_flow;
+  riis_reaction reaction;
+  CHECK_OK(riis_flow_arrays_init(&of_flow, sizeof of_flow));
+  CHECK_OK(riis_reaction_init(&reaction, sizeof reaction));
+  of_flow.n_nodes = n, of_flow.weight = f.weight, reaction.force = force;
+  for (int c = 0; c < 3; ++c) of_flow.velocity[c] = f.velocity + c;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT,
+                "flow.velocity[1] begins at entry 1 of flow.velocity[0]|flow.velocity_stride is 1;",
+                riis_marks_add_reaction(f.result, &resistance, &of_flow, &reaction));
   UNCHANGED();
 
   /* A call is refused if the marks lack a field that it needs. */

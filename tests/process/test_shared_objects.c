@@ -5,6 +5,10 @@
  * order. */
 #include <omp.h>
 #include <riis/riis.h>
+#include <sched.h>
+#include <stdatomic.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "test_support.h"
 
@@ -139,6 +143,139 @@ TEST(more_threads_than_processors_make_the_parts_of_new_objects) {
     assert_int_equal(n_ran, n_threads);
     free_owned_after(owned_before);
   }
+}
+
+/* A log function that holds a call of the second thread until the first thread has made its own calls. */
+static atomic_int n_waiting, may_go_on;
+
+static void hold(void *user_data, int32_t level, const char *message) {
+  (void)user_data, (void)level, (void)message;
+  if (omp_get_thread_num() == 0 || atomic_load(&may_go_on)) return;
+  atomic_store(&n_waiting, 1);
+  while (!atomic_load(&may_go_on)) sched_yield();
+}
+
+/* Runs call(of) on a second thread. Runs meanwhile(of) on this thread while the log function holds the call. */
+static void while_held(void (*call)(const shared_objects *), void (*meanwhile)(const shared_objects *),
+                       const shared_objects *of) {
+  atomic_store(&n_waiting, 0), atomic_store(&may_go_on, 0);
+  riis_set_log(hold, NULL);
+#pragma omp parallel num_threads(2)
+  {
+    if (omp_get_thread_num() == 0) {
+      while (!atomic_load(&n_waiting)) sched_yield();
+      meanwhile(of);
+      atomic_store(&may_go_on, 1);
+    } else {
+      call(of);
+    }
+  }
+  riis_set_log(NULL, NULL);
+}
+
+static riis_marks *shared_marks;
+static riis_status status_of_call;
+
+static void update_surface(const shared_objects *of) {
+  status_of_call = riis_surface_update(of->surface, of->valve, NULL);
+}
+
+static void use_what_is_updated(const shared_objects *of) {
+  static const double origin[3] = {0, 0, 0};
+  riis_closest closest;
+  riis_surface *surface = of->surface, *other = NULL;
+  riis_surface_info info;
+#define IS_HELD(name, call) CHECK_REFUSED(RIIS_UNAVAILABLE, name " is in use by another thread: while a call", call)
+  IS_HELD("surface", riis_surface_update(surface, of->valve, NULL));
+  IS_HELD("surface", riis_mark_nodes(surface, of->mesh, NULL, shared_marks));
+  IS_HELD("surface", riis_closest_point(surface, origin, &closest, sizeof closest));
+  IS_HELD("surface", riis_surface_get_info(surface, &info, sizeof info));
+  IS_HELD("valve", riis_valve_set_scalar(of->valve, "opening", 1));
+  riis_surface_destroy(&surface);
+  assert_non_null(surface);
+  CHECK_OK(riis_surface_create(of->valve, NULL, &other)); /* two calls may read the valve */
+  riis_surface_destroy(&other);
+}
+
+static void mark(const shared_objects *of) {
+  status_of_call = riis_mark_nodes(of->surface, of->mesh, NULL, shared_marks);
+}
+
+static void use_what_is_marked(const shared_objects *of) {
+  static const double origin[3] = {0, 0, 0};
+  riis_closest closest;
+  riis_mark_list list;
+  riis_marks *other = NULL;
+  IS_HELD("marks", riis_mark_nodes(of->surface, of->mesh, NULL, shared_marks));
+  IS_HELD("marks", riis_marks_get_list(shared_marks, RIIS_LIST_MARKED, &list, sizeof list));
+  IS_HELD("mesh", riis_mesh_prepare(of->mesh, 1));
+  IS_HELD("surface", riis_surface_update(of->surface, of->valve, NULL));
+  CHECK_OK(riis_closest_point(of->surface, origin, &closest, sizeof closest));
+  CHECK_OK(riis_marks_create(&other));
+  CHECK_OK(riis_mark_nodes(of->surface, of->mesh, NULL, other)); /* several marks of one surface and mesh */
+  riis_marks_destroy(&other);
+  /* In a child the call of the parent's other thread never ends, and must not hold the objects. */
+  const pid_t child = fork();
+  if (child == 0)
+    _exit(riis_mesh_prepare(of->mesh, 1) == RIIS_OK &&
+                  riis_marks_get_list(shared_marks, RIIS_LIST_MARKED, &list, sizeof list) == RIIS_OK
+              ? 0
+              : 1);
+  int how = 0;
+  assert_int_equal(waitpid(child, &how, 0), child);
+  assert_int_equal(how, 0);
+}
+
+TEST(a_call_is_refused_while_another_thread_changes_its_objects) {
+  /* The mesh is a thousand times as large as the valve, so its first marking sends a warning. */
+  const int n_side = 11;
+  static double far[3 * 11 * 11 * 11];
+  shared_objects of = {new_valve("coapting"), NULL, NULL};
+  for (int i = 0; i < n_side * n_side * n_side; ++i)
+    for (int c = 0, rest = i; c < 3; ++c, rest /= n_side) far[3 * i + c] = 500.0 * (rest % n_side);
+  CHECK_OK(riis_mesh_create(n_side * n_side * n_side, far, far + 1, far + 2, 3, &of.mesh));
+  own(of.mesh);
+  of.surface = new_surface(of.valve, NULL);
+  CHECK_OK(riis_marks_create(&shared_marks));
+  own(shared_marks);
+  while_held(update_surface, use_what_is_updated, &of);
+  assert_int_equal(status_of_call, RIIS_OK);
+  while_held(mark, use_what_is_marked, &of);
+  assert_int_equal(status_of_call, RIIS_OK);
+  /* Afterwards nothing is held. */
+  riis_mark_list list;
+  CHECK_OK(riis_surface_update(of.surface, of.valve, NULL));
+  CHECK_OK(riis_mark_nodes(of.surface, of.mesh, NULL, shared_marks));
+  CHECK_OK(riis_marks_get_list(shared_marks, RIIS_LIST_MARKED, &list, sizeof list));
+  CHECK_OK(riis_mesh_prepare(of.mesh, 1));
+  CHECK_OK(riis_valve_set_open_state(of.valve, of.valve)); /* a call may name an object twice */
+}
+
+TEST(threads_that_change_the_same_objects_fail_or_give_right_marks) {
+  nodes = lattice_around(aortic_surface(NULL), 0.2, 0.2);
+  const shared_objects of = new_objects();
+  riis_mark_stats first;
+  int n_wrong = 0, n_made = 0;
+  CHECK_OK(riis_marks_create(&shared_marks));
+  own(shared_marks);
+  CHECK_OK(riis_valve_set_scalar(of.valve, "opening", 0));
+  CHECK_OK(riis_surface_update(of.surface, of.valve, NULL));
+  CHECK_OK(riis_mark_nodes(of.surface, of.mesh, NULL, shared_marks));
+  CHECK_OK(riis_marks_get_stats(shared_marks, &first, sizeof first));
+  assert_true(first.n_marked > 0);
+#pragma omp parallel num_threads(4) reduction(+ : n_wrong, n_made)
+  for (int i = 0; i < trials(100, 1000); ++i) {
+    riis_mark_stats stats = {.n_marked = -1};
+    const riis_status statuses[] = {riis_valve_set_scalar(of.valve, "opening", 0),
+                                    riis_surface_update(of.surface, of.valve, NULL),
+                                    riis_mark_nodes(of.surface, of.mesh, NULL, shared_marks),
+                                    riis_marks_get_stats(shared_marks, &stats, sizeof stats)};
+    for (int c = 0; c < 4; ++c) n_wrong += statuses[c] != RIIS_OK && statuses[c] != RIIS_UNAVAILABLE;
+    n_made += statuses[2] == RIIS_OK;
+    n_wrong += stats.n_marked >= 0 && stats.n_marked != first.n_marked;
+  }
+  assert_int_equal(n_wrong, 0);
+  assert_true(n_made > 0);
 }
 
 int main(void) { return run_cases(NULL, NULL); }

@@ -20,9 +20,9 @@
 #include "measures/area_search.hpp"
 
 using riis::check_range;
-using riis::guarded;
 using riis::require;
 using riis::require_handle;
+using riis::handles::guarded;
 
 namespace {
 

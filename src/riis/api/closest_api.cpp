@@ -11,8 +11,8 @@
 #include "parallel/parallel_for.hpp"
 #include "search/closest_points.hpp"
 
-using riis::guarded;
 using riis::require;
+using riis::handles::guarded;
 
 namespace {
 
@@ -129,7 +129,7 @@ extern "C" {
 riis_status riis_closest_point(const riis_surface *surface, const double *point, riis_closest *closest,
                                int64_t struct_size) {
   return guarded([&] {
-    const riis::Surface &content = riis::content_of(surface);
+    const riis::Surface &content = riis::content_of(surface, false);
     require(point, "point");
     riis::check_points(riis::StridedPoints{1, point, point + 1, point + 2, 1}, "point", RIIS_INVALID_ARGUMENT);
     const riis::Vec3 p{point[0], point[1], point[2]};

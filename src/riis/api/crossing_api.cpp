@@ -11,8 +11,8 @@
 #include "measures/measures.hpp"
 #include "parallel/parallel_for.hpp"
 
-using riis::guarded;
 using riis::require_handle;
+using riis::handles::guarded;
 
 namespace {
 

@@ -3,9 +3,12 @@
 #pragma once
 
 #include <riis/riis.h>
+#include <unistd.h>
 
+#include <array>
 #include <atomic>
 #include <cstdint>
+#include <type_traits>
 #include <utility>
 
 #include "arrays/user_arrays.hpp"
@@ -38,17 +41,93 @@ enum class HandleKind : std::uint64_t {
   warp = 0x7269697377617270
 };
 
+// The calls that use a handle now. While a call writes a handle, a call of another thread that uses it fails instead of crashing
+// (riis.h, "Threads"). Calls that only read count themselves without waiting, and order nothing between each other.
+class Uses {
+ public:
+  // Returns false if a call of another thread excludes this one.
+  bool begin(bool writes) noexcept {
+    if (writes && is_written_.exchange(true)) return is_inherited();
+    if (!writes) n_begun_.fetch_add(1);
+    const bool is_free = writes ? is_unread() : is_readable();
+    if (!is_free) end(writes);
+    return is_free;
+  }
+  void end(bool wrote) noexcept {
+    if (wrote)
+      is_written_.store(false, std::memory_order_release);
+    else
+      n_ended_.fetch_add(1, std::memory_order_release);
+  }
+  bool is_readable() const noexcept { return !is_written_.load() || is_inherited(); }
+
+ private:
+  // The calls of another process's threads never end in this child of fork().
+  bool is_inherited() const noexcept { return getpid() != maker_; }
+  bool is_unread() const noexcept {
+    const std::uint64_t n_ended = n_ended_.load(std::memory_order_acquire);
+    return n_begun_.load() == n_ended || is_inherited();
+  }
+  const pid_t maker_ = getpid();
+  std::atomic<std::uint64_t> n_begun_{0}, n_ended_{0};  // calls that only read
+  std::atomic<bool> is_written_{false};
+};
+
 template <HandleKind the_kind>
 struct Handle {
   static constexpr HandleKind own_kind = the_kind;
   HandleKind kind = own_kind;
+  mutable Uses uses = {};
 };
 
-// Returns the handle, or fails if it is null or of another kind.
+// The handles that a call uses until its end, each with whether the call writes it. A call may name a handle twice.
+class UsesOfCall {
+ public:
+  UsesOfCall() noexcept : outer_(innermost) { innermost = this; }
+  ~UsesOfCall() {
+    for (const auto &[uses, writes] : used_)
+      if (uses) uses->end(writes);
+    innermost = outer_;
+  }
+  UsesOfCall(const UsesOfCall &) = delete;
+  UsesOfCall &operator=(const UsesOfCall &) = delete;
+  static bool add(Uses &uses, bool writes) {
+    for (auto &[used, is_written] : innermost->used_) {
+      if (used == &uses) return true;
+      if (used) continue;
+      if (!uses.begin(writes)) return false;
+      used = &uses, is_written = writes;
+      return true;
+    }
+    fail(RIIS_INTERNAL_ERROR, "a call takes more handles than can be counted");
+  }
+
+ private:
+  inline static thread_local UsesOfCall *innermost = nullptr;
+  UsesOfCall *outer_;
+  std::array<std::pair<Uses *, bool>, 4> used_{};
+};
+
+// Runs the body of a public function that takes handles.
+namespace handles {
+template <class Body>
+riis_status guarded(Body &&body) noexcept {
+  return riis::guarded([&] {
+    const UsesOfCall uses;
+    body();
+  });
+}
+}  // namespace handles
+
+// Returns the handle, or fails if it is null or of another kind, or if a call of another thread excludes this one. A call writes
+// the handles that it does not take as const. A call that is short is not counted, because many threads would wait for the count.
 template <class AnyHandle>
-AnyHandle *require_handle(AnyHandle *handle, const char *argument) {
+AnyHandle *require_handle(AnyHandle *handle, const char *argument, bool is_counted = true) {
   require(handle, argument);
   if (handle->kind != AnyHandle::own_kind) fail(RIIS_INVALID_ARGUMENT, argument, " is a handle of another kind");
+  if (is_counted ? !UsesOfCall::add(handle->uses, !std::is_const_v<AnyHandle>) : !handle->uses.is_readable())
+    fail(RIIS_UNAVAILABLE, argument,
+         " is in use by another thread: while a call writes a handle, no other thread may use it");
   return handle;
 }
 
@@ -61,12 +140,12 @@ riis_status create_handle(AnyHandle **handle, const char *argument) noexcept {
   });
 }
 
-// The body of a destroy function. A handle of another kind is not destroyed, because a leak of memory is better than freeing it
-// as the wrong type.
+// The body of a destroy function. A handle of another kind, or in use by another thread, is not destroyed, because a leak of memory
+// is better than freeing it as the wrong type or too early.
 template <class AnyHandle>
 void destroy_handle(AnyHandle **handle, const char *argument) noexcept {
   if (!handle || !*handle) return;
-  if (guarded([&] { require_handle(*handle, argument); }) != RIIS_OK) return;
+  if (handles::guarded([&] { require_handle(*handle, argument); }) != RIIS_OK) return;
   delete *handle;
   *handle = nullptr;
 }
@@ -135,8 +214,8 @@ struct riis_crossings : riis::Handle<riis::HandleKind::crossings> {
 
 namespace riis {
 
-inline const Surface &content_of(const riis_surface *surface) {
-  return require_handle(surface, "surface")->updatable.surface();
+inline const Surface &content_of(const riis_surface *surface, bool is_counted = true) {
+  return require_handle(surface, "surface", is_counted)->updatable.surface();
 }
 
 }  // namespace riis

@@ -5,8 +5,8 @@
 #include "base/errors.hpp"
 #include "pipeline/skirt_of_arrays.hpp"
 
-using riis::guarded;
 using riis::require;
+using riis::handles::guarded;
 
 namespace {
 

@@ -10,9 +10,9 @@
 #include "geometry/strided.hpp"
 #include "landmarks/landmarks.hpp"
 
-using riis::guarded;
 using riis::require;
 using riis::require_handle;
+using riis::handles::guarded;
 
 namespace {
 

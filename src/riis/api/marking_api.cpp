@@ -9,14 +9,15 @@
 #include "api/structs.hpp"
 #include "base/errors.hpp"
 #include "common/array_view.hpp"
+#include "geometry/strided.hpp"
 #include "measures/measures.hpp"
 #include "obstacle/resistance.hpp"
 #include "pipeline/mark_nodes.hpp"
 #include "seal/seal.hpp"
 
-using riis::guarded;
 using riis::require;
 using riis::require_handle;
+using riis::handles::guarded;
 
 namespace {
 
@@ -132,6 +133,8 @@ riis_flow_arrays checked_flow(const riis_flow_arrays *flow, const riis::Marks &m
   check_n_nodes("flow.n_nodes", whole.n_nodes, marks);
   check_components("flow.velocity", whole.velocity, whole.n_nodes == 0);
   check_stride("flow.velocity_stride", whole.velocity_stride, whole.n_nodes);
+  riis::check_apart(whole.n_nodes, {whole.velocity[0], whole.velocity[1], whole.velocity[2]}, whole.velocity_stride,
+                    sizeof(double), {"flow.", {"velocity[0]", "velocity[1]", "velocity[2]"}, "velocity_stride"});
   require_of_nodes(whole.weight, "flow.weight", whole.n_nodes);
   return whole;
 }
@@ -171,7 +174,8 @@ riis::SearchRequest request_of(const riis::Surface &surface, const riis_mesh *me
 }
 
 // Checks the three handles of a marking, the surface first, and returns the surface's content.
-const riis::Surface &require_handles(const riis_surface *surface, const riis_mesh *mesh, const riis_marks *marks) {
+template <class Marks>
+const riis::Surface &require_handles(const riis_surface *surface, const riis_mesh *mesh, Marks *marks) {
   const riis::Surface &content = riis::content_of(surface);
   require_handle(mesh, "mesh");
   require_handle(marks, "marks");
@@ -306,6 +310,10 @@ riis_status riis_marks_add_resistance(const riis_marks *marks, const riis_resist
     check_stride("arrays.K_stride", to.K_stride, to.n_nodes);
     check_components("arrays.K_u_surface", to.K_u_surface, true);
     check_stride("arrays.K_u_surface_stride", to.K_u_surface_stride, to.n_nodes);
+    if (to.K_u_surface[0])
+      riis::check_apart(
+          to.n_nodes, {to.K_u_surface[0], to.K_u_surface[1], to.K_u_surface[2]}, to.K_u_surface_stride, sizeof(double),
+          {"arrays.", {"K_u_surface[0]", "K_u_surface[1]", "K_u_surface[2]"}, "K_u_surface_stride"}, false);
     riis::add_resistance(content, checked, to);
   });
 }

@@ -16,9 +16,9 @@
 #include "measures/measures.hpp"
 
 using riis::check_range;
-using riis::guarded;
 using riis::require;
 using riis::require_handle;
+using riis::handles::guarded;
 
 namespace {
 

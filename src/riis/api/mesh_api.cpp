@@ -10,9 +10,9 @@
 #include "base/errors.hpp"
 #include "base/integer_array.hpp"
 
-using riis::guarded;
 using riis::require;
 using riis::require_handle;
+using riis::handles::guarded;
 
 namespace {
 

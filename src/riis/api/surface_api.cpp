@@ -13,9 +13,9 @@
 #include "measures/measures.hpp"
 #include "pipeline/updatable_surface.hpp"
 
-using riis::guarded;
 using riis::require;
 using riis::require_handle;
+using riis::handles::guarded;
 
 namespace {
 

@@ -8,9 +8,9 @@
 #include "measures/measures.hpp"
 #include "valve/user_patches.hpp"
 
-using riis::guarded;
 using riis::require;
 using riis::require_handle;
+using riis::handles::guarded;
 
 namespace {
 

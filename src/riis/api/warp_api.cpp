@@ -13,10 +13,10 @@
 #include "geometry/strided.hpp"
 #include "laws/key_times.hpp"
 
-using riis::guarded;
 using riis::require;
 using riis::require_handle;
 using riis::Vec3;
+using riis::handles::guarded;
 
 namespace {
 

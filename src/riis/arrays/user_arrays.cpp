@@ -20,6 +20,8 @@ void check_vertices(const riis_surface_arrays &arrays) {
   if (arrays.stride > std::numeric_limits<std::int64_t>::max() / 8 / arrays.n_vertices)
     fail(RIIS_INVALID_ARGUMENT, "arrays.stride is ", arrays.stride, ": ", arrays.n_vertices,
          " vertices at this stride exceed what memory can hold");
+  check_apart(arrays.n_vertices, {arrays.x, arrays.y, arrays.z}, arrays.stride, arrays.real_bits / 8,
+              {"arrays.", {"x", "y", "z"}, "stride"});
 }
 
 void check_faces(const riis_surface_arrays &arrays) {
@@ -95,6 +97,8 @@ void place_velocities(const riis_surface_arrays &arrays, const Placement &placem
   if (arrays.velocity_stride > std::numeric_limits<std::int64_t>::max() / 8 / arrays.n_vertices)
     fail(RIIS_INVALID_ARGUMENT, "arrays.velocity_stride is ", arrays.velocity_stride, ": the velocities of ",
          arrays.n_vertices, " vertices at this stride exceed what memory can hold");
+  check_apart(arrays.n_vertices, {arrays.vx, arrays.vy, arrays.vz}, arrays.velocity_stride, arrays.real_bits / 8,
+              {"arrays.", {"vx", "vy", "vz"}, "velocity_stride"});
   set.velocity.reserve(set.xyz.size());
   for (std::int64_t i = 0; i < arrays.n_vertices; ++i) {
     const Vec3 v = with_points(arrays.n_vertices, {arrays.vx, arrays.vy, arrays.vz}, arrays.velocity_stride,

@@ -53,9 +53,18 @@ template <class Real>
 Bounds check_points(const StridedReals<Real> &points, const char *what, riis_status bad_coordinate,
                     const char *prefix = "");
 
-// Checks only the pointers and the stride.
+// Checks only the pointers and the stride, and that the components are apart.
 template <class Real>
 void check_pointers(const StridedReals<Real> &points, const char *what, const char *prefix = "");
+
+// The names of three components and of their stride in messages. `prefix` precedes each name.
+struct ComponentNames {
+  const char *prefix, *names[3], *stride;
+};
+// Refuses components that share numbers, such as x = xyz and y = xyz + 1 with the stride 1. Equal components are allowed if
+// `may_be_equal`, because one array may serve two axes. The caller has checked n and the stride, in numbers of `size` bytes.
+void check_apart(std::int64_t n, const void *const (&components)[3], std::int64_t stride, std::int64_t size,
+                 const ComponentNames &names, bool may_be_equal = true);
 
 // Checks one point as check_points does.
 template <class Real>
