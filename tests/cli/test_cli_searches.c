@@ -106,7 +106,7 @@ TEST(test_paper) {
               scratch_path("out.vtu"), NULL);
   expect_warning();
   assert_non_null(strstr(program_out, "\nsearch    paper, "));
-  assert_non_null(strstr(program_out, "\ncomplete  unknown: "));
+  assert_non_null(strstr(program_out, "\ncomplete  unknown, because "));
   expect_marked_mesh();
   run_program("mark", scratch_path("in.vtu"), "--half-thickness", "0.3", "--search", "paper", "--stats", "-", NULL);
   expect_warning();

@@ -266,7 +266,7 @@ TEST(test_advised_commands) {
   for (int i = 0; i < 2; ++i) {
     riis_vtk_mesh *mesh = NULL;
     expect_refused(riis_vtk_mesh_read(scratch_path(parts[i]), &mesh), RIIS_FILE_ERROR,
-                   "; reconstructParMesh -constant joins ");
+                   "reconstructParMesh -constant joins ");
     run("cd %s && reconstructParMesh -constant", parts[i]);
     rewrite(parts[i], "joined.vtu");
     expect_same("whole.vtu", "joined.vtu", SHIM_SETS, 200);
