@@ -20,9 +20,9 @@
 #include "measures/area_search.hpp"
 
 using riis::check_range;
+using riis::guarded_with_handles;
 using riis::require;
 using riis::require_handle;
-using riis::handles::guarded;
 
 namespace {
 
@@ -201,7 +201,7 @@ RIIS_DEFINE_INIT(riis_area_search_init, riis_area_search, search, default_search
 riis_status riis_find_by_area(const riis_valve *valve, const char *name, int64_t n_areas, const double *areas,
                               const riis_area_search *search, double *values, double *reached, riis_area_range *range,
                               int64_t struct_size) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     const auto start = std::chrono::steady_clock::now();
     require_handle(valve, "valve");
     require(name, "name");

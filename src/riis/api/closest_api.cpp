@@ -11,8 +11,8 @@
 #include "parallel/parallel_for.hpp"
 #include "search/closest_points.hpp"
 
+using riis::guarded_with_handles;
 using riis::require;
-using riis::handles::guarded;
 
 namespace {
 
@@ -128,7 +128,7 @@ extern "C" {
 
 riis_status riis_closest_point(const riis_surface *surface, const double *point, riis_closest *closest,
                                int64_t struct_size) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     const riis::Surface &content = riis::content_of(surface, false);
     require(point, "point");
     riis::check_points(riis::StridedPoints{1, point, point + 1, point + 2, 1}, "point", RIIS_INVALID_ARGUMENT);
@@ -151,7 +151,7 @@ RIIS_DEFINE_INIT(riis_closest_arrays_init, riis_closest_arrays, arrays, default_
 
 riis_status riis_closest_points(const riis_surface *surface, const riis_points *points,
                                 const riis_closest_options *options, const riis_closest_arrays *arrays) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     const riis::Surface &content = riis::content_of(surface);
     const riis_points from = riis::completed(require(points, "points"), "points", riis::default_points);
     const riis_closest_options whole = riis::completed(options, "options", default_closest_options);

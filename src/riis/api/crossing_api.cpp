@@ -11,8 +11,8 @@
 #include "measures/measures.hpp"
 #include "parallel/parallel_for.hpp"
 
+using riis::guarded_with_handles;
 using riis::require_handle;
-using riis::handles::guarded;
 
 namespace {
 
@@ -57,7 +57,7 @@ void riis_crossings_destroy(riis_crossings **crossings) { riis::destroy_handle(c
 
 riis_status riis_find_crossings(const riis_surface *surface, const riis_crossing_options *options,
                                 riis_crossings *crossings) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     const riis::Surface &content = riis::content_of(surface);
     const riis_crossing_options whole = checked(options);
     require_handle(crossings, "crossings");
@@ -73,7 +73,7 @@ riis_status riis_find_crossings(const riis_surface *surface, const riis_crossing
 }
 
 riis_status riis_crossings_get_list(const riis_crossings *crossings, riis_crossing_list *list, int64_t struct_size) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     const riis_crossing_list &found = require_handle(crossings, "crossings")->list;
     riis::write_struct(list, struct_size, "list", found);
   });

@@ -109,15 +109,13 @@ class UsesOfCall {
 };
 
 // Runs the body of a public function that takes handles.
-namespace handles {
 template <class Body>
-riis_status guarded(Body &&body) noexcept {
+riis_status guarded_with_handles(Body &&body) noexcept {
   return riis::guarded([&] {
     const UsesOfCall uses;
     body();
   });
 }
-}  // namespace handles
 
 // Returns the handle, or fails if it is null or of another kind, or if a call of another thread excludes this one. A call writes
 // the handles that it does not take as const. A call that is short is not counted, because many threads would wait for the count.
@@ -145,7 +143,7 @@ riis_status create_handle(AnyHandle **handle, const char *argument) noexcept {
 template <class AnyHandle>
 void destroy_handle(AnyHandle **handle, const char *argument) noexcept {
   if (!handle || !*handle) return;
-  if (handles::guarded([&] { require_handle(*handle, argument); }) != RIIS_OK) return;
+  if (guarded_with_handles([&] { require_handle(*handle, argument); }) != RIIS_OK) return;
   delete *handle;
   *handle = nullptr;
 }

@@ -5,8 +5,8 @@
 #include "base/errors.hpp"
 #include "pipeline/skirt_of_arrays.hpp"
 
+using riis::guarded_with_handles;
 using riis::require;
-using riis::handles::guarded;
 
 namespace {
 
@@ -27,7 +27,7 @@ RIIS_DEFINE_INIT(riis_keyframe_arrays_init, riis_keyframe_arrays, frames, defaul
 
 riis_status riis_keyframes_create(const riis_surface_arrays *arrays, const riis_keyframe_arrays *frames,
                                   riis_keyframes **keyframes) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     require(keyframes, "keyframes");
     const riis_surface_arrays whole_arrays =
         riis::completed(require(arrays, "arrays"), "arrays", default_keyframes_arrays());

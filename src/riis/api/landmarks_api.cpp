@@ -10,9 +10,9 @@
 #include "geometry/strided.hpp"
 #include "landmarks/landmarks.hpp"
 
+using riis::guarded_with_handles;
 using riis::require;
 using riis::require_handle;
-using riis::handles::guarded;
 
 namespace {
 
@@ -79,7 +79,7 @@ RIIS_DEFINE_INIT(riis_placement_arrays_init, riis_placement_arrays, arrays, defa
 
 riis_status riis_place(riis_valve *valve, const riis_landmarks *landmarks, const char *held,
                        const riis_placement_arrays *arrays, riis_placement *placement, int64_t struct_size) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     require_handle(valve, "valve");
     const riis_landmarks whole = riis::completed(require(landmarks, "landmarks"), "landmarks", default_landmarks);
     require(held, "held");

@@ -15,9 +15,9 @@
 #include "pipeline/mark_nodes.hpp"
 #include "seal/seal.hpp"
 
+using riis::guarded_with_handles;
 using riis::require;
 using riis::require_handle;
-using riis::handles::guarded;
 
 namespace {
 
@@ -256,7 +256,7 @@ RIIS_DEFINE_INIT(riis_mark_options_init, riis_mark_options, options, default_mar
 
 riis_status riis_mark_nodes(const riis_surface *surface, const riis_mesh *mesh, const riis_mark_options *options,
                             riis_marks *marks) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     const riis::Surface &content = require_handles(surface, mesh, marks);
     const riis_mark_options whole = whole_of(options);
     const riis::SearchRequest request = request_of(content, mesh, whole);
@@ -273,7 +273,7 @@ riis_status riis_mark_nodes(const riis_surface *surface, const riis_mesh *mesh, 
 }
 
 riis_status riis_marks_get_list(const riis_marks *marks, int32_t which, riis_mark_list *list, int64_t struct_size) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     const riis::Marks &content = require_handle(marks, "marks")->marks;
     if (which != RIIS_LIST_MARKED && which != RIIS_LIST_WITHIN_LIMIT)
       riis::fail(RIIS_INVALID_ARGUMENT, "which is ", which, "; it must be one of RIIS_LIST_*");
@@ -285,7 +285,7 @@ riis_status riis_marks_get_list(const riis_marks *marks, int32_t which, riis_mar
 RIIS_DEFINE_INIT(riis_dense_arrays_init, riis_dense_arrays, arrays, default_dense)
 
 riis_status riis_marks_get_dense(const riis_marks *marks, const riis_dense_arrays *arrays) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     const riis::Marks &content = require_handle(marks, "marks")->marks;
     const riis_dense_arrays to = riis::completed(require(arrays, "arrays"), "arrays", default_dense);
     check_n_nodes("arrays.n_nodes", to.n_nodes, content);
@@ -295,14 +295,15 @@ riis_status riis_marks_get_dense(const riis_marks *marks, const riis_dense_array
 }
 
 riis_status riis_marks_get_stats(const riis_marks *marks, riis_mark_stats *stats, int64_t struct_size) {
-  return guarded([&] { riis::write_struct(stats, struct_size, "stats", require_handle(marks, "marks")->marks.stats); });
+  return guarded_with_handles(
+      [&] { riis::write_struct(stats, struct_size, "stats", require_handle(marks, "marks")->marks.stats); });
 }
 
 RIIS_DEFINE_INIT(riis_resistance_arrays_init, riis_resistance_arrays, arrays, default_resistance_arrays)
 
 riis_status riis_marks_add_resistance(const riis_marks *marks, const riis_resistance *resistance,
                                       const riis_resistance_arrays *arrays) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     const riis::Marks &content = require_handle(marks, "marks")->marks;
     const riis::Resistance checked = resistance_of(resistance, content);
     const riis_resistance_arrays to = riis::completed(require(arrays, "arrays"), "arrays", default_resistance_arrays);
@@ -324,7 +325,7 @@ RIIS_DEFINE_INIT(riis_reaction_init, riis_reaction, reaction, default_reaction)
 
 riis_status riis_marks_add_reaction(const riis_marks *marks, const riis_resistance *resistance,
                                     const riis_flow_arrays *flow, const riis_reaction *reaction) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     const riis::Marks &content = require_handle(marks, "marks")->marks;
     const riis::Resistance checked = resistance_of(resistance, content);
     const riis_flow_arrays from = checked_flow(flow, content);
@@ -335,7 +336,7 @@ riis_status riis_marks_add_reaction(const riis_marks *marks, const riis_resistan
 riis_status riis_marks_add_vertex_reaction(const riis_marks *marks, const riis_surface *surface,
                                            const riis_resistance *resistance, const riis_flow_arrays *flow,
                                            int64_t n_vertices, double *vertex_force) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     const riis::Marks &content = require_handle(marks, "marks")->marks;
     const riis::TriangleSet &triangles = riis::content_of(surface).triangles();
     const riis::Resistance checked = resistance_of(resistance, content);
@@ -351,7 +352,7 @@ RIIS_DEFINE_INIT(riis_band_init, riis_band, band, default_band)
 
 riis_status riis_marks_get_band_sums(const riis_marks *marks, const riis_band *band, riis_band_sums *sums,
                                      int64_t struct_size) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     const riis::Marks &content = require_handle(marks, "marks")->marks;
     const riis_band whole = riis::completed(require(band, "band"), "band", default_band);
     check_n_nodes("band.n_nodes", whole.n_nodes, content);
@@ -375,7 +376,7 @@ riis_status riis_marks_get_band_sums(const riis_marks *marks, const riis_band *b
 
 riis_status riis_marks_get_cells_across(const riis_marks *marks, const riis_mesh *mesh, riis_cells_across *cells,
                                         int64_t struct_size) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     const riis::Marks &content = require_handle(marks, "marks")->marks;
     const riis::Mesh &nodes = require_handle(mesh, "mesh")->mesh;
     riis::check_struct_size<riis_cells_across>(struct_size, "cells");
@@ -393,7 +394,7 @@ void riis_leaks_destroy(riis_leaks **leaks) { riis::destroy_handle(leaks, "leaks
 
 riis_status riis_find_leaks(const riis_surface *surface, const riis_mesh *mesh, const riis_marks *marks,
                             const riis_mark_options *options, riis_leaks *leaks) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     const riis::Surface &content = require_handles(surface, mesh, marks);
     require_handle(leaks, "leaks");
     const riis::SearchRequest request = request_of(content, mesh, whole_of(options));
@@ -403,7 +404,7 @@ riis_status riis_find_leaks(const riis_surface *surface, const riis_mesh *mesh, 
 }
 
 riis_status riis_leaks_get_list(const riis_leaks *leaks, riis_leak_list *list, int64_t struct_size) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     const riis::Leaks &found = require_handle(leaks, "leaks")->leaks;
     const auto array = [](const auto &values) { return values.empty() ? nullptr : values.data(); };
     riis::write_struct(list, struct_size, "list",
@@ -421,7 +422,7 @@ riis_status riis_leaks_get_list(const riis_leaks *leaks, riis_leak_list *list, i
 
 riis_status riis_label_open_regions(const riis_mesh *mesh, const riis_marks *marks, const riis_mark_options *options,
                                     int64_t n_nodes, int64_t *label, int64_t *n_regions) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     const riis::Mesh &nodes = require_handle(mesh, "mesh")->mesh;
     const riis::Marks &content = require_handle(marks, "marks")->marks;
     const riis_mark_options whole = whole_of(options);
@@ -444,7 +445,7 @@ RIIS_DEFINE_INIT(riis_passage_ends_init, riis_passage_ends, ends, default_ends)
 
 riis_status riis_find_passage(const riis_surface *surface, const riis_mesh *mesh, const riis_passage_ends *ends,
                               const riis_mark_options *options, riis_passage *passage, int64_t struct_size) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     const riis::Surface &content = riis::content_of(surface);
     require_handle(mesh, "mesh");
     const riis_passage_ends whole = riis::completed(require(ends, "ends"), "ends", default_ends);

@@ -16,9 +16,9 @@
 #include "measures/measures.hpp"
 
 using riis::check_range;
+using riis::guarded_with_handles;
 using riis::require;
 using riis::require_handle;
-using riis::handles::guarded;
 
 namespace {
 
@@ -128,7 +128,7 @@ riis_surface_options checked_options(const riis_surface_options *options) {
 extern "C" {
 
 riis_status riis_surface_get_n_leaflets(const riis_surface *surface, int64_t *n_leaflets) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     const riis::Surface &content = riis::content_of(surface);
     *require(n_leaflets, "n_leaflets") = riis::view(content.leaflet_ids()).size();
   });
@@ -136,7 +136,7 @@ riis_status riis_surface_get_n_leaflets(const riis_surface *surface, int64_t *n_
 
 riis_status riis_surface_get_leaflet(const riis_surface *surface, int64_t leaflet, riis_leaflet *sizes,
                                      int64_t struct_size) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     const std::vector<riis_leaflet> &leaflets = riis::content_of(surface).leaflets();
     const auto n = riis::view(leaflets).size();
     if (leaflet < 0 || leaflet >= n)
@@ -147,13 +147,14 @@ riis_status riis_surface_get_leaflet(const riis_surface *surface, int64_t leafle
 
 riis_status riis_surface_get_orifice(const riis_surface *surface, const riis_resistance *resistance,
                                      riis_orifice *orifice, int64_t struct_size) {
-  return guarded([&] { write_orifice(riis::content_of(surface), nullptr, resistance, orifice, struct_size); });
+  return guarded_with_handles(
+      [&] { write_orifice(riis::content_of(surface), nullptr, resistance, orifice, struct_size); });
 }
 
 riis_status riis_surface_get_orifice_in_wall(const riis_surface *surface, const riis_surface *wall,
                                              const riis_resistance *resistance, riis_orifice *orifice,
                                              int64_t struct_size) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     const riis::Surface &content = riis::content_of(surface);
     const riis::Surface &of_wall = require_handle(wall, "wall")->updatable.surface();
     write_orifice(content, &of_wall, resistance, orifice, struct_size);
@@ -162,7 +163,7 @@ riis_status riis_surface_get_orifice_in_wall(const riis_surface *surface, const 
 
 riis_status riis_surface_get_coaptation(const riis_surface *surface, double reach, int32_t leaflet_id,
                                         riis_coaptation *coaptation, int64_t struct_size) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     const riis::Surface &content = riis::content_of(surface);
     const double whole = reach == RIIS_AUTO ? content.half_thickness() : reach;
     check_range("", "reach", whole, 1e-50, 1e50);
@@ -184,7 +185,7 @@ riis_status riis_surface_get_coaptation(const riis_surface *surface, double reac
 
 riis_status riis_surface_get_gap(const riis_surface *surface, const riis_surface *wall, double *distance, riis_gap *gap,
                                  int64_t struct_size) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     const riis::Surface &content = riis::content_of(surface);
     const riis::Surface &of_wall = require_handle(wall, "wall")->updatable.surface();
     riis::check_struct_size<riis_gap>(struct_size, "gap");
@@ -203,7 +204,7 @@ riis_status riis_surface_get_gap(const riis_surface *surface, const riis_surface
 
 riis_status riis_surface_get_leak(const riis_surface *surface, const riis_resistance *resistance, double drop,
                                   double *flow) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     const riis::Surface &content = riis::content_of(surface);
     const riis_resistance whole = resistance_for(require(resistance, "resistance"), content);
     check_range("resistance", "R", whole.R, 1e-60, 1e60);
@@ -223,7 +224,7 @@ RIIS_DEFINE_INIT(riis_first_passage_options_init, riis_first_passage_options, op
 riis_status riis_find_first_passage(const riis_valve *valve, const riis_mesh *mesh, const riis_passage_ends *ends,
                                     const riis_first_passage_options *options, riis_first_passage *first,
                                     int64_t struct_size) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     const auto start = std::chrono::steady_clock::now();
     require_handle(valve, "valve");
     require_handle(mesh, "mesh");
@@ -245,7 +246,7 @@ riis_status riis_find_first_passage(const riis_valve *valve, const riis_mesh *me
 
 riis_status riis_valve_get_swept_volume(const riis_valve *valve, double opening_from, double opening_to,
                                         const riis_surface_options *options, int32_t leaflet_id, double *volume) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     const riis::Valve &content = require_handle(valve, "valve")->valve;
     check_range("", "opening_from", opening_from, 0, 1);
     check_range("", "opening_to", opening_to, 0, 1);

@@ -10,9 +10,9 @@
 #include "base/errors.hpp"
 #include "base/integer_array.hpp"
 
+using riis::guarded_with_handles;
 using riis::require;
 using riis::require_handle;
-using riis::handles::guarded;
 
 namespace {
 
@@ -102,7 +102,7 @@ extern "C" {
 
 riis_status riis_mesh_create(int64_t n_nodes, const double *x, const double *y, const double *z, int64_t stride,
                              riis_mesh **mesh) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     require(mesh, "mesh");
     const riis::StridedPoints nodes{n_nodes, x, y, z, stride};
     *mesh = new riis_mesh(nodes, check_nodes(nodes));
@@ -111,7 +111,7 @@ riis_status riis_mesh_create(int64_t n_nodes, const double *x, const double *y, 
 
 riis_status riis_mesh_update(riis_mesh *mesh, int64_t n_nodes, const double *x, const double *y, const double *z,
                              int64_t stride) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     riis::Mesh &content = require_handle(mesh, "mesh")->mesh;
     // The nodes have moved, so their stored places are wrong even if the new coordinates are refused.
     content.forget_places();
@@ -121,7 +121,7 @@ riis_status riis_mesh_update(riis_mesh *mesh, int64_t n_nodes, const double *x, 
 }
 
 riis_status riis_mesh_create_copy(const riis_points *nodes, riis_mesh **mesh) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     require(mesh, "mesh");
     auto made = std::make_unique<riis_mesh>(riis::StridedPoints{0, nullptr, nullptr, nullptr, 1}, riis::Bounds{});
     copy_nodes(nodes, made->mesh);
@@ -130,11 +130,11 @@ riis_status riis_mesh_create_copy(const riis_points *nodes, riis_mesh **mesh) {
 }
 
 riis_status riis_mesh_update_copy(riis_mesh *mesh, const riis_points *nodes) {
-  return guarded([&] { copy_nodes(nodes, require_handle(mesh, "mesh")->mesh); });
+  return guarded_with_handles([&] { copy_nodes(nodes, require_handle(mesh, "mesh")->mesh); });
 }
 
 riis_status riis_mesh_prepare(riis_mesh *mesh, int32_t n_threads) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     const riis::Mesh &content = require_handle(mesh, "mesh")->mesh;
     const int n = riis::threads_for(n_threads, "n_threads", content.nodes().n, riis::nodes_per_thread);
     if (content.nodes().grid) return;
@@ -148,7 +148,7 @@ riis_status riis_mesh_prepare(riis_mesh *mesh, int32_t n_threads) {
 RIIS_DEFINE_INIT(riis_grid_init, riis_grid, grid, default_grid)
 
 riis_status riis_mesh_create_grid(const riis_grid *grid, riis_mesh **mesh) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     require(mesh, "mesh");
     auto made = std::make_unique<riis_mesh>(riis::StridedPoints{0, nullptr, nullptr, nullptr, 1}, riis::Bounds{});
     made->mesh.take_grid(checked_grid(grid));
@@ -157,7 +157,7 @@ riis_status riis_mesh_create_grid(const riis_grid *grid, riis_mesh **mesh) {
 }
 
 riis_status riis_mesh_update_grid(riis_mesh *mesh, const riis_grid *grid) {
-  return guarded([&] { require_handle(mesh, "mesh")->mesh.take_grid(checked_grid(grid)); });
+  return guarded_with_handles([&] { require_handle(mesh, "mesh")->mesh.take_grid(checked_grid(grid)); });
 }
 
 void riis_mesh_destroy(riis_mesh **mesh) { riis::destroy_handle(mesh, "mesh"); }
@@ -165,7 +165,7 @@ void riis_mesh_destroy(riis_mesh **mesh) { riis::destroy_handle(mesh, "mesh"); }
 RIIS_DEFINE_INIT(riis_csr_init, riis_csr, csr, default_csr)
 
 riis_status riis_mesh_set_adjacency(riis_mesh *mesh, const riis_csr *csr) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     riis::Mesh &content = require_handle(mesh, "mesh")->mesh;
     if (!csr) return content.set_adjacency(std::nullopt);
     const riis::Adjacency rows = riis::checked_adjacency(riis::completed(csr, "csr", default_csr), content.nodes().n);
@@ -177,7 +177,7 @@ riis_status riis_mesh_set_adjacency(riis_mesh *mesh, const riis_csr *csr) {
 RIIS_DEFINE_INIT(riis_mesh_cells_init, riis_mesh_cells, cells, default_cells)
 
 riis_status riis_adjacency_create_from_cells(const riis_mesh_cells *cells, riis_adjacency **adjacency) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     require(adjacency, "adjacency");
     const riis_mesh_cells whole = riis::completed(require(cells, "cells"), "cells", default_cells);
     const int n_threads = riis::threads_for(whole.n_threads, "cells.n_threads", whole.n_cells, riis::nodes_per_thread);
@@ -188,7 +188,7 @@ riis_status riis_adjacency_create_from_cells(const riis_mesh_cells *cells, riis_
 RIIS_DEFINE_INIT(riis_mesh_faces_init, riis_mesh_faces, faces, default_faces)
 
 riis_status riis_adjacency_create_from_faces(const riis_mesh_faces *faces, riis_adjacency **adjacency) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     require(adjacency, "adjacency");
     const riis_mesh_faces whole = riis::completed(require(faces, "faces"), "faces", default_faces);
     const int n_threads = riis::threads_for(whole.n_threads, "faces.n_threads", whole.n_faces, riis::nodes_per_thread);
@@ -198,7 +198,7 @@ riis_status riis_adjacency_create_from_faces(const riis_mesh_faces *faces, riis_
 
 riis_status riis_adjacency_create_from_grid(int64_t ni, int64_t nj, int64_t nk, int32_t n_threads,
                                             riis_adjacency **adjacency) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     require(adjacency, "adjacency");
     const int n = riis::threads_for(n_threads, "n_threads", riis::nodes_of_grid(ni, nj, nk), riis::nodes_per_thread);
     *adjacency = new riis_adjacency{{}, riis::adjacency_from_grid(ni, nj, nk, n)};
@@ -206,7 +206,7 @@ riis_status riis_adjacency_create_from_grid(int64_t ni, int64_t nj, int64_t nk, 
 }
 
 riis_status riis_adjacency_get_csr(const riis_adjacency *adjacency, riis_csr *csr, int64_t struct_size) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     riis_csr value = require_handle(adjacency, "adjacency")->adjacency.csr();
     value.struct_size = struct_size;
     riis::write_struct(csr, struct_size, "csr", value);

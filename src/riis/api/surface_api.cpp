@@ -13,9 +13,9 @@
 #include "measures/measures.hpp"
 #include "pipeline/updatable_surface.hpp"
 
+using riis::guarded_with_handles;
 using riis::require;
 using riis::require_handle;
-using riis::handles::guarded;
 
 namespace {
 
@@ -168,7 +168,7 @@ RIIS_DEFINE_INIT(riis_surface_options_init, riis_surface_options, options, riis:
 RIIS_DEFINE_INIT(riis_surface_arrays_init, riis_surface_arrays, arrays, default_surface_arrays)
 
 riis_status riis_surface_create(const riis_valve *valve, const riis_surface_options *options, riis_surface **surface) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     create(options, surface, [&](riis_surface &made, const riis_surface_options &whole) {
       require_handle(valve, "valve");
       fill_from_valve(made, valve, whole);
@@ -178,7 +178,7 @@ riis_status riis_surface_create(const riis_valve *valve, const riis_surface_opti
 
 riis_status riis_surface_create_from_arrays(const riis_surface_arrays *arrays, const riis_surface_options *options,
                                             riis_surface **surface) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     create(options, surface, [&](riis_surface &made, const riis_surface_options &whole) {
       fill_from_arrays(made, completed(arrays), whole);
     });
@@ -186,13 +186,13 @@ riis_status riis_surface_create_from_arrays(const riis_surface_arrays *arrays, c
 }
 
 riis_status riis_surface_update(riis_surface *surface, const riis_valve *valve, const riis_surface_options *options) {
-  return guarded([&] { update_from_valve(surface, valve, options, nullptr); });
+  return guarded_with_handles([&] { update_from_valve(surface, valve, options, nullptr); });
 }
 
 riis_status riis_surface_update_moving(riis_surface *surface, const riis_valve *valve, const riis_valve *valve_before,
                                        double dt, const riis_surface_options *options,
                                        const riis_surface_options *options_before) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     const EarlierArguments earlier{valve_before, dt, options_before};
     update_from_valve(surface, valve, options, &earlier);
   });
@@ -202,7 +202,7 @@ riis_status riis_surface_add_direction(riis_surface *surface, const riis_valve *
                                        const riis_valve *valve_before, double dp,
                                        const riis_surface_options *options_after,
                                        const riis_surface_options *options_before) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     require_handle(surface, "surface");
     require_handle(valve_after, "valve_after");
     require_handle(valve_before, "valve_before");
@@ -225,7 +225,7 @@ riis_status riis_surface_add_direction(riis_surface *surface, const riis_valve *
 
 riis_status riis_surface_get_direction(const riis_surface *surface, int64_t direction_id, riis_direction *direction,
                                        int64_t struct_size) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     const riis::Surface &content = riis::content_of(surface);
     if (content.n_directions() == 0)
       riis::fail(RIIS_INVALID_ARGUMENT, "direction_id is ", direction_id,
@@ -241,7 +241,7 @@ riis_status riis_surface_get_direction(const riis_surface *surface, int64_t dire
 
 riis_status riis_surface_update_from_arrays(riis_surface *surface, const riis_surface_arrays *arrays,
                                             const riis_surface_options *options) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     require_handle(surface, "surface");
     fill_from_arrays(*surface, completed(arrays), options_for(*surface, options));
   });
@@ -249,7 +249,7 @@ riis_status riis_surface_update_from_arrays(riis_surface *surface, const riis_su
 
 riis_status riis_surface_create_from_keyframes(const riis_keyframes *keyframes, double time, double dt,
                                                const riis_surface_options *options, riis_surface **surface) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     create(options, surface, [&](riis_surface &made, const riis_surface_options &whole) {
       fill_from_keyframes(made, keyframes, time, dt, whole);
     });
@@ -258,7 +258,7 @@ riis_status riis_surface_create_from_keyframes(const riis_keyframes *keyframes, 
 
 riis_status riis_surface_update_from_keyframes(riis_surface *surface, const riis_keyframes *keyframes, double time,
                                                double dt, const riis_surface_options *options) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     require_handle(surface, "surface");
     fill_from_keyframes(*surface, keyframes, time, dt, options_for(*surface, options));
   });
@@ -267,7 +267,7 @@ riis_status riis_surface_update_from_keyframes(riis_surface *surface, const riis
 void riis_surface_destroy(riis_surface **surface) { riis::destroy_handle(surface, "surface"); }
 
 riis_status riis_surface_get_info(const riis_surface *surface, riis_surface_info *info, int64_t struct_size) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     const riis::Surface &content = riis::content_of(surface);
     const riis::TriangleSet &set = content.triangles();
     const auto &[lower, upper] = content.scene().bounds();
@@ -291,7 +291,7 @@ riis_status riis_surface_get_info(const riis_surface *surface, riis_surface_info
 }
 
 riis_status riis_surface_get_triangles(const riis_surface *surface, riis_triangles *triangles, int64_t struct_size) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     const riis::TriangleSet &set = riis::content_of(surface).triangles();
     riis::write_struct(
         triangles, struct_size, "triangles",
@@ -302,7 +302,7 @@ riis_status riis_surface_get_triangles(const riis_surface *surface, riis_triangl
 }
 
 riis_status riis_surface_get_attachment(const riis_surface *surface, riis_attachment *attachment, int64_t struct_size) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     const riis::Surface &content = riis::content_of(surface);
     if (!content.has_attachment())
       riis::fail(RIIS_INVALID_ARGUMENT,

@@ -8,9 +8,9 @@
 #include "measures/measures.hpp"
 #include "valve/user_patches.hpp"
 
+using riis::guarded_with_handles;
 using riis::require;
 using riis::require_handle;
-using riis::handles::guarded;
 
 namespace {
 
@@ -21,14 +21,14 @@ const riis_patches default_patches{sizeof(riis_patches), 0, nullptr, nullptr, 0,
 extern "C" {
 
 riis_status riis_valve_create(const char *kind, riis_valve **valve) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     require(valve, "valve");
     *valve = new riis_valve{{}, riis::Valve(riis::find_valve_kind(require(kind, "kind")))};
   });
 }
 
 riis_status riis_valve_copy(const riis_valve *valve, riis_valve **copy) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     require(copy, "copy");
     *copy = new riis_valve{{}, require_handle(valve, "valve")->valve};
   });
@@ -37,7 +37,7 @@ riis_status riis_valve_copy(const riis_valve *valve, riis_valve **copy) {
 void riis_valve_destroy(riis_valve **valve) { riis::destroy_handle(valve, "valve"); }
 
 riis_status riis_valve_set(riis_valve *valve, const char *name, int64_t n_values, const double *values) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     require_handle(valve, "valve");
     require(name, "name");
     require(values, "values");
@@ -50,7 +50,7 @@ riis_status riis_valve_set_scalar(riis_valve *valve, const char *name, double va
 }
 
 riis_status riis_valve_get(const riis_valve *valve, const char *name, int64_t n_values, double *values) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     require_handle(valve, "valve");
     require(name, "name");
     require(values, "values");
@@ -59,14 +59,14 @@ riis_status riis_valve_get(const riis_valve *valve, const char *name, int64_t n_
 }
 
 riis_status riis_valve_unset(riis_valve *valve, const char *name) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     require_handle(valve, "valve");
     valve->valve.unset(require(name, "name"));
   });
 }
 
 riis_status riis_valve_is_set(const riis_valve *valve, const char *name, int32_t *is_set) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     require_handle(valve, "valve");
     require(name, "name");
     require(is_set, "is_set");
@@ -75,12 +75,13 @@ riis_status riis_valve_is_set(const riis_valve *valve, const char *name, int32_t
 }
 
 riis_status riis_valve_set_open_state(riis_valve *valve, const riis_valve *open) {
-  return guarded([&] { require_handle(valve, "valve")->valve.set_open_state(require_handle(open, "open")->valve); });
+  return guarded_with_handles(
+      [&] { require_handle(valve, "valve")->valve.set_open_state(require_handle(open, "open")->valve); });
 }
 
 riis_status riis_valve_set_skirt_to_wall(riis_valve *valve, const riis_surface *wall, double longest,
                                          const riis_surface_options *options) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     riis::Valve &content = require_handle(valve, "valve")->valve;
     const riis::Surface &of_wall = require_handle(wall, "wall")->updatable.surface();
     riis::check_range("", "longest", longest, 1e-50, 1e50);
@@ -103,7 +104,7 @@ riis_status riis_valve_set_skirt_to_wall(riis_valve *valve, const riis_surface *
 RIIS_DEFINE_INIT(riis_patches_init, riis_patches, patches, default_patches)
 
 riis_status riis_valve_create_from_patches(const riis_patches *patches, riis_valve **valve) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     require(valve, "valve");
     const riis_patches whole = riis::completed(require(patches, "patches"), "patches", default_patches);
     *valve = new riis_valve{{}, riis::Valve(riis::patches_valve_kind(), riis::patches_from_arrays(whole))};
@@ -111,7 +112,7 @@ riis_status riis_valve_create_from_patches(const riis_patches *patches, riis_val
 }
 
 riis_status riis_valve_set_warp(riis_valve *valve, const riis_warp *closed, const riis_warp *open) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     require_handle(valve, "valve");
     if (open && !closed)
       riis::fail(RIIS_INVALID_ARGUMENT,
@@ -122,7 +123,7 @@ riis_status riis_valve_set_warp(riis_valve *valve, const riis_warp *closed, cons
 }
 
 riis_status riis_valve_get_patches(riis_valve *valve, riis_valve_patches *patches, int64_t struct_size) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     require_handle(valve, "valve");
     require(patches, "patches");
     riis::check_struct_size<riis_valve_patches>(struct_size, "patches");
@@ -132,7 +133,7 @@ riis_status riis_valve_get_patches(riis_valve *valve, riis_valve_patches *patche
 }
 
 riis_status riis_valve_get_n_parameters(const riis_valve *valve, int64_t *n_parameters) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     require_handle(valve, "valve");
     *require(n_parameters, "n_parameters") = riis::view(valve->valve.kind().parameters).size();
   });
@@ -140,7 +141,7 @@ riis_status riis_valve_get_n_parameters(const riis_valve *valve, int64_t *n_para
 
 riis_status riis_valve_get_parameter(const riis_valve *valve, int64_t parameter_id, riis_parameter *parameter,
                                      int64_t struct_size) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     require_handle(valve, "valve");
     const auto &specs = valve->valve.kind().parameters;
     if (parameter_id < 0 || parameter_id >= riis::view(specs).size())

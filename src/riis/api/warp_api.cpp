@@ -13,10 +13,10 @@
 #include "geometry/strided.hpp"
 #include "laws/key_times.hpp"
 
+using riis::guarded_with_handles;
 using riis::require;
 using riis::require_handle;
 using riis::Vec3;
-using riis::handles::guarded;
 
 namespace {
 
@@ -76,7 +76,7 @@ extern "C" {
 RIIS_DEFINE_INIT(riis_warp_options_init, riis_warp_options, options, default_warp_options)
 
 riis_status riis_warp_create(const riis_points *sources, const riis_warp_options *options, riis_warp **warp) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     require(warp, "warp");
     const riis_warp_options whole = riis::completed(options, "options", default_warp_options);
     riis::check_range("options", "noise", whole.noise, 0, 1e50);
@@ -103,7 +103,7 @@ riis_status riis_warp_create(const riis_points *sources, const riis_warp_options
 void riis_warp_destroy(riis_warp **warp) { riis::destroy_handle(warp, "warp"); }
 
 riis_status riis_warp_set_targets(riis_warp *warp, const riis_points *targets) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     require_handle(warp, "warp");
     riis::Vector<Vec3> &places = room_for_targets(*warp);
     for_each_point(targets, "targets", "targets.", warp->placement, static_cast<std::int64_t>(warp->landmarks.size()),
@@ -113,7 +113,7 @@ riis_status riis_warp_set_targets(riis_warp *warp, const riis_points *targets) {
 }
 
 riis_status riis_warp_set_targets_at(riis_warp *warp, const riis_keyframe_arrays *frames, double time) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     require_handle(warp, "warp");
     riis_keyframe_arrays defaults;
     riis_keyframe_arrays_init(&defaults, sizeof defaults);
@@ -156,7 +156,7 @@ riis_status riis_warp_set_targets_at(riis_warp *warp, const riis_keyframe_arrays
 }
 
 riis_status riis_warp_get_info(const riis_warp *warp, riis_warp_info *info, int64_t struct_size) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     const riis_warp &given = *require_handle(warp, "warp");
     const riis::WarpQuality &quality = given.quality;
     const double scale = given.placement.scale;
@@ -175,7 +175,7 @@ riis_status riis_warp_get_info(const riis_warp *warp, riis_warp_info *info, int6
 }
 
 riis_status riis_warp_map(const riis_warp *warp, const riis_points *points, double *mapped) {
-  return guarded([&] {
+  return guarded_with_handles([&] {
     const riis_warp &given = *require_handle(warp, "warp");
     if (require(points, "points")->n_points > 0) require(mapped, "mapped");
     for_each_point(points, "points", "points.", given.placement, -1, [&](std::int64_t i, Vec3 p) {
