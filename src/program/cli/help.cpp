@@ -17,7 +17,6 @@ const Footer footers[] = {
   riis mark mesh.vtu --output marked.vtu --picture valve.png
   riis mark mesh.vtu --unit m --rotate 0,0,1,90 --set right.leaflet_angle=60 --stats -
   riis mark mesh.vtu --unit mm --surface valve.stl --surface-unit mm --leaflets connected --output marked.vtu
-  riis mark mesh.vtu --valve mitral --opening 0.5 --output half_open.vtu
   riis mark mesh.vtu --params-closed closed.json --params-open open.json --opening 0.5 --output half_open.vtu
   riis mark mesh.vtu --surface patient.pvd --time 0.3 --period 0.8 --output marked.vtu
   riis mark mesh.vtu --valve mitral --cycle beat.csv --period 0.8 --times 0:0.8:0.01 --output beat.pvd --movie beat.mp4
