@@ -3,7 +3,8 @@
 
 Links in Markdown documents lead to existing files and headings. Sources and documents name pages in the form docs/*.md, or
 docs/*.md, "Heading". A section's number is refused, because such numbers change. If documents name files of the repository, the
-files must exist. A formula begins and ends on one line. A page of docs/theory or docs/design has at most 4000 words.
+files must exist. The files that Debian's tests name must exist too. A formula begins and ends on one line. A page of docs/theory
+or docs/design has at most 4000 words.
 """
 import functools
 import pathlib
@@ -115,6 +116,11 @@ def missing_sources(folder):
             pattern = re.sub(r"\b(?:[A-Z]+|X\.Y)\b", "*", name)
             if not any(folder.glob(pattern)) and not (name in short and any(path.endswith(f"/{name}") for path in sources)):
                 yield f"{page.relative_to(folder)}: {name}: there is no such file"
+    # Debian's tests run only in Debian's own tools, so a renamed file would be noticed late.
+    for script in (folder / "debian" / "tests").glob("*"):
+        for name in re.findall(rf"(?<![\w/])(?:{'|'.join(FOLDERS)})/[\w./-]*\w(?![\w./-]*\$)", script.read_text(encoding="utf-8")):
+            if not (folder / name).exists():
+                yield f"debian/tests/{script.name}: {name}: there is no such file"
 
 
 folder = pathlib.Path(sys.argv[1])

@@ -59,6 +59,7 @@ class Checks(unittest.TestCase):
         good = {"README.md": "# A\n[b](docs/b.md#two-words) [a](#a) [web](https://example.org) `[c](c.md)`\n",
                 "docs/b.md": "## Two words\n```sh\n[d](d.md)\n```\n![a](a.png) `src/x/*/NAME.cpp` `bin/a`\n", "docs/a.png": "",
                 "docs/walks.md": "| `part/a.cpp` | it works |\n",
+                "debian/tests/t": 'cc src/x/part/a.cpp -o "$work/b" && diff src/x/$name.txt "$work/src/c"\n',
                 "src/x/part/a.cpp": '// The proof is in docs/b.md, "Two\n// words".',
                 "docs/theory/t.md": "# T\n[b](../b.md) $x$ `$HOME`\n```math\n$\n```\nHere is `a.cpp`.\n",
                 "include/y.h": "/* docs/theory/t.md has\n * the rest. */", "CHANGELOG.md": 'docs/gone.md, "Gone"\n',
@@ -79,6 +80,7 @@ class Checks(unittest.TestCase):
             ("src/x/part/a.cpp", "words", "sentences", 'docs/b.md, "Two sentences": there is no such heading'),
             ("src/x/part/a.cpp", '"Two\n// words"', "section 8", "docs/b.md, section 8: name the heading"),
             ("include/y.h", "t.md", "u.md", "include/y.h: docs/theory/u.md: there is no such file"),
+            ("debian/tests/t", "part/a.cpp", "part/z.cpp", "debian/tests/t: src/x/part/z.cpp: there is no such file"),
             ("examples/n.ipynb", "Two", "Three", 'examples/n.ipynb: docs/b.md, "Three words": there is no such heading'),
         ]:
             with self.subTest(text):

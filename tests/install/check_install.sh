@@ -62,9 +62,9 @@ has_fortran_of() { # argument: name
   has Fortran && [ -e "$source/examples/$1.f90" ]
 }
 
-# Prints the part of expected.txt below the line "== NAME".
+# Prints the text that an example must print.
 expected_of() { # argument: name
-  awk -v name="$1" '/^== / { inside = $2 == name; next } inside' "$source/tests/install/expected.txt"
+  "$source/tests/install/expected_of.sh" "$1"
 }
 
 # An example must print the same text in C and in Fortran, with each way to build the example.
