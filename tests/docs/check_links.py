@@ -117,8 +117,9 @@ def missing_sources(folder):
             if not any(folder.glob(pattern)) and not (name in short and any(path.endswith(f"/{name}") for path in sources)):
                 yield f"{page.relative_to(folder)}: {name}: there is no such file"
     # Debian's tests run only in Debian's own tools, so a renamed file would be noticed late.
+    named = re.compile(rf"(?<![\w/])(?:{'|'.join(FOLDERS)})/[\w./-]*\w(?![\w./-]*\$)")
     for script in (folder / "debian" / "tests").glob("*"):
-        for name in re.findall(rf"(?<![\w/])(?:{'|'.join(FOLDERS)})/[\w./-]*\w(?![\w./-]*\$)", script.read_text(encoding="utf-8")):
+        for name in named.findall(script.read_text(encoding="utf-8")):
             if not (folder / name).exists():
                 yield f"debian/tests/{script.name}: {name}: there is no such file"
 
