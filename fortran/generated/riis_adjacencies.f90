@@ -511,7 +511,7 @@ contains
     is_created = c_associated(this%handle)
   end function adjacency_is_created
 
-  !> Returns the C handle, for calls of module riis_c. It belongs to this variable: do not destroy it.
+  !> Returns the C handle, for calls of module riis_c. The handle belongs to this variable, so do not destroy the handle.
   function adjacency_c_handle(this) result(handle)
     class(riis_adjacency), intent(in) :: this               !< May be empty.
     type(c_ptr) :: handle                                   !< c_null_ptr for an empty one.

@@ -133,7 +133,7 @@ contains
     is_created = c_associated(this%handle)
   end function keyframes_is_created
 
-  !> Returns the C handle, for calls of module riis_c. It belongs to this variable: do not destroy it.
+  !> Returns the C handle, for calls of module riis_c. The handle belongs to this variable, so do not destroy the handle.
   function keyframes_c_handle(this) result(handle)
     class(riis_keyframes), intent(in) :: this               !< May be empty.
     type(c_ptr) :: handle                                   !< c_null_ptr for empty ones.

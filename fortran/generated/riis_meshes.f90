@@ -820,7 +820,7 @@ contains
     is_created = c_associated(this%handle)
   end function mesh_is_created
 
-  !> Returns the C handle, for calls of module riis_c. It belongs to this variable: do not destroy it.
+  !> Returns the C handle, for calls of module riis_c. The handle belongs to this variable, so do not destroy the handle.
   function mesh_c_handle(this) result(handle)
     class(riis_mesh), intent(in) :: this                    !< May be empty.
     type(c_ptr) :: handle                                   !< c_null_ptr for an empty one.
