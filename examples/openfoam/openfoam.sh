@@ -159,7 +159,8 @@ openfoam_patient() {
   openfoam_cut_off "$folder/case/openfoam"
   step "a beat" "$folder/case/openfoam/Allrun" || status=$?
   grep -c 'continues at time' "$folder/case/openfoam/log.pimpleFoam"
-  python3 "$folder/case/openfoam/report.py" "$folder/case/openfoam" || status=$?
+  python3 "$folder/case/openfoam/report.py" || status=$?
+  [[ -s $folder/case/openfoam/flow.png ]] || { echo "Allrun has not drawn flow.png" >&2; status=1; }
   return "$status"
 }
 

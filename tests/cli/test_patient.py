@@ -226,7 +226,8 @@ class Patient(unittest.TestCase):
         printed = re.findall(r"^(riis (?:place|size-field) .*)$", commands, re.MULTILINE)
         self.assertEqual(len(printed), 2, commands)
         # The picture for a talk has the skirt and the wall.
-        self.assertRegex(commands, r"\n# a picture for a talk:\n# riis mark mesh.msh --valve placed.json --skirt 6 --wall wall.stl .*"
+        self.assertRegex(commands, r"\n# a picture for a talk:\n"
+                         "# riis mark mesh.msh --valve placed.json --skirt 6 --wall wall.stl .*"
                          "--picture talk.png")
         self.assertNotIn("$ riis", done.stdout)
         self.assertIn("commands.sh has the command of each next step", done.stdout)
@@ -419,6 +420,12 @@ exec '{shutil.which("gmsh")}' "$@" $longer
             done = self.refused(1, f"landmarks.json: its numbers are probably in {unit}, but it states {stated}: .*: "
                                    f'write "unit": "{unit}" in it', output="none")
             self.assertFalse((self.folder / "none").exists(), done.stderr)
+        # A file of 3D Slicer has another key.
+        markups = {"markups": [{"coordinateSystem": "LPS", "coordinateUnits": "cm", "controlPoints": [
+            {"label": name, "position": point} for name, point in self.landmarks.items()]}]}
+        (self.folder / "points.mrk.json").write_text(json.dumps(markups), encoding="utf-8")
+        self.refused(1, 'points.mrk.json: its numbers are probably in mm, but it states cm: .*: write "coordinateUnits": "mm" in',
+                     landmarks="points.mrk.json", output="none")
         # What the message says cures the file.
         text = (self.folder / "landmarks.json").read_text(encoding="utf-8")
         (self.folder / "landmarks.json").write_text(text.replace('"unit": "m"', '"unit": "cm"'), encoding="utf-8")
@@ -436,7 +443,8 @@ exec '{shutil.which("gmsh")}' "$@" $longer
         slicer = {f"F-{i + 1}": point for i, point in enumerate(points.values())}
         (self.folder / "landmarks.json").write_text(json.dumps({**text, "landmarks": slicer}), encoding="utf-8")
         done = self.refused(1, '"F-1" is not the name of a landmark.*nadir_right, nadir_left, nadir_non_coronary, '
-                               "commissure_right_left, commissure_left_non_coronary, commissure_non_coronary_right; a mitral",
+                               "commissure_right_left, commissure_left_non_coronary, commissure_non_coronary_right; a mitral "
+                               "valve has other names; riis help landmarks lists",
                             output="none")
         self.assertNotIn("...;", done.stderr)
         self.refused(1, "the mitral valve has annulus_1, annulus_2, .* and anterior_horn; riis help landmarks lists", "--valve",

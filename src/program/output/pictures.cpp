@@ -259,8 +259,14 @@ void RunPictures::draw_pictures(const std::vector<MovingValve> &valves, const st
     options.leaking_edges = leaks.edges.empty() ? nullptr : leaks.edges.data();
     if (leaks.found.n_edges == 0 && leaks.has_all_edges()) options.leaking_edges = &none;
   }
-  with_display(
-      [&] { return riis_vtk_draw_views(surface, mesh_, &options, view(paths).size(), views.data(), paths.data()); });
+  try {
+    with_display(
+        [&] { return riis_vtk_draw_views(surface, mesh_, &options, view(paths).size(), views.data(), paths.data()); });
+  } catch (Refusal &refusal) {
+    const std::string field = "options->velocity";
+    if (refusal.text.rfind(field, 0) == 0) refusal.text.replace(0, field.size(), "--picture-velocity");
+    throw;
+  }
   report.written.insert(report.written.end(), paths.begin(), paths.end());
   report.seconds.picture = stage.seconds();
 }

@@ -12,7 +12,9 @@
 #include <vtkCellDataToPointData.h>
 #include <vtkCutter.h>
 #include <vtkDataArray.h>
+#include <vtkDoubleArray.h>
 #include <vtkIdList.h>
+#include <vtkInformation.h>
 #include <vtkMath.h>
 #include <vtkNew.h>
 #include <vtkPlane.h>
