@@ -535,7 +535,7 @@ TEST(refusals_leave_the_arrays) {
   arrays.K_u_surface[1] = momentum + 1, arrays.K_u_surface[2] = momentum + 2;
   CHECK_REFUSED(
       RIIS_INVALID_ARGUMENT,
-      "arrays.K_u_surface[1] begins at entry 1 of arrays.K_u_surface[0]|arrays.K_u_surface_stride is 1;|stride 3",
+      "arrays.K_u_surface[1] begins at number 1 of arrays.K_u_surface[0]|arrays.K_u_surface_stride is 1;|stride 3",
       riis_marks_add_resistance(f.result, &resistance, &arrays));
   arrays.K_u_surface_stride = 3, arrays.K_u_surface[1] = momentum;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT,
@@ -548,7 +548,7 @@ TEST(refusals_leave_the_arrays) {
   of_flow.n_nodes = n, of_flow.weight = f.weight, reaction.force = force;
   for (int c = 0; c < 3; ++c) of_flow.velocity[c] = f.velocity + c;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT,
-                "flow.velocity[1] begins at entry 1 of flow.velocity[0]|flow.velocity_stride is 1;",
+                "flow.velocity[1] begins at number 1 of flow.velocity[0]|flow.velocity_stride is 1;",
                 riis_marks_add_reaction(f.result, &resistance, &of_flow, &reaction));
   UNCHANGED();
 

@@ -308,17 +308,22 @@ TEST(surface_arrays_are_refused_by_name) {
                 riis_surface_create_from_arrays(&arrays, &options, &surface));
 }
 
-/* Tells whether two of three components have a number in common, although they begin at different numbers. */
-static int share_numbers(const int *begins, int n, int stride) {
+/* Tells whether one of three components begins inside another, behind its second entry. A number that belongs to two components
+ * counts, too. */
+static int begin_inside(const int *begins, int n, int stride) {
   for (int a = 0; a < 3; ++a)
-    for (int b = 0; b < 3; ++b)
-      for (int i = 0; begins[a] != begins[b] && i < n; ++i)
-        for (int j = 0; j < n; ++j)
-          if (begins[a] + i * stride == begins[b] + j * stride) return 1;
+    for (int b = 0; b < 3; ++b) {
+      int n_before = 0, n_equal = 0, n_after = 0;
+      for (int i = 0; begins[a] < begins[b] && i < n; ++i) {
+        const int entry = begins[a] + i * stride;
+        ++*(entry < begins[b] ? &n_before : entry == begins[b] ? &n_equal : &n_after);
+      }
+      if (n_equal > 0 || (n_before > 1 && n_after > 0)) return 1;
+    }
   return 0;
 }
 
-TEST(components_that_share_numbers_are_refused) {
+TEST(components_that_begin_inside_each_other_are_refused) {
   static double numbers[64];
   riis_mesh *mesh = NULL, *copy = NULL;
   int n_refused = 0, n_accepted = 0;
@@ -332,7 +337,7 @@ TEST(components_that_share_numbers_are_refused) {
           points.n_points = n, points.stride = stride, points.real_bits = 32;
           points.x = (float *)numbers + 4, points.y = (float *)numbers + y, points.z = (float *)numbers + z;
           const riis_status status = riis_mesh_create(n, numbers + 4, numbers + y, numbers + z, stride, &mesh);
-          assert_int_equal(status, share_numbers(begins, n, stride) ? RIIS_INVALID_ARGUMENT : RIIS_OK);
+          assert_int_equal(status, begin_inside(begins, n, stride) ? RIIS_INVALID_ARGUMENT : RIIS_OK);
           assert_int_equal(riis_mesh_create_copy(&points, &copy), status);
           ++*(status == RIIS_OK ? &n_accepted : &n_refused);
           riis_mesh_destroy(&mesh);
@@ -340,21 +345,26 @@ TEST(components_that_share_numbers_are_refused) {
         }
   assert_true(n_refused > 100 && n_accepted > 1000);
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT,
-                "y begins at entry 1 of x, because stride is 1; the components of xyz(3,n) have the stride 3",
+                "y begins at number 1 of x, because stride is 1; the components of xyz(3,n) have the stride 3",
                 riis_mesh_create(4, xyz, xyz + 1, xyz + 2, 1, &mesh));
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "x begins at entry 3 of z, because stride is 2; the components must not overlap",
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT,
+                "x begins at number 6 of z, because stride is 2; separate arrays have the stride 1",
                 riis_mesh_create(4, numbers + 9, numbers + 20, numbers + 3, 2, &mesh));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT,
+                "z begins at number 3 of x, because stride is 1; the components must not overlap",
+                riis_mesh_create(5, numbers, numbers + 20, numbers + 3, 1, &mesh));
   CHECK_OK(riis_mesh_create(4, xyz, xyz + 1, xyz + 2, 3, &mesh));
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "y begins at entry 1 of x", riis_mesh_update(mesh, 4, xyz, xyz + 1, xyz + 2, 1));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "y begins at number 1 of x",
+                riis_mesh_update(mesh, 4, xyz, xyz + 1, xyz + 2, 1));
   riis_mesh_destroy(&mesh);
   riis_surface *surface = NULL;
   riis_surface_arrays arrays = triangle_arrays(4, xyz, 1, ids);
   arrays.vx = xyz + 1, arrays.vy = xyz, arrays.vz = xyz + 7;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT,
-                "arrays.vx begins at entry 1 of arrays.vy, because arrays.velocity_stride is 1;|have the stride 3",
+                "arrays.vx begins at number 1 of arrays.vy, because arrays.velocity_stride is 1;|have the stride 3",
                 riis_surface_create_from_arrays(&arrays, NULL, &surface));
   arrays.vx = arrays.vy = arrays.vz = NULL, arrays.stride = 1;
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "arrays.y begins at entry 1 of arrays.x, because arrays.stride is 1",
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "arrays.y begins at number 1 of arrays.x, because arrays.stride is 1",
                 riis_surface_create_from_arrays(&arrays, NULL, &surface));
 }
 

@@ -208,7 +208,8 @@ static void use_what_is_marked(const shared_objects *of) {
   riis_marks *other = NULL;
   IS_HELD("marks", riis_mark_nodes(of->surface, of->mesh, NULL, shared_marks));
   IS_HELD("marks", riis_marks_get_list(shared_marks, RIIS_LIST_MARKED, &list, sizeof list));
-  IS_HELD("mesh", riis_mesh_prepare(of->mesh, 1));
+  IS_HELD("mesh", riis_mesh_set_adjacency(of->mesh, NULL));
+  CHECK_OK(riis_mesh_prepare(of->mesh, 1)); /* makes what a marking makes */
   IS_HELD("surface", riis_surface_update(of->surface, of->valve, NULL));
   CHECK_OK(riis_closest_point(of->surface, origin, &closest, sizeof closest));
   CHECK_OK(riis_marks_create(&other));
@@ -217,7 +218,7 @@ static void use_what_is_marked(const shared_objects *of) {
   /* In a child the call of the parent's other thread never ends, and must not hold the objects. */
   const pid_t child = fork();
   if (child == 0)
-    _exit(riis_mesh_prepare(of->mesh, 1) == RIIS_OK &&
+    _exit(riis_mesh_set_adjacency(of->mesh, NULL) == RIIS_OK &&
                   riis_marks_get_list(shared_marks, RIIS_LIST_MARKED, &list, sizeof list) == RIIS_OK
               ? 0
               : 1);
@@ -247,7 +248,7 @@ TEST(a_call_is_refused_while_another_thread_changes_its_objects) {
   CHECK_OK(riis_surface_update(of.surface, of.valve, NULL));
   CHECK_OK(riis_mark_nodes(of.surface, of.mesh, NULL, shared_marks));
   CHECK_OK(riis_marks_get_list(shared_marks, RIIS_LIST_MARKED, &list, sizeof list));
-  CHECK_OK(riis_mesh_prepare(of.mesh, 1));
+  CHECK_OK(riis_mesh_set_adjacency(of.mesh, NULL));
   CHECK_OK(riis_valve_set_open_state(of.valve, of.valve)); /* a call may name an object twice */
 }
 

@@ -115,17 +115,19 @@ void check_apart(std::int64_t n, const void *const (&components)[3], std::int64_
                  const ComponentNames &names, bool may_be_equal) {
   const auto address = [&](int c) { return reinterpret_cast<std::uintptr_t>(components[c]); };
   const auto step = static_cast<std::uintptr_t>(stride * size);
+  if (n == 0) return;
   for (int a = 0; a < 2; ++a)
     for (int b = a + 1; b < 3; ++b) {
       const int early = address(a) <= address(b) ? a : b, late = a + b - early;
       const std::uintptr_t difference = address(late) - address(early);
-      if (difference % step != 0 || difference / step >= static_cast<std::uintptr_t>(n)) continue;
+      if (difference > 0 && (difference < step || difference > step * static_cast<std::uintptr_t>(n - 1))) continue;
+      const auto numbers = static_cast<std::int64_t>(difference) / size;
       if (difference > 0)
-        fail(RIIS_INVALID_ARGUMENT, names.prefix, names.names[late], " begins at entry ",
-             static_cast<std::int64_t>(difference / step), " of ", names.prefix, names.names[early], ", because ",
-             names.prefix, names.stride, " is ", stride,
-             stride == 1 && difference / step < 3 ? "; the components of xyz(3,n) have the stride 3"
-                                                  : "; the components must not overlap");
+        fail(RIIS_INVALID_ARGUMENT, names.prefix, names.names[late], " begins at number ", numbers, " of ",
+             names.prefix, names.names[early], ", because ", names.prefix, names.stride, " is ", stride,
+             stride == 1 && numbers < 3   ? "; the components of xyz(3,n) have the stride 3"
+             : stride > 1 && numbers >= n ? "; separate arrays have the stride 1"
+                                          : "; the components must not overlap");
       if (!may_be_equal)
         fail(RIIS_INVALID_ARGUMENT, names.prefix, names.names[late], " is the same array as ", names.prefix,
              names.names[early], "; each component needs its own array");
