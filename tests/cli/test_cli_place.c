@@ -109,7 +109,10 @@ TEST(fcsv_gives_the_same) {
       {"# Markups fiducial file version = 4.6\n# CoordinateSystem = 0\n# columns = "
        "id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label\n",
        "node_%d,%.17g,%.17g,%.17g,0,0,0,1,1,1,0,%s\n", -1},
-      {"# CoordinateSystem = LPS\n", "vtkMRMLMarkupsFiducialNode_%d,%.17g,%.17g,%.17g,0,0,0,1,1,1,0,%s,,\n", 1}};
+      {"# CoordinateSystem = LPS\n", "vtkMRMLMarkupsFiducialNode_%d,%.17g,%.17g,%.17g,0,0,0,1,1,1,0,%s,,\n", 1},
+      {"# Markups fiducial file version = 5.6\n# CoordinateSystem = LPS\n# columns = "
+       "id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,desc,associatedNodeID\n",
+       "%d,%.17g,%.17g,%.17g,0,0,0,1,1,1,0,%s,,,2,0\n", 1}};
   for (size_t version = 0; version < sizeof versions / sizeof *versions; ++version) {
     char text[4096];
     int n = snprintf(text, sizeof text, "%s", versions[version].heading);
@@ -127,6 +130,50 @@ TEST(fcsv_gives_the_same) {
     expect_sizes(program_out);
     assert_non_null(strstr(program_out, "\"unit\": \"mm\""));
   }
+}
+
+/* The tables that 3D Slicer exports, and what spreadsheets make of a .csv. Spreadsheets quote cells, add empty cells, and end
+ * lines with a carriage return. */
+TEST(tables_give_the_same) {
+  const struct {
+    const char *heading, *row;
+    double sign;
+  } tables[] = {{"label,r,a,s,defined,selected,visible,locked,description\n", "%s,%.17g,%.17g,%.17g,1,1,1,0,\n", -1},
+                {"label,l,p,s\n", "%s,%.17g,%.17g,%.17g\n", 1},
+                {"\"# unit = mm\",,,,\r\n\"# axes = LPS\",,,,\r\n", "\"%s\",\"%.17g\",\"%.17g\",\"%.17g\",\r\n", 1},
+                {"# unit = mm\r# axes = LPS\r", "%s,%.17g,%.17g,%.17g,,\r", 1}};
+  for (size_t k = 0; k < sizeof tables / sizeof *tables; ++k) {
+    char text[4096];
+    int n = snprintf(text, sizeof text, "%s", tables[k].heading);
+    for (int i = 0; i < 6; ++i) {
+      double p[3];
+      landmark(i, 10, p);
+      n += snprintf(text + n, sizeof text - (size_t)n, tables[k].row, names[i], tables[k].sign * p[0],
+                    tables[k].sign * p[1], p[2]);
+    }
+    scratch_write_text("t.csv", text);
+    RUN_FINE("place", scratch_path("t.csv"), "--valve", "trileaflet", "--axes", "LPS", "--output", "-");
+    expect_sizes(program_out);
+    assert_non_null(strstr(program_out, "\"unit\": \"mm\""));
+  }
+}
+
+/* 3D Slicer's files have keys that are nested more deeply than any file of riis. */
+TEST(other_keys_may_be_deep) {
+  char text[4096], deep[256] = "{\"markups\": [{\"measurements\": ";
+  for (int i = 0; i < 20; ++i) strcat(deep, "[");
+  for (int i = 0; i < 20; ++i) strcat(deep, "]");
+  int n = snprintf(text, sizeof text, "%s, \"coordinateSystem\": \"LPS\", \"controlPoints\": [", deep);
+  for (int i = 0; i < 6; ++i) {
+    double p[3];
+    landmark(i, 10, p);
+    n += snprintf(text + n, sizeof text - (size_t)n, "%s{\"label\": \"%s\", \"position\": [%.17g, %.17g, %.17g]}",
+                  i ? ", " : "", names[i], p[0], p[1], p[2]);
+  }
+  snprintf(text + n, sizeof text - (size_t)n, "]}]}");
+  scratch_write_text("deep.mrk.json", text);
+  RUN_FINE("place", scratch_path("deep.mrk.json"), "--valve", "trileaflet", "--output", "-");
+  expect_sizes(program_out);
 }
 
 TEST(closed_curve_is_an_annulus) {
@@ -438,6 +485,11 @@ TEST(files_are_refused_by_name) {
   refuse_text("a.fcsv", "# CoordinateSystem = 1\nnadir,1,2\n", "line 2 has 3 of the 4 columns");
   refuse_text("a.fcsv", "# CoordinateSystem = 1\nnadir,1,2,x3\n", "line 2");
   refuse_text("a.fcsv", "# CoordinateSystem = 1\n", "holds no landmarks");
+  refuse_text("a.fcsv", "# CoordinateSystem = LPS\n1,0,0,0,0,0,0,1,1,1,0,nadir_left,,,0,0\n",
+              "line 2: \"nadir_left\" is not placed, because its status is \"0\"; place the point or delete it");
+  refuse_text("a.csv", "label,r,a,s,defined\nnadir_left,0,0,0,0\n",
+              "line 2: \"nadir_left\" is not placed, because defined is \"0\"; place the point or delete it");
+  refuse_text("a.csv", "label,l,p,s\nnadir_left,0,0\n", "line 2 has fewer than the 4 cells label,l,p,s");
   refuse_text("a.csv", "# unit = mm\nnadir,1,2,3\n", "states no axes: a line such as # axes = LPS is missing");
   refuse_text("a.csv", "# unit = mm\n# axes = LPI\nnadir,1,2,3\n",
               "the axes are \"LPI\"; they must be LPS, RAS or mesh; mesh stands for the axes");

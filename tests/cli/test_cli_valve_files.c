@@ -147,6 +147,10 @@ TEST(test_parameters) {
               "--valve", file, "--opening", "0.5");
 }
 
+/* A number within 70 arrays. */
+#define SEVEN_TIMES(text) text text text text text text text
+#define NESTED SEVEN_TIMES("[[[[[[[[[[") "1" SEVEN_TIMES("]]]]]]]]]]")
+
 TEST(test_bad_files) {
   const struct {
     const char *json, *text;
@@ -165,7 +169,7 @@ TEST(test_bad_files) {
       {"{\"curves\": {\"a\": [[0,0,0]]}, \"patches\": []}", "v.json: \"patches\" is empty"},
       {"{\"curves\": {\"a\": [[0,0,0]], \"a\": [[0,0,0]]}}", "v.json: a is given twice"},
       {"{\"curves\": {\"a\": [[0,0,0]]}, \"curves\": {}}", "v.json: curves is given twice"},
-      {"{\"curves\": {\"a\": [[[[[[[[[1]]]]]]]]]}}", "v.json: is nested deeper than curves and patches can be"},
+      {"{\"curves\": {\"a\": " NESTED "}}", "v.json: is nested deeper than curves and patches can be"},
       {"{\"curves\": {\"a\\nb\": [[0,0,0]]}}", "v.json: a name holds a control character"},
       {"{\"curves\": {\"\": [[0,0,0]]}}", "v.json: a curve has an empty name"},
       {"{\"curves\": {\"-a\": [[0,0,0]]}}", "v.json: curve \"-a\": a name must not begin with a minus"},

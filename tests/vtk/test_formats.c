@@ -257,6 +257,84 @@ TEST(test_xdmf_of_series) {
   expect_same("checkpoint.vtu", "tet.vtu", SHIM_BITS, 1);
 }
 
+static void write_xdmf(const char *name, const char *topology, const char *shape) {
+  char text[4096];
+  snprintf(text, sizeof text,
+           "<Xdmf><Domain><Grid Name=\"all\" GridType=\"Collection\" CollectionType=\"Spatial\">"
+           "<Information Name=\"one grid\" Value=\"1\"/><Grid>%s%s</Grid></Grid></Domain></Xdmf>",
+           topology, shape);
+  scratch_write_text(name, text);
+}
+
+static const char tetrahedron[] =
+    "<Topology TopologyType=\"Tetrahedron\"><DataItem Dimensions=\"1 4\" NumberType=\"Int\">0 1 2 "
+    "3</DataItem></Topology>";
+
+/* Coordinates may be in three items, one for each axis. A collection of one grid may hold other elements. */
+TEST(test_xdmf_of_three_axes) {
+  scratch_write_text("tet.xdmf", xdmf);
+  rewrite("tet.xdmf", "tet.vtu", "");
+  char text[2048] =
+      "<Geometry GeometryType=\"X_Y_Z\"><DataItem Dimensions=\"4\">0 1 0 0</DataItem>"
+      "<DataItem Dimensions=\"4\">0 0 1 0</DataItem><DataItem Dimensions=\"4\">0 0 0 1</DataItem></Geometry>"
+      "<Attribute Name=\"p\"><DataItem Dimensions=\"4\">1 2 3 4</DataItem></Attribute>";
+  write_xdmf("axes.xdmf", tetrahedron, text);
+  rewrite("axes.xdmf", "axes.vtu", "");
+  expect_same("axes.vtu", "tet.vtu", SHIM_BITS, 1);
+  riis_vtk_mesh *mesh = NULL;
+  memcpy(strstr(text, "X_Y_Z"), "X_Y_W", 5);
+  write_xdmf("axes.xdmf", tetrahedron, text);
+  expect_refused(riis_vtk_mesh_read(scratch_path("axes.xdmf"), &mesh), RIIS_FILE_ERROR,
+                 "has a Geometry of the type xyw; XYZ, XY and X_Y_Z are read");
+  write_xdmf(
+      "axes.xdmf", tetrahedron,
+      "<Geometry GeometryType=\"X_Y_Z\"><DataItem Dimensions=\"12\">0 1 0 0 0 0 1 0 0 0 0 1</DataItem></Geometry>");
+  expect_refused(riis_vtk_mesh_read(scratch_path("axes.xdmf"), &mesh), RIIS_FILE_ERROR,
+                 "has a Geometry of the type X_Y_Z; it must have 3 DataItems of one length");
+  write_xdmf("axes.xdmf", tetrahedron, "<Geometry Reference=\"XML\">/Xdmf/Domain/Geometry[1]</Geometry>");
+  expect_refused(
+      riis_vtk_mesh_read(scratch_path("axes.xdmf"), &mesh), RIIS_FILE_ERROR,
+      "has a Geometry that refers to another Geometry; riis reads only numbers that stand in their own place");
+}
+
+/* Whole numbers in binary files may have 1, 2, 4 or 8 bytes, with and without a sign. meshio writes such files. */
+TEST(test_xdmf_of_short_numbers) {
+  enum { n_points = 200 };
+  for (int n_bytes = 1; n_bytes <= 8; n_bytes *= 2)
+    for (int is_unsigned = 0; is_unsigned < 2; ++is_unsigned)
+      for (int is_big = 0; is_big < 2; ++is_big) {
+        unsigned char numbers[8 * 4];
+        const int ids[4] = {is_unsigned || n_bytes > 1 ? 199 : 100, 1, 2, 3};
+        for (int i = 0; i < 4; ++i)
+          for (int k = 0; k < n_bytes; ++k)
+            numbers[n_bytes * i + (is_big ? n_bytes - 1 - k : k)] = (unsigned char)(k == 0 ? ids[i] : 0);
+        scratch_write("ids.bin", numbers, (size_t)(4 * n_bytes));
+        char topology[512], shape[8192], text[16384];
+        snprintf(
+            topology, sizeof topology,
+            "<Topology TopologyType=\"Tetrahedron\"><DataItem Dimensions=\"1 4\" NumberType=\"%s\" Precision=\"%d\" "
+            "Format=\"Binary\" Endian=\"%s\">ids.bin</DataItem></Topology>",
+            is_unsigned ? "UInt" : "Int", n_bytes, is_big ? "Big" : "Little");
+        int n =
+            snprintf(shape, sizeof shape, "<Geometry GeometryType=\"XYZ\"><DataItem Dimensions=\"%d 3\">", n_points);
+        for (int i = 0; i < n_points; ++i)
+          n += snprintf(shape + n, sizeof shape - (size_t)n, "%d %d %d ", i % 2, i / 2 % 2, i / 4);
+        snprintf(shape + n, sizeof shape - (size_t)n, "</DataItem></Geometry>");
+        snprintf(text, sizeof text, "<Xdmf><Domain><Grid>%s%s</Grid></Domain></Xdmf>", topology, shape);
+        scratch_write_text("short.xdmf", text);
+        rewrite("short.xdmf", "short.vtu", "");
+        snprintf(
+            topology, sizeof topology,
+            "<Topology TopologyType=\"Tetrahedron\"><DataItem Dimensions=\"1 4\" NumberType=\"Int\">%d 1 2 3</DataItem>"
+            "</Topology>",
+            ids[0]);
+        snprintf(text, sizeof text, "<Xdmf><Domain><Grid>%s%s</Grid></Domain></Xdmf>", topology, shape);
+        scratch_write_text("long.xdmf", text);
+        rewrite("long.xdmf", "long.vtu", "");
+        expect_same("short.vtu", "long.vtu", SHIM_BITS, 1);
+      }
+}
+
 /* dolfinx's cells of order 3, which have VTK's order of nodes. XDMF has no number for these types in a mixed list of cells. */
 TEST(test_xdmf_of_order_3) {
   static const struct {

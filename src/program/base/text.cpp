@@ -11,6 +11,7 @@
 #include <sstream>
 #include <system_error>
 
+#include "common/byte_order_mark.hpp"
 #include "common/nearest_name.hpp"
 #include "common/number_from_chars.hpp"
 #include "program/base/refusal.hpp"
@@ -169,14 +170,11 @@ std::string text_of_file(const std::string &path) {
   if (file) text << file.rdbuf();
   // On Linux, a folder can be opened as a file. Reading a folder fails, so folders are recognised here.
   if (!file.is_open() || errno != 0) refuse_file(path, "cannot be read: " + system_text(errno));
-  std::string content = text.str();
+  const std::string content = text.str();
   if (content.empty()) refuse_file(path, "is empty");
   if (content.rfind("version https://git-lfs.github.com/spec/", 0) == 0)
     refuse_file(path, "is a pointer of Git LFS, not the file itself: git lfs pull fetches the file");
-  // Text files from Windows may begin with a byte order mark.
-  const std::string mark = "\xef\xbb\xbf";
-  if (content.rfind(mark, 0) == 0) content.erase(0, mark.size());
-  return content;
+  return std::string(without_byte_order_mark(content));
 }
 
 // ---- Times ----
@@ -284,9 +282,13 @@ double number_in_file(const std::string &path, const std::string &text, const st
 std::vector<CsvLine> csv_lines(const std::string &text) {
   std::vector<CsvLine> lines;
   std::size_t number = 0;
-  for (const std::string &whole : split(text, "\n")) {
-    const std::string line = trimmed(whole), where = "line " + std::to_string(++number);
+  // Some programs end lines with a carriage return alone.
+  for (const std::string &whole : split(text, text.find('\n') == std::string::npos ? "\r" : "\n")) {
+    std::string line = trimmed(whole);
+    const std::string where = "line " + std::to_string(++number);
     if (line.empty()) continue;
+    // A spreadsheet may quote every cell.
+    if (line.rfind("\"#", 0) == 0) line = csv_cells(line).front();
     if (line[0] != '#') {
       lines.push_back({where, line, {}});
     } else if (const std::size_t equals = line.find('='); equals != std::string::npos) {
@@ -311,8 +313,9 @@ CsvFile csv_of_text(const std::string &path, const std::string &text, const std:
       continue;
     }
     file.rows.push_back({line.where, csv_cells(line.row)});
-    if (file.rows.back().cells.size() != n_cells)
-      refuse_file(path, line.where + " must be " + form + ", not " + quoted(line.row));
+    std::vector<std::string> &cells = file.rows.back().cells;
+    while (cells.size() > n_cells && cells.back().empty()) cells.pop_back();
+    if (cells.size() != n_cells) refuse_file(path, line.where + " must be " + form + ", not " + quoted(line.row));
   }
   return file;
 }

@@ -15,9 +15,9 @@ class Guard {
   Guard(const std::string &path, const std::string &content) : path_(path), content_(content) {}
 
   void operator()(int depth, Json::parse_event_t event, const Json &parsed) {
-    // The program's files have at most five levels below the root. The limit protects recursive code from files with deeper
-    // nesting.
-    constexpr int deepest = 8;
+    // The program's files have at most five levels below the root, and files of 3D Slicer have more. The limit protects recursive
+    // code from files with deeper nesting.
+    constexpr int deepest = 64;
     if (depth > deepest) refuse_file(path_, "is nested deeper than " + content_ + " can be");
     if (event == Json::parse_event_t::object_start) {
       keys_.emplace_back();

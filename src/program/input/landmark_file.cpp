@@ -359,11 +359,16 @@ void read_fcsv(const std::string &text, LandmarkFile &file) {
   const std::size_t label = column("label");
   const std::array<std::size_t, 3> xyz = {column("x"), column("y"), column("z")};
   const std::size_t last = std::max({label, xyz[0], xyz[1], xyz[2]});
+  // Version 5 adds the status of a point behind the 14 named cells: 2 for a placed point.
+  constexpr std::size_t n_named = 14;
   Collector to(file);
   for (const CsvFile::Row &row : rows) {
     if (row.cells.size() <= last)
       refuse_file(path, row.where + " has " + std::to_string(row.cells.size()) + " of the " +
                             std::to_string(columns.size()) + " columns");
+    if (label == 11 && row.cells.size() > n_named && row.cells[n_named] != "2")
+      refuse_file(path, row.where + ": " + quoted(row.cells[label]) + " is not placed, because its status is " +
+                            quoted(row.cells[n_named]) + "; place the point or delete it");
     to.add(row.cells[label], point_in_row(path, row, xyz));
   }
   to.finish();
@@ -371,8 +376,36 @@ void read_fcsv(const std::string &text, LandmarkFile &file) {
 
 // ---- CSV ----
 
+// Reads a table of control points that 3D Slicer exported. The names of the columns tell the axes, and lengths are in mm. Returns
+// false for another file.
+bool read_slicer_table(const std::string &text, LandmarkFile &file) {
+  const std::string &path = file.path;
+  std::vector<CsvFile::Row> rows;
+  for (const CsvLine &line : csv_lines(text))
+    if (!line.fact) rows.push_back({line.where, csv_cells(line.row)});
+  const std::vector<std::string> columns = rows.empty() ? std::vector<std::string>{} : rows.front().cells;
+  const std::string heading = joined_by(columns, ",");
+  const bool is_ras = heading.rfind("label,r,a,s", 0) == 0;
+  if (!is_ras && heading.rfind("label,l,p,s", 0) != 0) return false;
+  file.axes = is_ras ? Axes::RAS : Axes::LPS;
+  file.unit = Unit::millimetre;
+  const auto defined = static_cast<std::size_t>(std::find(columns.begin(), columns.end(), "defined") - columns.begin());
+  Collector to(file);
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const CsvFile::Row &row = rows[i];
+    if (row.cells.size() < 4) refuse_file(path, row.where + " has fewer than the 4 cells " + heading.substr(0, 11));
+    if (defined < row.cells.size() && row.cells[defined] != "1")
+      refuse_file(path, row.where + ": " + quoted(row.cells[0]) + " is not placed, because defined is " +
+                            quoted(row.cells[defined]) + "; place the point or delete it");
+    to.add(row.cells[0], point_in_row(path, row, {1, 2, 3}));
+  }
+  to.finish();
+  return true;
+}
+
 void read_csv(const std::string &text, LandmarkFile &file) {
   const std::string &path = file.path;
+  if (read_slicer_table(text, file)) return;
   const CsvFile csv = csv_of_text(path, text, {"unit", "axes", "valve", "noise", "flow"}, "NAME,X,Y,Z", 4);
   const std::map<std::string, std::string> &stated = csv.stated;
   Collector to(file);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <unordered_map>
 #include <utility>
@@ -84,6 +85,75 @@ std::pair<std::vector<std::int64_t>, std::int64_t> numbered(const std::vector<Va
   return {std::move(made), n};
 }
 
+// A vertex at the boundary of a piece, with its place relative to the piece's centroid.
+struct PieceVertex {
+  std::int64_t vertex, piece;
+  Vec3 at, from_centroid;
+};
+
+// Returns the share by which the pieces must grow about their centroids, so that two vertices of different pieces meet as closely
+// as possible. The share is at most `most`.
+double share_until_pieces_meet(const std::vector<PieceVertex> &vertices, double most) {
+  double share = 0, least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < vertices.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k) {
+      if (vertices[i].piece == vertices[k].piece) continue;
+      const Vec3 gap = vertices[i].at - vertices[k].at, growth = vertices[i].from_centroid - vertices[k].from_centroid;
+      const double wanted = -dot(gap, growth) / dot(growth, growth);
+      if (!(wanted > 0 && wanted <= most)) continue;
+      const Vec3 left = gap + wanted * growth;
+      if (dot(left, left) < least) least = dot(left, left), share = wanted;
+    }
+  return share;
+}
+
+// Leaflets that end short of each other have no common attachment. Returns triangles whose pieces have grown about their
+// centroids until neighbours meet, with one place for vertices that are close to each other. Returns nothing if pieces touch
+// anyway, or if the boundary has too many vertices to compare each with each.
+std::optional<TriangleSet> joined_pieces(const TriangleSet &set, const std::vector<std::int64_t> &piece,
+                                         const LeafletBoundary &boundary) {
+  constexpr double most_growth = 0.05, closeness = 1e-3;
+  constexpr std::size_t most_vertices = 10000;
+  std::int64_t n_places = 0;
+  const auto place = distinct_positions(set, n_places);
+  std::vector<std::int64_t> piece_at(static_cast<std::size_t>(n_places), -1);
+  for (std::int64_t i = 0; i < 3 * set.n_triangles(); ++i) {
+    std::int64_t &at = view(piece_at)[view(place)[view(set.vertex_id)[i]]];
+    if (at >= 0 && at != view(piece)[i / 3]) return std::nullopt;
+    at = view(piece)[i / 3];
+  }
+  std::vector<PieceVertex> vertices;
+  for (const OpenEdge &edge : open_edges(set, false)) {
+    const std::int64_t of = view(piece)[edge.triangle];
+    vertices.push_back({edge.from, of, set.vertex(edge.from), set.vertex(edge.from) - view(boundary.centroids)[of]});
+  }
+  if (vertices.size() > most_vertices) return std::nullopt;
+  const double share = share_until_pieces_meet(vertices, most_growth);
+  if (share == 0) return std::nullopt;
+  TriangleSet joined = set;
+  const auto move = [&](std::int64_t vertex, Vec3 to) {
+    for (std::int64_t c = 0; c < 3; ++c) view(joined.xyz)[3 * vertex + c] = c == 0 ? to.x : c == 1 ? to.y : to.z;
+  };
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    vertices[i].at = vertices[i].at + share * vertices[i].from_centroid;
+    const double limit = closeness * length(vertices[i].from_centroid);
+    for (std::size_t k = 0; k < i; ++k)
+      if (vertices[k].piece != vertices[i].piece && distance(vertices[k].at, vertices[i].at) < limit) {
+        vertices[i].at = vertices[k].at;
+        break;
+      }
+  }
+  std::vector<Vec3> at_place(static_cast<std::size_t>(n_places));
+  std::vector<bool> is_moved(static_cast<std::size_t>(n_places), false);
+  for (const PieceVertex &vertex : vertices) {
+    const auto where = static_cast<std::size_t>(view(place)[vertex.vertex]);
+    at_place[where] = vertex.at, is_moved[where] = true;
+  }
+  for (std::int64_t i = 0; i < set.n_vertices(); ++i)
+    if (const auto where = static_cast<std::size_t>(view(place)[i]); is_moved[where]) move(i, at_place[where]);
+  return joined;
+}
+
 }  // namespace
 
 LeafletBoundary boundary_of_leaflets(const TriangleSet &set) {
@@ -108,6 +178,12 @@ LeafletBoundary boundary_of_leaflets(const TriangleSet &set) {
   }
   for (const OpenEdge &edge : open_edges(set, false))
     boundary.edges.push_back({set.vertex(edge.from), set.vertex(edge.to), view(piece)[edge.triangle]});
+  const std::optional<TriangleSet> joined = n_pieces > 1 ? joined_pieces(set, piece, boundary) : std::nullopt;
+  const TriangleSet &whole = joined ? *joined : set;
+  const LargestBoundary largest = largest_boundary(whole);
+  boundary.perhaps_area = length(largest.area);
+  for (const OpenEdge &edge : largest.edges)
+    boundary.perhaps_attached.push_back({whole.vertex(edge.from), whole.vertex(edge.to), 0});
   return boundary;
 }
 
@@ -120,7 +196,7 @@ LeafletBoundary boundary_of_wall(const TriangleSet &wall) {
   for (const OpenEdge &edge : edges) length[lines.root(edge.from)] += length_of(edge);
   const auto longest =
       std::max_element(length.begin(), length.end(), [](const auto &a, const auto &b) { return a.second < b.second; });
-  LeafletBoundary boundary{{}, {{0, 0, 0}}, {0, 0, 0}};
+  LeafletBoundary boundary{{}, {}, 0, {{0, 0, 0}}, {0, 0, 0}};
   for (const OpenEdge &edge : edges)
     if (lines.root(edge.from) == longest->first)
       boundary.edges.push_back({wall.vertex(edge.from), wall.vertex(edge.to), 0});
@@ -293,15 +369,21 @@ Vec3 vector_area(const LeafletBoundary &boundary, const SeenParts &from) {
   return area;
 }
 
+double area_of_corners(const std::vector<PlanePoint> &corners) {
+  double area = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    area += 0.5 * cross_of(corners[i], corners[(i + 1) % corners.size()]);
+  return area;
+}
+
 // Returns the area of a polygon around (0, 0), divided by the area of a circle with the same length.
 double roundness_of(const std::vector<PlanePoint> &corners) {
-  double area = 0, whole = 0;
+  double whole = 0;
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    const PlanePoint &a = corners[i], &b = corners[(i + 1) % corners.size()], along = difference(b, a);
-    area += 0.5 * cross_of(a, b);
+    const PlanePoint along = difference(corners[(i + 1) % corners.size()], corners[i]);
     whole += std::sqrt(dot_of(along, along));
   }
-  return whole > 0 ? 4 * pi * area / (whole * whole) : 0;
+  return whole > 0 ? 4 * pi * area_of_corners(corners) / (whole * whole) : 0;
 }
 
 // A view along the vector area of the farthest edges, and the roundness of their outline: 1 for a circle.
@@ -362,10 +444,9 @@ BoundarySpread spread_of(const LeafletBoundary &boundary) {
   return made;
 }
 
-// Returns the view of triangles from arrays. The direction in which the boundary spreads least is the first axis. Another
-// direction counts only if it leads to a rounder outline. Triangles may be turned over, so their normals determine only the side
-// of the axis.
-std::optional<FoundView> view_of_arrays(const LeafletBoundary &boundary, const BoundarySpread &spread) {
+// Returns the roundest view of edges. The direction in which the edges spread least is the first axis. Another direction counts
+// only if it leads to a rounder outline. Triangles may be turned over, so their normals determine only the side of the axis.
+std::optional<FoundView> best_view(const LeafletBoundary &boundary, const BoundarySpread &spread) {
   constexpr double favour = 1.15;
   std::optional<FoundView> best;
   for (const Vec3 direction : spread.directions) {
@@ -377,6 +458,23 @@ std::optional<FoundView> view_of_arrays(const LeafletBoundary &boundary, const B
     if (other && (!best || other->roundness > best->roundness)) best = std::move(other);
   }
   return best;
+}
+
+// Returns the view of triangles from arrays. The axis of the closed line that may be the attachment counts only if this line is
+// nearly as large and nearly as round as the outline of all edges. If triangles are turned over, the line's vector area is small.
+std::optional<FoundView> view_of_arrays(const LeafletBoundary &boundary, const BoundarySpread &spread) {
+  constexpr double least_roundness = 0.95;  // as a share of the outline's roundness
+  std::optional<FoundView> of_all = best_view(boundary, spread);
+  const LeafletBoundary held{boundary.perhaps_attached, {}, 0, {}, boundary.normal};
+  if (held.edges.empty()) return of_all;
+  const std::optional<FoundView> of_held = best_view(held, spread_of(held));
+  if (!of_held) return of_all;
+  const AlongAxis &seen = of_held->parts.seen;
+  std::optional<FoundView> along = view_from(boundary, seen.axis(), {0, 0, 0}, seen.in_space({0, 0}), few_turns, true);
+  if (!along || !of_all) return along ? along : of_all;
+  const bool is_round = of_held->roundness > least_roundness * of_all->roundness;
+  const bool is_large = boundary.perhaps_area > least_attached_share * area_of_corners(corners_of(along->parts));
+  return is_round && is_large ? along : of_all;
 }
 
 // Returns the factor by which the pieces must grow about their centroids until the first two neighbours meet. If the factor is

@@ -45,9 +45,14 @@ struct BoundaryEdge {
 // The boundary of the leaflets.
 struct LeafletBoundary {
   std::vector<BoundaryEdge> edges;
-  std::vector<Vec3> centroids;  // of the pieces
-  Vec3 normal;                  // the sum of the triangles' areas times their normals
+  std::vector<BoundaryEdge> perhaps_attached;  // a closed line of triangles from arrays
+  double perhaps_area = 0;                     // the size of the line's vector area
+  std::vector<Vec3> centroids;                 // of the pieces
+  Vec3 normal;                                 // the sum of the triangles' areas times their normals
 };
+
+// A line of open edges may be the attachment if it encloses at least this share of the area of the leaflets' outline.
+inline constexpr double least_attached_share = 0.8;
 
 // Returns the sides of the patches that bound leaflets, or the open edges of triangles from arrays. A skirt does not count.
 LeafletBoundary boundary_of_leaflets(const TriangleSet &set);

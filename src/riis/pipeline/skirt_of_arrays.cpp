@@ -18,8 +18,6 @@
 namespace riis {
 namespace {
 
-// A line of open edges is the attachment if it encloses at least `least_share` of the area of the leaflets' outline.
-constexpr double least_share = 0.8;
 // If a second line encloses at least `ambiguous_share` of the largest area, either line may be the attachment.
 constexpr double ambiguous_share = 0.99;
 constexpr const char *cure = ": name the attached vertices by arrays.attached";
@@ -41,36 +39,21 @@ AttachedEdge attached_edge(const TriangleSet &set, const OpenEdge &edge) {
           view(set.leaflet_id)[edge.triangle]};
 }
 
-Vec3 vector_area_of(const TriangleSet &set, const std::vector<OpenEdge> &line) {
-  const Vec3 origin = set.vertex(line.front().from);
-  Vec3 area{0, 0, 0};
-  for (const OpenEdge &edge : line)
-    area = area + 0.5 * cross(set.vertex(edge.from) - origin, set.vertex(edge.to) - origin);
-  return area;
-}
-
 // Returns the closed line of open edges that encloses the largest area.
 std::vector<OpenEdge> chosen_edges(const TriangleSet &set) {
-  std::vector<OpenEdge> best;
-  double largest = 0, second = 0;
-  Vec3 of_best{0, 0, 0};
-  for (std::vector<OpenEdge> &line : closed_boundaries(set)) {
-    const Vec3 area = vector_area_of(set, line);
-    const double size = length(area);
-    second = std::max(second, std::min(size, largest));
-    if (size > largest) best = std::move(line), largest = size, of_best = area;
-  }
-  if (best.empty())
+  LargestBoundary best = largest_boundary(set);
+  if (best.edges.empty())
     fail(RIIS_INVALID_SURFACE, "no closed line of open edges encloses an area, so the attachment is not known", cure);
+  const double largest = length(best.area);
   const std::optional<SeenOutline> outline = outline_of_leaflets(boundary_of_leaflets(set), std::nullopt);
-  const double share = outline ? std::abs(dot(of_best, outline->seen.axis())) / area_of(outline->outline) : 0;
-  if (share < least_share)
+  const double share = outline ? std::abs(dot(best.area, outline->seen.axis())) / area_of(outline->outline) : 0;
+  if (share < least_attached_share)
     fail(RIIS_INVALID_SURFACE, "the largest closed line of open edges encloses ", rounded(share, 2),
          " of the outline of the leaflets, so it is not the attachment of all leaflets", cure);
-  if (second >= ambiguous_share * largest)
+  if (best.second_area >= ambiguous_share * largest)
     fail(RIIS_INVALID_SURFACE, "two closed lines of open edges enclose the same area, ", rounded(largest, 4),
          ", so the attachment is not known", cure);
-  return best;
+  return std::move(best.edges);
 }
 
 // Returns the open edges between attached vertices. Each attached vertex must have such an edge, because a vertex without such an

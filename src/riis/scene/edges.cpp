@@ -252,6 +252,29 @@ std::vector<std::vector<OpenEdge>> closed_boundaries(const TriangleSet &set) {
   return closed;
 }
 
+namespace {
+
+Vec3 vector_area_of(const TriangleSet &set, const std::vector<OpenEdge> &line) {
+  const Vec3 origin = set.vertex(line.front().from);
+  Vec3 area{0, 0, 0};
+  for (const OpenEdge &edge : line)
+    area = area + 0.5 * cross(set.vertex(edge.from) - origin, set.vertex(edge.to) - origin);
+  return area;
+}
+
+}  // namespace
+
+LargestBoundary largest_boundary(const TriangleSet &set) {
+  LargestBoundary best;
+  for (std::vector<OpenEdge> &line : closed_boundaries(set)) {
+    const Vec3 area = vector_area_of(set, line);
+    const double size = length(area), largest = length(best.area);
+    best.second_area = std::max(best.second_area, std::min(size, largest));
+    if (size > largest) best.edges = std::move(line), best.area = area;
+  }
+  return best;
+}
+
 std::vector<OpenEdge> longest_boundary(const TriangleSet &set) {
   std::vector<OpenEdge> longest;
   double longest_length = 0;

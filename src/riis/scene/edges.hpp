@@ -27,6 +27,13 @@ std::vector<OpenEdge> open_edges(const TriangleSet &set, bool by_leaflet);
 // that it has not met before. The attachments of cusps that meet at commissures thus make one line, and their free edges make
 // another line.
 std::vector<std::vector<OpenEdge>> closed_boundaries(const TriangleSet &set);
+// The closed line of open edges that encloses the largest vector area, and the size of the second largest vector area.
+struct LargestBoundary {
+  std::vector<OpenEdge> edges;  // empty if no closed line encloses an area
+  Vec3 area{0, 0, 0};
+  double second_area = 0;
+};
+LargestBoundary largest_boundary(const TriangleSet &set);
 // Returns the edges of the longest closed line of open edges, or nothing if there is no closed line.
 std::vector<OpenEdge> longest_boundary(const TriangleSet &set);
 

@@ -8,6 +8,7 @@
 #include <vtkCellType.h>
 
 #include "common/array_view.hpp"
+#include "common/byte_order_mark.hpp"
 #include "riis_vtk/read/other_files.hpp"
 
 namespace riis::vtk {
@@ -23,7 +24,7 @@ class ObjFile {
   ObjFile(const std::string &path, std::string_view bytes) : path_(path), bytes_(bytes), in_(path, bytes) {}
 
   vtkSmartPointer<vtkUnstructuredGrid> read() {
-    if (const std::string_view mark = "\xef\xbb\xbf"; bytes_.substr(0, mark.size()) == mark) in_.skip(mark.size());
+    in_.skip(bytes_.size() - without_byte_order_mark(bytes_).size());
     while (!in_.rest().empty()) {
       // The statement is copied before its lines are skipped. Error messages then name the first line of the statement.
       std::string_view rest = in_.rest();
@@ -40,7 +41,8 @@ class ObjFile {
   std::string_view statement(std::string_view &text) {
     joined_.clear();
     for (;;) {
-      std::string_view line = take_line(text);
+      std::string_view line = text.substr(0, text.find(line_end_));
+      text.remove_prefix(std::min(line.size() + 1, text.size()));
       line = line.substr(0, line.find('#'));
       while (!line.empty() && is_blank(line.back())) line.remove_suffix(1);
       const bool goes_on = !line.empty() && line.back() == '\\' && !text.empty();
@@ -119,6 +121,8 @@ class ObjFile {
   const std::string &path_;
   std::string_view bytes_;
   Source in_;
+  // In old files, a carriage return alone ends a line.
+  char line_end_ = bytes_.find('\n') == std::string_view::npos ? '\r' : '\n';
   std::string joined_;  // a statement of several lines
   PlainGrid mesh_;
   std::vector<std::size_t> positions_;  // where each face begins in the file

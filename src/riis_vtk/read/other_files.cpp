@@ -87,9 +87,18 @@ template std::uint16_t Source::raw();
 template std::uint32_t Source::raw();
 template std::uint64_t Source::raw();
 
-std::int64_t Source::integer(int n_bytes) {
-  if (is_binary) return n_bytes == 4 ? raw<std::int32_t>() : raw<std::int64_t>();
-  return integer_of(word());
+std::int64_t Source::integer(int n_bytes, bool is_unsigned) {
+  if (!is_binary) return integer_of(word());
+  switch (n_bytes) {
+    case 1:
+      return is_unsigned ? std::int64_t{raw<std::uint8_t>()} : raw<std::int8_t>();
+    case 2:
+      return is_unsigned ? std::int64_t{raw<std::uint16_t>()} : raw<std::int16_t>();
+    case 4:
+      return is_unsigned ? std::int64_t{raw<std::uint32_t>()} : raw<std::int32_t>();
+    default:
+      return raw<std::int64_t>();
+  }
 }
 
 double Source::real(int n_bytes) {

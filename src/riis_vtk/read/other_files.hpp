@@ -96,8 +96,9 @@ class Source {
   // Returns the number that a word stands for.
   std::int64_t integer_of(std::string_view text) const;
   double real_of(std::string_view text) const;
-  // Reads the next number. A binary number has n_bytes bytes. A real number with 4 bytes is a float.
-  std::int64_t integer(int n_bytes);
+  // Reads the next number. A binary number has n_bytes bytes: 4 or 8, and a whole number also 1 or 2. A real number with 4 bytes
+  // is a float.
+  std::int64_t integer(int n_bytes, bool is_unsigned = false);
   double real(int n_bytes);
   // Reads the next binary number of this type.
   template <class T>

@@ -14,16 +14,19 @@ namespace riis::vtk {
 namespace {
 
 // Only the program trimesh writes types with 8 bytes.
+enum class NumberKind { whole, without_sign, real };
 struct PlyType {
   std::string_view name, other_name;
   int n_bytes;
-  bool is_real;
+  NumberKind kind;
+  bool is_real() const { return kind == NumberKind::real; }
 };
-constexpr PlyType ply_types[] = {{"char", "int8", 1, false},    {"uchar", "uint8", 1, false},
-                                 {"short", "int16", 2, false},  {"ushort", "uint16", 2, false},
-                                 {"int", "int32", 4, false},    {"uint", "uint32", 4, false},
-                                 {"int64", "int64", 8, false},  {"uint64", "uint64", 8, false},
-                                 {"float", "float32", 4, true}, {"double", "float64", 8, true}};
+constexpr PlyType ply_types[] = {
+    {"char", "int8", 1, NumberKind::whole},    {"uchar", "uint8", 1, NumberKind::without_sign},
+    {"short", "int16", 2, NumberKind::whole},  {"ushort", "uint16", 2, NumberKind::without_sign},
+    {"int", "int32", 4, NumberKind::whole},    {"uint", "uint32", 4, NumberKind::without_sign},
+    {"int64", "int64", 8, NumberKind::whole},  {"uint64", "uint64", 8, NumberKind::without_sign},
+    {"float", "float32", 4, NumberKind::real}, {"double", "float64", 8, NumberKind::real}};
 
 struct PlyProperty {
   std::string name;
@@ -43,7 +46,7 @@ struct PlyElement {
   // Returns the list with the vertices of a face, or NULL.
   const PlyProperty *corners() const {
     const auto found = std::find_if(properties.begin(), properties.end(), [](const PlyProperty &p) {
-      return p.count && !p.type->is_real && (p.name == "vertex_indices" || p.name == "vertex_index");
+      return p.count && !p.type->is_real() && (p.name == "vertex_indices" || p.name == "vertex_index");
     });
     return found == properties.end() ? nullptr : &*found;
   }
@@ -67,7 +70,7 @@ class PlyFile {
   // ---- The header ----
 
   // Removes and returns a line, which ends in a line feed or in a single carriage return.
-  std::string_view take_header_line(std::string_view &text) const {
+  std::string_view take_own_line(std::string_view &text) const {
     if (!has_returns_) return take_line(text);
     const std::string_view line = text.substr(0, text.find('\r'));
     text.remove_prefix(std::min(line.size() + 1, text.size()));
@@ -85,7 +88,7 @@ class PlyFile {
     std::string_view format;
     for (;;) {
       if (in_.rest().empty()) fail_file(path_, "is truncated: its header has no end_header");
-      std::string_view rest = in_.rest(), line = take_header_line(rest);
+      std::string_view rest = in_.rest(), line = take_own_line(rest);
       const std::string_view keyword = take_word(line);
       if (keyword == "format") {
         format = take_word(line);
@@ -113,7 +116,7 @@ class PlyFile {
     const PlyType *count = nullptr;
     if (word == "list") {
       count = &type_of(take_word(line));
-      if (count->is_real) in_.refuse("a list has the number of its values as ", count->name);
+      if (count->is_real()) in_.refuse("a list has the number of its values as ", count->name);
       word = take_word(line);
     }
     const PlyType &type = type_of(word);
@@ -131,28 +134,10 @@ class PlyFile {
   // ---- The numbers ----
 
   std::int64_t whole_number(const PlyType &type) {
-    if (!in_.is_binary) return in_.integer(type.n_bytes);
-    switch (&type - ply_types) {
-      case 0:
-        return in_.raw<std::int8_t>();
-      case 1:
-        return in_.raw<std::uint8_t>();
-      case 2:
-        return in_.raw<std::int16_t>();
-      case 3:
-        return in_.raw<std::uint16_t>();
-      case 4:
-        return in_.raw<std::int32_t>();
-      case 5:
-        return in_.raw<std::uint32_t>();
-      case 6:
-        return in_.raw<std::int64_t>();
-      default:
-        return static_cast<std::int64_t>(in_.raw<std::uint64_t>());
-    }
+    return in_.integer(type.n_bytes, type.kind == NumberKind::without_sign);
   }
   double number(const PlyType &type) {
-    return type.is_real ? in_.real(type.n_bytes) : static_cast<double>(whole_number(type));
+    return type.is_real() ? in_.real(type.n_bytes) : static_cast<double>(whole_number(type));
   }
 
   // Returns the number of values in the next list.
@@ -233,7 +218,7 @@ class PlyFile {
   // In a text file, each vertex and each face is on a separate line.
   void expect_end_of_line() const {
     if (in_.is_binary) return;
-    std::string_view rest = in_.rest(), line = take_line(rest);
+    std::string_view rest = in_.rest(), line = take_own_line(rest);
     if (!take_word(line).empty()) in_.refuse("a line has more or fewer numbers than the header states");
   }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "common/byte_order_mark.hpp"
 #include "riis_vtk/base/files.hpp"
 
 namespace riis::vtk {
@@ -15,7 +16,7 @@ class XmlParser {
   XmlElement document() {
     // A byte of value 0 would end the name of a file too early.
     if (bytes_.find('\0') != std::string_view::npos) fail_file(path_, "is not an XML file: it holds a byte of value 0");
-    if (rest_.substr(0, 3) == "\xef\xbb\xbf") rest_.remove_prefix(3);  // a byte order mark
+    rest_ = without_byte_order_mark(rest_);
     skip_to_tag();
     if (rest_.empty()) fail_file(path_, "is not an XML file");
     XmlElement outermost = element(0);

@@ -98,8 +98,9 @@ class XdmfFile {
     const std::string type = lower_case(grid->attribute("GridType")),
                       how = lower_case(grid->attribute("CollectionType"));
     if (type == "collection" || type == "tree") {
-      if (how != "temporal" && grid->children.size() > 1)
-        fail_file(path_, "holds a ", type, " of several meshes; one mesh is read");
+      const auto n_grids = std::count_if(grid->children.begin(), grid->children.end(),
+                                         [](const XmlElement &child) { return child.name == "Grid"; });
+      if (how != "temporal" && n_grids > 1) fail_file(path_, "holds a ", type, " of several meshes; one mesh is read");
       return first_mesh(*grid);
     }
     return *grid;
@@ -145,15 +146,21 @@ class XdmfFile {
 
   const XmlElement &required_item(const XmlElement &element) const {
     const XmlElement *item = item_of(element);
+    for (const XmlElement *const other : {&element, item})
+      if (other && !other->attribute("Reference").empty())
+        fail_file(path_, "has a ", other->name, " that refers to another ", other->name,
+                  "; riis reads only numbers that stand in their own place");
     if (!item) fail_file(path_, "has a ", element.name, " without a DataItem");
     return *item;
   }
 
   // FEniCS writes the attribute as NumberType, and meshio writes it as DataType.
+  static std::string type_of(const XmlElement &item) {
+    return lower_case(item.attribute("NumberType").empty() ? item.attribute("DataType") : item.attribute("NumberType"));
+  }
   static bool is_real(const XmlElement &item) {
-    const std::string type =
-        item.attribute("NumberType").empty() ? item.attribute("DataType") : item.attribute("NumberType");
-    return type.empty() || lower_case(type) == "float";
+    const std::string type = type_of(item);
+    return type.empty() || type == "float";
   }
 
   // Returns the number of rows and the number of columns. A single dimension is the number of rows, and there is one column.
@@ -237,9 +244,15 @@ class XdmfFile {
     std::string_view text = item.text;
     const std::string file_path = beside(plain_text(take_word(text)));
     const MappedFile file(file_path, check_readable(file_path));
-    const std::string precision = item.attribute("Precision").empty() ? "4" : item.attribute("Precision");
-    if (precision != "4" && precision != "8")
-      fail_file(path_, "has binary numbers of ", shortened(precision), " bytes; 4 and 8 are read");
+    const bool are_real = is_real(item);
+    const std::string type = type_of(item), given = item.attribute("Precision");
+    const std::string precision = !given.empty() ? given : type == "char" || type == "uchar" ? "1" : "4";
+    int n_bytes = 0;
+    if (!read_number(std::string_view(precision), n_bytes) || n_bytes < (are_real ? 4 : 1) || n_bytes > 8 ||
+        (n_bytes & (n_bytes - 1)) != 0)
+      fail_file(path_, "has binary numbers of ", shortened(precision),
+                " bytes; real numbers have 4 or 8 bytes, and whole "
+                "numbers 1, 2, 4 or 8");
     std::int64_t begin = 0;
     const std::string seek = item.attribute("Seek");
     if (!seek.empty() && (!read_number(std::string_view(seek), begin) || begin < 0 ||
@@ -249,13 +262,12 @@ class XdmfFile {
     in.skip(static_cast<std::size_t>(begin));
     in.is_binary = true;
     in.is_swapped = lower_case(item.attribute("Endian")) == "big";
-    const int n_bytes = precision == "8" ? 8 : 4;
     in.check_count(n, n_bytes, "numbers");
     std::vector<Number> values(static_cast<std::size_t>(n));
-    const bool are_real = is_real(item);
     if (are_real && !std::is_same_v<Number, double>) fail_file(path_, "has real numbers in place of whole numbers");
     for (Number &value : values)
-      value = are_real ? static_cast<Number>(in.real(n_bytes)) : static_cast<Number>(in.integer(n_bytes));
+      value = are_real ? static_cast<Number>(in.real(n_bytes))
+                       : static_cast<Number>(in.integer(n_bytes, type == "uint" || type == "uchar"));
     note_precision(item);
     return values;
   }
@@ -268,8 +280,12 @@ class XdmfFile {
   void read_points(const XmlElement &geometry) {
     std::string type = plain_name(geometry.attribute("GeometryType"));
     if (type.empty()) type = plain_name(geometry.attribute("Type"));
+    if (lower_case(geometry.attribute("GeometryType") + geometry.attribute("Type")) == "x_y_z") {
+      read_coordinates(geometry);
+      return;
+    }
     if (!type.empty() && type != "xyz" && type != "xy")
-      fail_file(path_, "has a Geometry of the type ", shortened(type), "; XYZ and XY are read");
+      fail_file(path_, "has a Geometry of the type ", shortened(type), "; XYZ, XY and X_Y_Z are read");
     const XmlElement &item = required_item(geometry);
     const std::int64_t n_columns = type == "xy" ? 2 : 3;
     const auto size = size_of(item);
@@ -280,6 +296,21 @@ class XdmfFile {
     mesh_.xyz->Allocate(view(values).size() / n_columns * 3);
     for (std::int64_t i = 0; i < view(values).size(); i += n_columns)
       mesh_.add_point(view(values)[i], view(values)[i + 1], n_columns == 3 ? view(values)[i + 2] : 0.0);
+  }
+
+  // Reads x, y and z from three items.
+  void read_coordinates(const XmlElement &geometry) {
+    std::vector<std::vector<double>> axes;
+    required_item(geometry);
+    for (const XmlElement &child : geometry.children) {
+      if (child.name != "DataItem") continue;
+      axes.push_back(numbers<double>(child));
+      is_single_ = is_single_ || last_is_single_;
+    }
+    if (axes.size() != 3 || axes[1].size() != axes[0].size() || axes[2].size() != axes[0].size())
+      fail_file(path_, "has a Geometry of the type X_Y_Z; it must have 3 DataItems of one length");
+    for (std::int64_t i = 0; i < view(axes[0]).size(); ++i)
+      mesh_.add_point(view(axes[0])[i], view(axes[1])[i], view(axes[2])[i]);
   }
 
   void read_cells(const XmlElement &topology) {

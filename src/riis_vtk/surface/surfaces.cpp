@@ -13,6 +13,7 @@
 #include <vtkCellType.h>
 #include <vtkCellTypes.h>
 #include <vtkDoubleArray.h>
+#include <vtkGenericCell.h>
 #include <vtkIdList.h>
 #include <vtkMath.h>
 #include <vtkPointData.h>
@@ -83,6 +84,15 @@ void put_inner_diagonal_first(vtkPointSet *data, vtkIdList *ids) {
   }
 }
 
+// Returns the usual type with the same nodes for a Lagrange cell of order 1 or 2, which dolfinx writes.
+int without_lagrange(int vtk_type, vtkIdType n_nodes) {
+  if (vtk_type == VTK_LAGRANGE_TRIANGLE)
+    return n_nodes == 3 ? VTK_TRIANGLE : n_nodes == 6 ? VTK_QUADRATIC_TRIANGLE : vtk_type;
+  if (vtk_type == VTK_LAGRANGE_QUADRILATERAL)
+    return n_nodes == 4 ? VTK_QUAD : n_nodes == 9 ? VTK_BIQUADRATIC_QUAD : vtk_type;
+  return vtk_type;
+}
+
 // The triangles of a quadratic face, given by positions in VTK's list of the face's nodes. All nodes of the triangles are nodes
 // of the face.
 const std::vector<std::array<vtkIdType, 3>> *triangles_of_quadratic(int vtk_type) {
@@ -96,11 +106,18 @@ const std::vector<std::array<vtkIdType, 3>> *triangles_of_quadratic(int vtk_type
   return found == triangles.end() ? nullptr : &found->second;
 }
 
+// VTK 9.1 names some types of Lagrange and Bezier cells wrongly.
+std::string class_of(int vtk_type) {
+  vtkNew<vtkGenericCell> cell;
+  cell->SetCellType(vtk_type);
+  return cell->GetRepresentativeCell()->GetClassName();
+}
+
 // Appends the triangles of a cell.
 void cut_cell(const std::string &path, vtkPointSet *data, vtkIdType cell_id, vtkIdList *ids,
               std::vector<std::int64_t> &triangles) {
-  const int type = data->GetCellType(cell_id);
   const vtkIdType n = ids->GetNumberOfIds();
+  const int type = without_lagrange(data->GetCellType(cell_id), n);
   if (type == VTK_TRIANGLE_STRIP && n >= 3) {
     cut_strip(ids, triangles);
   } else if (type == VTK_TRIANGLE || (type == VTK_POLYGON && n == 3)) {
@@ -114,7 +131,7 @@ void cut_cell(const std::string &path, vtkPointSet *data, vtkIdType cell_id, vtk
   } else if (const auto *const parts = triangles_of_quadratic(type)) {
     for (const auto &[a, b, c] : *parts) add_triangle(triangles, ids, a, b, c);
   } else {
-    fail_file(path, "cell ", cell_id, " is a ", vtkCellTypes::GetClassNameFromTypeId(type), " with ", n,
+    fail_file(path, "cell ", cell_id, " is a ", class_of(type), " with ", n,
               " points; a surface has triangles, quads, polygons and triangle strips");
   }
 }
