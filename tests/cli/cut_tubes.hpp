@@ -10,13 +10,12 @@
 #include <string>
 #include <vector>
 
-#include "program/patient/wall_surface.hpp"
+#include "program/patient/flat_ends.hpp"
 #include "test_support.h"
 
 namespace riis::tests {
 
 using program::Corners;
-using program::Triangles;
 using riis::Vector3;
 
 enum class Cap { fan, rings, open };

@@ -27,9 +27,6 @@ namespace {
 // The largest number of points of the grid.
 constexpr std::int64_t most_field_points = 20'000'000;
 
-// Returns a law of motion whose opening equals the time.
-OpeningLaw all_openings() { return OpeningLaw(OpeningTable{{0, 1}, {0, 1}}, ""); }
-
 // Returns the valves and their times. If neither times nor an opening are given, a valve of the command line moves through all
 // openings.
 Case case_of(const SizeFieldOptions &options) {
@@ -44,7 +41,7 @@ Case case_of(const SizeFieldOptions &options) {
   if (!source.valve || sets_opening(options)) return all;
   const Valve trial = program::copy_of(source.valve);
   if (!why_closed(trial, options.surface_options).empty()) return all;
-  source.law = all_openings();
+  source.law = OpeningLaw(OpeningTable{{0, 1}, {0, 1}}, "");  // the opening equals the time
   times = openings_from_0_to_1(options.n_openings);
   return all;
 }

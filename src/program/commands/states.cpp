@@ -18,6 +18,7 @@
 #include "program/input/valve_source.hpp"
 #include "program/input/wall.hpp"
 #include "program/mark/crossings.hpp"
+#include "program/mark/moving_valve.hpp"
 #include "program/mark/warnings.hpp"
 #include "program/output/outputs.hpp"
 #include "program/output/report.hpp"
@@ -47,81 +48,64 @@ struct States {
   bool has_edges() const { return why_no_edges.empty(); }
 };
 
-// A parametric valve with its surface, or a surface from a file.
+// A parametric valve in its own coordinates, or a surface from a file.
 class Measured {
  public:
   explicit Measured(const StatesOptions &options) : options_(options) {
-    if (options.surface.empty()) {
-      valve_ = make_valve(options);
-      set_opening(0);
-      const riis_surface_options own = own_frame(options);
-      surface_ = create_for<Surface>(subject(), riis_surface_create, valve_, &own);
-      return;
-    }
     Seconds seconds;
-    MarkOptions as_file;
-    static_cast<ValveOptions &>(as_file) = options;
-    ValveSource source{as_file, nullptr, nullptr};
-    if (is_motion(options)) {
+    static_cast<ValveOptions &>(source_.options) = options;
+    if (options.surface.empty()) {
+      source_.options.surface_options = own_frame(options);
+      source_.valve = make_valve(options);
+      source_.law = OpeningLaw(OpeningTable{{0, 1}, {0, 1}}, "");  // the opening equals the time
+    } else if (is_motion(options)) {
       KeyframeFiles read = read_keyframes(options, seconds);
-      times_ = std::move(read.times);
-      source.options.time = times_.front();
-      source.keyframes = std::move(read.keyframes);
+      places_ = std::move(read.times);
+      source_.keyframes = std::move(read.keyframes);
     } else {
-      source.file = read_surface(options, seconds);
+      source_.file = read_surface(options, seconds);
     }
-    surface_ = make_surface(source, FileVelocity::none);
-    if (!options.wall.empty() && !options.skirt) wall_ = wall_of(options);
-    keyframes_ = std::move(source.keyframes);
+    moving_.emplace(source_, places_.front(), !source_.file);
+    if (!options.surface.empty() && !options.wall.empty() && !options.skirt) wall_ = wall_of(options);
+    if (!source_.valve) return;
+    why_closed_ = program::why_closed(source_.valve, own_frame(options));
+    if (why_closed_.empty()) places_ = openings_from_0_to_1(options.n_states);
+    move_to(0);
   }
 
   // Moves the surface to a state: to an opening of a valve, or to a time of a moving surface.
-  void move_to(double place) {
-    if (keyframes_)
-      check(riis_surface_update_from_keyframes(surface_, keyframes_, place, 0, nullptr), options_.surface);
-    if (!valve_) return;
-    set_opening(place);
-    check(riis_surface_update(surface_, valve_, nullptr), subject());
-  }
-
-  const riis_valve *valve() const { return valve_; }  // null for a surface from a file
-  const riis_surface *surface() const { return surface_; }
-  std::string why_closed() { return valve_ ? program::why_closed(valve_, own_frame(options_)) : ""; }
-
+  void move_to(double place) { moving_->move_to(place); }
+  const riis_valve *valve() const { return source_.valve; }  // null for a surface from a file
+  const riis_surface *surface() const { return moving_->surface(); }
+  const std::string &why_closed() const { return why_closed_; }
   // Returns the openings or the times of the table.
-  std::vector<double> places(bool can_open) const {
-    if (!valve_) return keyframes_ ? times_ : std::vector<double>{0};
-    return can_open ? openings_from_0_to_1(options_.n_states) : std::vector<double>{0};
-  }
+  const std::vector<double> &places() const { return places_; }
 
   std::vector<riis_leaflet> leaflets() const {
     int64_t n = 0;
-    check(riis_surface_get_n_leaflets(surface_, &n));
+    check(riis_surface_get_n_leaflets(surface(), &n));
     std::vector<riis_leaflet> made;
-    for (int64_t i = 0; i < n; ++i) made.push_back(get<riis_leaflet>(riis_surface_get_leaflet, surface_, i));
+    for (int64_t i = 0; i < n; ++i) made.push_back(get<riis_leaflet>(riis_surface_get_leaflet, surface(), i));
     return made;
   }
 
   riis_orifice orifice() const {
-    if (!wall_) return get<riis_orifice>(riis_surface_get_orifice, surface_, nullptr);
+    if (!wall_) return get<riis_orifice>(riis_surface_get_orifice, surface(), nullptr);
     riis_orifice made;
-    check(riis_surface_get_orifice_in_wall(surface_, wall_, nullptr, &made, sizeof made), options_.wall);
+    check(riis_surface_get_orifice_in_wall(surface(), wall_, nullptr, &made, sizeof made), options_.wall);
     return made;
   }
 
   riis_coaptation contact() const {
-    return get<riis_coaptation>(riis_surface_get_coaptation, surface_, RIIS_AUTO, RIIS_ALL_LEAFLETS);
+    return get<riis_coaptation>(riis_surface_get_coaptation, surface(), RIIS_AUTO, RIIS_ALL_LEAFLETS);
   }
 
  private:
-  std::string subject() const { return subject_of(options_); }
-  void set_opening(double opening) { check(riis_valve_set_scalar(valve_, "opening", opening)); }
-
   const StatesOptions &options_;
-  Valve valve_;  // null for a surface from a file
-  Keyframes keyframes_;
-  std::vector<double> times_;
-  Surface surface_;
+  ValveSource source_{MarkOptions(), nullptr, nullptr};
+  std::optional<MovingValve> moving_;
+  std::vector<double> places_ = {0};
+  std::string why_closed_;
   Surface wall_;  // the wall that bounds the orifice of a surface from a file, or null
 };
 
@@ -134,9 +118,8 @@ State state_at(Measured &valve, double place, bool has_contacts) {
 }
 
 // Returns the names and the ids of the leaflets, and the disc of the closed state. All openings share these values.
-States frame_of(const StatesOptions &options, Measured &valve) {
+States frame_of(const StatesOptions &options, const Measured &valve) {
   const bool is_valve = valve.valve() != nullptr;
-  if (is_valve) valve.move_to(0);
   const riis_surface_info info = info_of(valve.surface());
   const riis_orifice orifice = valve.orifice();
   States states{{}, {}, "", "", orifice.outline_area, "", {}, ""};
@@ -161,10 +144,9 @@ States frame_of(const StatesOptions &options, Measured &valve) {
 // Measures the valve at n_states openings. If the valve cannot open, measures it only at opening 0.
 States measure_states(const StatesOptions &options) {
   Measured valve(options);
-  const std::string why_closed = valve.why_closed();
   States states = frame_of(options, valve);
-  states.why_closed = why_closed;
-  const std::vector<double> places = valve.places(why_closed.empty());
+  states.why_closed = valve.why_closed();
+  const std::vector<double> &places = valve.places();
   const std::size_t n = places.size();
   StepProgress progress("measuring the valve", n, options.quiet);
   for (std::size_t i = 0; i < n; ++i) {

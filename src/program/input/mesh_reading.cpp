@@ -190,7 +190,7 @@ namespace {
 
 MeshFile read_here(const std::string &path) {
   MeshFile file;
-  check_mesh_read(riis_vtk_mesh_read(path.c_str(), file.out()), path);
+  check_read(riis_vtk_mesh_read(path.c_str(), file.out()), path, Content::mesh);
   const char *text = nullptr;
   check(riis_vtk_mesh_get_notes(file, &text));
   note(path, text);

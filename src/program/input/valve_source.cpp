@@ -39,16 +39,6 @@ Valve valve_of(const ValveOptions &options, OpeningCheck opening) {
   return opening == OpeningCheck::yes ? valve.take() : valve.take_unchecked();
 }
 
-// Checks the status of reading a file. If riis_vtk cannot read the file, the refusal also has a command that converts the file.
-void check_read(riis_status status, const std::string &path, Content content) {
-  try {
-    check(status);
-  } catch (Refusal &refusal) {
-    if (status == RIIS_FILE_ERROR) refusal.text += conversion_hint(path, content, refusal.text);
-    throw;
-  }
-}
-
 bool has_text(const std::string &text, const char *part) { return text.find(part) != std::string::npos; }
 
 Surface surface_of_valve(const ValveOptions &options, const riis_valve *valve) {
@@ -163,8 +153,14 @@ std::string why_closed(riis_valve *valve, const riis_surface_options &how) {
   return status == RIIS_INVALID_PARAMETER ? riis_last_error() : "";
 }
 
-void check_mesh_read(riis_status status, const std::string &path) { check_read(status, path, Content::mesh); }
-void check_surface_read(riis_status status, const std::string &path) { check_read(status, path, Content::surface); }
+void check_read(riis_status status, const std::string &path, Content content) {
+  try {
+    check(status);
+  } catch (Refusal &refusal) {
+    if (status == RIIS_FILE_ERROR) refusal.text += conversion_hint(path, content, refusal.text);
+    throw;
+  }
+}
 
 namespace {
 

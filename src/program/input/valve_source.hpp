@@ -63,10 +63,9 @@ Surface surface_at(riis_valve *valve, double opening, const riis_surface_options
 // options `how`. After the call, the valve has opening 1.
 std::string why_closed(riis_valve *valve, const riis_surface_options &how);
 
-// Checks the status of reading a mesh. If riis_vtk cannot read the file, the refusal also has a command that converts the file.
-void check_mesh_read(riis_status status, const std::string &path);
-// Checks the status of reading a surface, as check_mesh_read does for a mesh.
-void check_surface_read(riis_status status, const std::string &path);
+enum class Content { mesh, surface };
+// Checks the status of reading a file. If riis_vtk cannot read the file, the refusal also has a command that converts the file.
+void check_read(riis_status status, const std::string &path, Content content);
 // Takes the files of --surface. Several files make one valve, and each file is one leaflet. Refusals begin with `subject`.
 void set_surface(ValveOptions &options, const std::vector<std::string> &files, const std::string &subject);
 // If the surface has several files, returns their names as the names of the leaflets. For one file, returns no names.
@@ -101,8 +100,6 @@ struct KeyframeFiles {
 KeyframeFiles read_keyframes(const ValveOptions &options, Seconds &seconds);
 
 // The input is a file in a format that the program does not read. The result is a command that converts the file.
-
-enum class Content { mesh, surface };
 
 // Returns a hint such as "; gmsh converts it: gmsh -save in.msh -format vtk -o in.vtk". Returns "" if the program can read the
 // ending, or if the ending is unknown.

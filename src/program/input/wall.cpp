@@ -86,9 +86,7 @@ double length_of(const riis_attachment &attachment) {
 
 // Warns of holes in the wall, and of a skirt that is longer than the valve.
 void check_sizes(const ValveOptions &options, const riis_surface *wall, const riis_surface *valve) {
-  const riis_surface_info info = info_of(valve);
-  double largest_side = 0;
-  for (int k = 0; k < 3; ++k) largest_side = std::max(largest_side, info.upper[k] - info.lower[k]);
+  const double largest_side = box_of(info_of(valve)).largest_side();
   if (*options.skirt > largest_side)
     warn_once("--skirt: " + shown(*options.skirt) + " is longer than the valve, whose largest side is " +
               shown(largest_side) + ": lengths have the unit of the mesh" +
@@ -151,7 +149,7 @@ SurfaceFile read_wall(const std::string &path) {
   const riis_status status = riis_vtk_surface_read(path.c_str(), nullptr, wall.out());
   if (status == RIIS_OK) return wall;
   const std::string ending = ending_of(path), reason = riis_last_error();
-  if (status != RIIS_FILE_ERROR || surface_endings.count(ending) != 0) check_surface_read(status, path);
+  if (status != RIIS_FILE_ERROR || surface_endings.count(ending) != 0) check_read(status, path, Content::surface);
   MeshFile mesh;
   try {
     mesh = read_mesh_file(path, "");

@@ -29,16 +29,14 @@ Surface joined_for_passage(const Case &all, const std::vector<MovingValve> &valv
   together.half_thickness = info_of(first.surface()).half_thickness;
   together.offset = info_of(first.surface()).offset;
   for (const MovingValve &valve : valves) {
-    const riis_surface_info info = info_of(valve.surface());
-    const double half_thickness = info.half_thickness, offset = info.offset;
-    if (offset != together.offset)
-      all.options.check_leaks->refuse("the valves must have one offset; that of " + first.options().prefix + " is " +
-                                      shown(together.offset) + ", that of " + valve.options().prefix + " " +
-                                      shown(offset));
-    if (half_thickness != together.half_thickness)
-      all.options.check_leaks->refuse("the valves must have one half thickness; that of " + first.options().prefix +
-                                      " is " + shown(together.half_thickness) + ", that of " + valve.options().prefix +
-                                      " " + shown(half_thickness));
+    const auto demand_equal = [&](const std::string &what, double of_first, double own) {
+      if (own == of_first) return;
+      all.options.check_leaks->refuse("the valves must have one " + what + "; that of " + first.options().prefix +
+                                      " is " + shown(of_first) + ", that of " + valve.options().prefix + " " +
+                                      shown(own));
+    };
+    demand_equal("offset", together.offset, info_of(valve.surface()).offset);
+    demand_equal("half thickness", together.half_thickness, info_of(valve.surface()).half_thickness);
   }
   return joined_surface(valves, &together);
 }

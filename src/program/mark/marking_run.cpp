@@ -309,7 +309,7 @@ class MarkingRun {
     }
     if (!all_.is_series()) {
       write_surface();
-      files_.report(report_);
+      report_files();
       return true;
     }
     for (std::size_t step = 0; step < times_.size(); ++step) {

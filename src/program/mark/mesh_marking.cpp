@@ -76,10 +76,10 @@ NodePoints::NodePoints(const riis_vtk_mesh *file) : axes_(get<riis_grid>(riis_vt
   for (const void *const x : {axes_.x, axes_.y, axes_.z}) x_[axis++] = static_cast<const double *>(x);
 }
 
-FileNodes::FileNodes(const riis_vtk_mesh *file, std::string path) : file_(file), path_(std::move(path)), points_(file) {
-  const double *const xyz = points_.xyz();
-  mesh_ = is_grid() ? create_for<Mesh>(path_, riis_mesh_create_grid, points_.axes())
-                    : create_for<Mesh>(path_, riis_mesh_create, n(), xyz, xyz + 1, xyz + 2, 3);
+FileNodes::FileNodes(const riis_vtk_mesh *file, std::string path)
+    : NodePoints(file), file_(file), path_(std::move(path)) {
+  mesh_ = is_grid() ? create_for<Mesh>(path_, riis_mesh_create_grid, axes())
+                    : create_for<Mesh>(path_, riis_mesh_create, n(), xyz(), xyz() + 1, xyz() + 2, 3);
 }
 
 void FileNodes::find_neighbors(std::int32_t n_threads) {

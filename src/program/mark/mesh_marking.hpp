@@ -53,7 +53,7 @@ class NodePoints {
   std::int64_t n() const { return n_; }
   const riis_grid *axes() const { return axes_.ni > 0 ? &axes_ : nullptr; }
   const double *xyz() const { return xyz_; }  // NULL if there are axes
-  Point operator[](std::int64_t node) const {
+  Point point(std::int64_t node) const {
     if (xyz_) return {xyz_[3 * node], xyz_[3 * node + 1], xyz_[3 * node + 2]};
     const std::int64_t layer = node / axes_.ni;
     return {x_[0][node % axes_.ni], x_[1][layer % axes_.nj], x_[2][layer / axes_.nj]};
@@ -67,16 +67,14 @@ class NodePoints {
 };
 
 // The nodes of a mesh file as the library takes them, and the neighbours of each node.
-class FileNodes {
+class FileNodes : public NodePoints {
  public:
   // The file must outlive this object. Refusals call the file by `path`.
   FileNodes(const riis_vtk_mesh *file, std::string path);
 
-  std::int64_t n() const { return points_.n(); }
-  NodePoints::Point point(std::int64_t node) const { return points_[node]; }
   riis_mesh *mesh() const { return mesh_.get(); }
   // Returns whether the nodes form a grid. The library computes the neighbours in a grid, so none are stored.
-  bool is_grid() const { return points_.axes() != nullptr; }
+  bool is_grid() const { return axes() != nullptr; }
 
   // Finds the neighbours of all nodes if they are not known yet.
   void find_neighbors(std::int32_t n_threads);
@@ -84,9 +82,9 @@ class FileNodes {
   // Both functions below need the neighbours of the nodes.
   template <class Visit>
   void for_each_neighbor(std::int64_t node, const Visit &visit) const {
-    if (const riis_grid *const axes = points_.axes()) {
+    if (const riis_grid *const grid = axes()) {
       std::int64_t stride = 1;
-      for (const std::int64_t n : {axes->ni, axes->nj, axes->nk}) {
+      for (const std::int64_t n : {grid->ni, grid->nj, grid->nk}) {
         const std::int64_t i = node / stride % n;
         if (i > 0) visit(node - stride);
         if (i + 1 < n) visit(node + stride);
@@ -121,7 +119,6 @@ class FileNodes {
  private:
   const riis_vtk_mesh *file_;
   std::string path_;
-  NodePoints points_;
   Adjacency neighbors_;
   riis_csr rows_{};
   Mesh mesh_;

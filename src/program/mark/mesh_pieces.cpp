@@ -108,7 +108,7 @@ std::uint64_t hash_of(const NodePoints::Point &point, std::uint64_t seed) {
 }  // namespace
 
 PieceNodes::PieceNodes(const riis_vtk_mesh *file, const std::string &path, const MarkOptions &how, bool is_whole)
-    : is_whole_(is_whole), points_(file) {
+    : NodePoints(file), is_whole_(is_whole) {
   check(riis_vtk_mesh_get_nodes(file, nullptr, &counts_.n_cells, nullptr));
   if (is_whole_) {
     // The neighbours of all centres are known.
@@ -159,10 +159,10 @@ Moments moments_of(const riis_grid &axes) {
 }  // namespace
 
 void PieceNodes::find_box_and_moments() {
-  if (const riis_grid *const axes = points_.axes()) {
+  if (axes()) {
     box_.grow(point(0).data());
     box_.grow(point(n() - 1).data());
-    moments_ = moments_of(*axes);
+    moments_ = moments_of(*axes());
     return;
   }
   for (std::int64_t i = 0; i < n(); ++i) {

@@ -76,13 +76,11 @@ using NodeKey = std::array<std::uint64_t, 2>;
 // The nodes of one piece, and their keys. In a whole mesh, all nodes are inside, and the key of a node is its number. If a piece
 // has global ids, a key is the id and a hash of the coordinates. If a piece has no global ids, a key is a hash of the coordinates
 // with 128 bits. The probability that two of a billion nodes have equal hashes is below 1e-20.
-class PieceNodes {
+class PieceNodes : public NodePoints {
  public:
   // `how` names the mesh to which the file belongs.
   PieceNodes(const riis_vtk_mesh *file, const std::string &path, const MarkOptions &how, bool is_whole);
 
-  std::int64_t n() const { return points_.n(); }
-  NodePoints::Point point(std::int64_t node) const { return points_[node]; }
   NodeKey key(std::int64_t node) const;
   bool is_shared(std::int64_t node) const { return role(node) == RIIS_VTK_NODE_SHARED || is_loose(node); }
   bool is_loose(std::int64_t node) const { return role(node) == RIIS_VTK_NODE_LOOSE; }
@@ -107,7 +105,6 @@ class PieceNodes {
   void find_box_and_moments();
 
   bool is_whole_;
-  NodePoints points_;
   Box box_ = empty_box();
   Moments moments_;
   std::vector<std::uint8_t> role_, mask_;

@@ -75,8 +75,7 @@ bool is_file(const fs::path &path) {
 // Refuses to remove files that another list names.
 void check_other_lists(const fs::path &list, const std::set<std::string> &removed) {
   std::error_code error;
-  const fs::path folder = list.has_parent_path() ? list.parent_path() : fs::path(".");
-  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+  for (fs::directory_iterator at(folder_of(list), error), end; !error && at != end; at.increment(error)) {
     const fs::path &other = at->path();
     if (other.extension() != ".pvd" || other.filename() == list.filename() || !is_file(other)) continue;
     for (const std::string &name : files_named_in(text_of_file(other.string())))

@@ -86,6 +86,14 @@ void make_runnable(const SolverCase &solver, const std::string &name) {
   if (error) refuse_data(path + ": cannot be made a program: " + error.message());
 }
 
+void write_scripts(const SolverCase &solver, const std::string &of, const std::string &run) {
+  write_into(solver, "beat_table.py", case_texts().at("beat_table.py"));
+  for (const std::string &name : {run, std::string("report.py")}) {
+    write_into(solver, name, case_texts().at(of + "/" + name));
+    make_runnable(solver, name);
+  }
+}
+
 std::string filled(std::string text, const std::map<std::string, std::string> &names) {
   for (const auto &[name, value] : names) {
     const std::string mark = '@' + name + '@';
@@ -100,10 +108,15 @@ std::string filled(std::string text, const std::map<std::string, std::string> &n
   return text;
 }
 
-std::string duration_text(double seconds) {
-  if (seconds < 90) return shown(std::ceil(seconds)) + " seconds";
-  if (seconds < 5400) return shown(std::ceil(seconds / 60)) + " minutes";
-  return printed("%.1f", seconds / 3600) + " hours";
+void announce_beat(const SolverCase &solver, const std::string &program, double step, double seconds) {
+  const int n_steps = static_cast<int>(beat_period / step + 0.5);
+  const double whole = seconds * static_cast<double>(solver.n_cells) * n_steps;
+  print_line("a beat has " + std::to_string(n_steps) + " steps of " + shortest(step) + " s; " + program +
+             " needs about " +
+             (whole < 90     ? shown(std::ceil(whole)) + " seconds"
+              : whole < 5400 ? shown(std::ceil(whole / 60)) + " minutes"
+                             : printed("%.1f", whole / 3600) + " hours") +
+             " on one processor");
 }
 
 }  // namespace riis::program

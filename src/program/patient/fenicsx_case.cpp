@@ -3,7 +3,6 @@
 #include "program/input/json.hpp"
 #include "program/mark/warnings.hpp"
 #include "program/patient/case_files.hpp"
-#include "program/patient/heartbeat.hpp"
 
 namespace riis::program {
 namespace {
@@ -20,7 +19,7 @@ Json keys_of(const PressureCurve &curve) {
 
 Json constant(double pressure) { return {{0, pressure}, {beat_period, pressure}}; }
 
-Json numbers_of(const SolverCase &solver, const Ends &ends, int n_steps) {
+Json numbers_of(const SolverCase &solver, const Ends &ends) {
   Json boundaries = Json::object(), pressures = Json::object(), windkessels = Json::object();
   for (const Boundary &boundary : solver.boundaries) boundaries[boundary.name] = boundary.group;
   pressures["inlet"] = solver.is_mitral ? constant(pressure_of_left_atrium) : keys_of(pressure_of_left_ventricle());
@@ -60,7 +59,7 @@ Json numbers_of(const SolverCase &solver, const Ends &ends, int n_steps) {
             {"dwell_time", dwell_seconds}}},
           {"period", beat_period},
           {"time_step", dolfinx_step},
-          {"steps", n_steps}};
+          {"steps", static_cast<int>(beat_period / dolfinx_step + 0.5)}};
 }
 
 }  // namespace
@@ -70,16 +69,9 @@ void write_fenicsx_case(const SolverCase &solver) {
   make_case_folder(solver);
   for (const char *name : {"mesh.msh", "placed.json", "wall.stl"})
     if (solver.skirt > 0 || name != std::string("wall.stl")) copy_into(solver, name, name);
-  const int n_steps = static_cast<int>(beat_period / dolfinx_step + 0.5);
-  write_into(solver, "case.json", numbers_of(solver, ends, n_steps).dump(1) + "\n");
-  write_into(solver, "beat_table.py", case_texts().at("beat_table.py"));
-  for (const char *name : {"run.py", "report.py"}) {
-    write_into(solver, name, case_texts().at(std::string("fenicsx/") + name));
-    make_runnable(solver, name);
-  }
-  print_line("a beat has " + std::to_string(n_steps) + " steps of " + shortest(dolfinx_step) +
-             " s; dolfinx needs about " +
-             duration_text(dolfinx_seconds * static_cast<double>(solver.n_cells) * n_steps) + " on one processor");
+  write_into(solver, "case.json", numbers_of(solver, ends).dump(1) + "\n");
+  write_scripts(solver, "fenicsx", "run.py");
+  announce_beat(solver, "dolfinx", dolfinx_step, dolfinx_seconds);
 }
 
 }  // namespace riis::program

@@ -16,7 +16,6 @@
 #include "program/base/text.hpp"
 #include "program/output/outputs.hpp"
 #include "program/output/report.hpp"
-#include "program/patient/wall_surface.hpp"
 
 namespace riis::program {
 namespace {

@@ -72,4 +72,27 @@ struct WallFrame {
 WallFrame frame_of_wall(const PatientWall &wall, const LandmarkFile &landmarks, std::optional<Unit> unit,
                         const std::string &axes);
 
+// In: the file of a wall. Out: a closed surface whose triangles face outwards.
+
+using Corners = Triangles::Corners;
+
+// A hole that was flat enough to be closed. A fan of triangles closes the hole.
+struct ClosedHole {
+  std::int64_t first = 0, n_triangles = 0;  // the triangles of the fan
+  Vector3 centre{};
+};
+
+struct ClosedSurface {
+  Triangles triangles;               // closed, in one piece, facing outwards
+  std::vector<ClosedHole> holes;     // whose fans are the last triangles
+  std::vector<std::string> remarks;  // what was changed, a line each
+};
+
+// Reads and repairs the surface. Vertices at one place become one vertex. Refuses a surface that read_patient_wall would refuse,
+// and says how to repair the file.
+ClosedSurface read_closed_surface(const std::string &path);
+
+// Returns a point in the form X,Y,Z, as the user writes it after an option, with digits down to a thousandth of the size.
+std::string point_text(const Vector3 &point, double size);
+
 }  // namespace riis::program

@@ -13,7 +13,6 @@
 #include "program/input/valve_source.hpp"
 #include "program/input/warp_source.hpp"
 #include "program/patient/case_files.hpp"
-#include "program/patient/heartbeat.hpp"
 
 namespace riis::program {
 namespace {

@@ -21,7 +21,6 @@
 #include "program/patient/patient_mesh.hpp"
 #include "program/patient/patient_steps.hpp"
 #include "program/patient/solver_case.hpp"
-#include "program/patient/valve_sides.hpp"
 
 namespace riis::program {
 namespace {

@@ -5,7 +5,6 @@
 #include <array>
 #include <cerrno>
 #include <charconv>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -20,11 +19,11 @@
 #include "common/vectors.hpp"
 #include "program/base/handles.hpp"
 #include "program/base/other_program.hpp"
+#include "program/base/progress.hpp"
 #include "program/base/refusal.hpp"
 #include "program/base/text.hpp"
 #include "program/output/outputs.hpp"
 #include "program/output/report.hpp"
-#include "program/patient/wall_surface.hpp"
 
 namespace riis::program {
 namespace {
@@ -301,10 +300,9 @@ class PatientMesher {
     const double limit = std::ceil(seconds);
     std::vector<std::string> limited{"timeout", "--foreground", "--signal=KILL", printed("%.0f", limit)};
     limited.insert(limited.end(), words.begin(), words.end());
-    const auto start = std::chrono::steady_clock::now();
+    const Stage stage("", true);
     ProgramEnd end = run_program(limited);
-    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
-    if (is_killed(end) && taken.count() >= limit) return std::nullopt;
+    if (is_killed(end) && stage.seconds() >= limit) return std::nullopt;
     return end;
   }
 

@@ -3,11 +3,13 @@
 // in the files that solvers read. gmsh makes the mesh.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
 
+#include "program/base/options.hpp"
 #include "program/patient/flat_ends.hpp"
 #include "program/patient/solver_case.hpp"
 
@@ -42,5 +44,21 @@ std::string require_gmsh();
 //   gmsh/           what gmsh reads, and its logs
 // If gmsh fails, the refusal has gmsh's last message and its log. Also refuses a mesh that is not closed or has lost an end.
 PatientMesh mesh_patient(const PatientWall &wall, const PatientMeshOptions &options);
+
+// In: the mesh with a placed valve. Out: a point in the blood before the valve, a point behind the valve, and the side of the
+// valve on which each end lies.
+
+struct ValveSides {
+  std::array<double, 3> upstream{}, downstream{};
+  double ball_radius = 0;  // of balls around the two points that meet neither the wall nor the band at any opening
+  bool are_apart = false;  // whether the closed valve parts the unmarked nodes on its two sides
+  std::vector<std::string> before, after;  // the ends on either side, if the sides are apart
+};
+
+// `marking` has the options of the valve, with its skirt and its half thickness. `centre` is the middle of the annulus, and
+// `flow` is the direction of the blood. `millimetre` is the length of a millimetre in the mesh's unit. Refuses a mesh that has no
+// room for the two points.
+ValveSides sides_of_valve(const std::string &mesh, const MarkOptions &marking, const std::vector<Boundary> &boundaries,
+                          const std::array<double, 3> &centre, const std::array<double, 3> &flow, double millimetre);
 
 }  // namespace riis::program

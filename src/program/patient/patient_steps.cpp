@@ -98,10 +98,6 @@ std::string cure_of_full_disc(const std::string &reason) {
 
 PatientSteps::PatientSteps(bool quiet) : program_(path_of_this_program()), quiet_(quiet) {}
 
-double PatientSteps::seconds() const {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
-}
-
 void PatientSteps::say(const std::string &label, const std::string &text, double seconds) {
   if (quiet_) return;
   std::string begin = label;

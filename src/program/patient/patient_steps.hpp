@@ -3,11 +3,11 @@
 // the user could also type in the folder.
 #pragma once
 
-#include <chrono>
 #include <string>
 #include <vector>
 
 #include "program/base/options.hpp"
+#include "program/base/progress.hpp"
 #include "program/input/json.hpp"
 #include "program/output/outputs.hpp"
 
@@ -65,7 +65,7 @@ class PatientSteps {
   // Throws a Refusal with the message of a command that failed, followed by `cure`.
   [[noreturn]] void refuse(const std::string &name, const StepEnd &end, const std::string &cure = "") const;
   // Returns the seconds since the start.
-  double seconds() const;
+  double seconds() const { return whole_.seconds(); }
   const Json &commands() const { return commands_; }
 
  private:
@@ -73,7 +73,7 @@ class PatientSteps {
 
   std::string program_, note_;
   bool quiet_;
-  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  const Stage whole_{"", true};
   Json commands_ = Json::array();
 };
 

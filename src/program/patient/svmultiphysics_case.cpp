@@ -10,7 +10,6 @@
 #include "program/commands/commands.hpp"
 #include "program/mark/warnings.hpp"
 #include "program/patient/case_files.hpp"
-#include "program/patient/heartbeat.hpp"
 
 namespace riis::program {
 namespace {
@@ -145,25 +144,19 @@ void write_svmultiphysics_case(const SolverCase &solver) {
   write_into(solver, "ventricle.dat",
              temporal_values(solver.is_mitral ? pressure_of_filling_ventricle() : pressure_of_left_ventricle()));
   const int n_steps = static_cast<int>(beat_period / solver_step + 0.5);
-  const std::string step = shortest(solver_step);
   write_into(solver, "solver.xml",
              filled(case_texts().at("svmultiphysics/solver.xml"),
                     {{"TITLE", "One beat of a " + in_xml(solver.kind) + " valve, written by riis patient."},
                      {"STEPS", std::to_string(n_steps)},
-                     {"TIME_STEP", step},
+                     {"TIME_STEP", shortest(solver_step)},
                      {"SAVE", std::to_string(steps_between_files)},
                      {"FACES", faces},
                      {"VALVE", valve},
                      {"DENSITY", printed("%.6g", solver.density * factor_from_si(a_density, Unit::centimetre))},
                      {"VISCOSITY", printed("%.6g", solver.viscosity * factor_from_si(a_viscosity, Unit::centimetre))},
                      {"CONDITIONS", conditions_of(solver, ends)}}));
-  write_into(solver, "beat_table.py", case_texts().at("beat_table.py"));
-  for (const char *name : {"Allrun", "report.py"}) {
-    write_into(solver, name, case_texts().at(std::string("svmultiphysics/") + name));
-    make_runnable(solver, name);
-  }
-  print_line("a beat has " + std::to_string(n_steps) + " steps of " + step + " s; svMultiPhysics needs about " +
-             duration_text(seconds_of_cell * static_cast<double>(solver.n_cells) * n_steps) + " on one processor");
+  write_scripts(solver, "svmultiphysics", "Allrun");
+  announce_beat(solver, "svMultiPhysics", solver_step, seconds_of_cell);
 }
 
 }  // namespace riis::program

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "program/patient/valve_sides.hpp"
+#include "program/patient/patient_mesh.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "program/patient/wall_surface.hpp"
+#include "program/patient/flat_ends.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -187,7 +187,7 @@ namespace {
 // thicknesses. With the factor 1 + 1e-6, nodes at the end of the bands are inside the box.
 constexpr double solver_share = 0.1, end_of_bands = 5 * (1 + 1e-6);
 
-Box box_of(const std::vector<Corners> &triangles, const std::vector<double> &xyz) {
+Box box_of_corners(const std::vector<Corners> &triangles, const std::vector<double> &xyz) {
   Box box = empty_box();
   for (const Corners &corners : triangles)
     for (const std::int64_t vertex : corners) box.grow(xyz.data() + 3 * vertex);
@@ -212,7 +212,7 @@ double uris_grid(double largest) {
 UrisBox::UrisBox(std::vector<Corners> triangles, const std::vector<double> &first, const std::vector<double> &last,
                  double half_thickness, double grid)
     : triangles_(std::move(triangles)), half_thickness_(half_thickness), grid_(grid) {
-  const Box at_first = box_of(triangles_, first), at_last = box_of(triangles_, last);
+  const Box at_first = box_of_corners(triangles_, first), at_last = box_of_corners(triangles_, last);
   for (std::size_t k = 0; k < 3; ++k) {
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < triangles_.size(); ++i) {
@@ -226,7 +226,7 @@ UrisBox::UrisBox(std::vector<Corners> triangles, const std::vector<double> &firs
 }
 
 void UrisBox::append_nodes(std::vector<double> &xyz) const {
-  const Box box = box_of(triangles_, xyz);
+  const Box box = box_of_corners(triangles_, xyz);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     double nodes[3][3];  // first index: corner; second index: coordinate
     for (std::size_t k = 0; k < 3; ++k) {
