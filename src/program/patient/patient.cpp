@@ -536,7 +536,7 @@ class PatientRun {
     const auto largest = std::max_element(
         sides_.before.begin(), sides_.before.end(),
         [&](const std::string &a, const std::string &b) { return end_named(a).area < end_named(b).area; });
-    text += (text.empty() ? ": write " : " write ") + option("--inlet=", *largest);
+    text += (text.empty() ? ":" : "") + std::string(" write ") + option("--inlet=", *largest);
     for (const std::string &name : sides_.after) text += option(" --outlet=", name);
     return text + (sides_.before.size() > 1 ? "; other flat parts become wall" : "");
   }
