@@ -234,6 +234,7 @@ class PatientRun {
   }
 
   void place() {
+    check_flow();
     static const char *const names[] = {"none", "exact", "smoothed"};
     Words more = {"--warp", names[options_.warp_choice]};
     if (options_.noise) more.insert(more.end(), {"--noise", shortest(noise())});
@@ -254,7 +255,6 @@ class PatientRun {
     const PlacedFile file = read_placed("placed.json", placed, unit_);
     for (std::size_t k = 0; k < 3; ++k) centre_[k] = file.where.translation[k];
     flow_ = flow_of(file);
-    check_flow();
     name_ends(wall_, centre_, flow_);
   }
 
