@@ -274,8 +274,8 @@ class PatientRun {
     return made;
   }
 
-  // Refuses a direction of flow that contradicts the landmarks. Without --flow, the horns of a mitral annulus show the side of the
-  // atrium, if their height exceeds its error enough. Other landmarks and --flow are compared by riis place.
+  // Refuses a direction of flow that contradicts the landmarks. Without --flow, the horns of a mitral annulus show the side of
+  // the atrium, if their height exceeds its error enough. Other landmarks and --flow are compared by riis place.
   void check_flow() {
     if (!is_mitral_ || !options_.flow) return;
     const char *const trial = "logs/flow_trial.json";
