@@ -56,7 +56,7 @@ std::string computed_in(const fs::path &folder) {
   for (const char *const name : {"svmultiphysics", "fenicsx"})
     for (fs::directory_iterator entry(folder / name, error), end; !error && entry != end; entry.increment(error)) {
       const std::string file = entry->path().filename().string();
-      if (has_ending(file, "-procs") || file.rfind("flow_", 0) == 0)
+      if (file.find("-procs") != std::string::npos || file.rfind("flow_", 0) == 0)
         return "the computed " + std::string(name) + "/" + file;
     }
   return "";
