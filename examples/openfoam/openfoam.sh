@@ -809,6 +809,8 @@ openfoam_refusals() {
     of_refused "arteries with a compliance of 0" compliance 'compliance is 0, and must be positive' &&
     of_arteries arteries 'compliance 1e-8; distal 1e8;' &&
     of_refused "an unknown key of the arteries" arteries "unknown key 'distal'" &&
+    of_bad diverges && of_set diverges "$dict" aorticValve/largestSpeed 1e-9 &&
+    of_refused "a run that diverges" diverges 'cannot be: halve deltaT in system/controlDict' &&
     of_bad no-patch && of_set no-patch "$dict" aorticValve/opening/flowPatch aorta &&
     of_refused "an unknown patch" no-patch "flowPatch is 'aorta', and the mesh has no such patch" &&
     of_bad not-a-number && of_check nan "$of_cases/not-a-number/0/p" "$of_cases/not-a-number/constant/polyMesh/owner" &&

@@ -74,10 +74,11 @@ void riisValve::readAll() {
   if (dict_.found(part)) {
     refuseOthers(dict_, {"type", "active", "libs", "selectionMode", "fields", part.c_str()});
   }
-  refuseOthers(coeffs_,
-               {"type",     "active",  "libs",      "selectionMode", "fields",        "U",          "p",         "phi",
-                "rho",      "valve",   "placement", "warp",          "halfThickness", "resistance", "calibrate", "rim",
-                "velocity", "opening", "nThreads",  "writeLeaflets", "offset",        "skirt"});
+  refuseOthers(
+      coeffs_,
+      {"type",     "active",  "libs",      "selectionMode", "fields",        "U",          "p",           "phi",
+       "rho",      "valve",   "placement", "warp",          "halfThickness", "resistance", "calibrate",   "rim",
+       "velocity", "opening", "nThreads",  "writeLeaflets", "offset",        "skirt",      "largestSpeed"});
   rho_.read(coeffs_);
   if (!(rho_.value() > 0)) {
     FatalIOErrorInFunction(coeffs_) << "rho is " << rho_.value() << ", and must be positive" << exit(FatalIOError);
@@ -88,6 +89,8 @@ void riisValve::readAll() {
   withVelocity_ = coeffs_.getOrDefault<Switch>("velocity", true);
   writeLeaflets_ = coeffs_.getOrDefault<Switch>("writeLeaflets", false);
   calibrate_ = coeffs_.getOrDefault<Switch>("calibrate", false);
+  // The default would need a pressure difference of about 10,000 mmHg. The jets of the narrowest valves have 6 m/s.
+  largestSpeed_ = coeffs_.found("largestSpeed") ? positive(coeffs_, "largestSpeed") : 50;
   estimated_ = false;
   readFields(dict_);
   readFields(coeffs_);
@@ -479,7 +482,28 @@ void riisValve::addSup(const volScalarField &, fvMatrix<vector> &eqn, const labe
       << "equations of pimpleFoam" << exit(FatalError);
 }
 
+// Ends a run that diverges, before the run writes a time with speeds that cannot be.
+void riisValve::checkSpeed(const vectorField &U) const {
+  scalar squared = -1;
+  point fastest = vector::min;
+  forAll(U, cell) {
+    if (magSqr(U[cell]) <= squared) continue;
+    squared = magSqr(U[cell]);
+    fastest = mesh_.cellCentres()[cell];
+  }
+  const scalar most = returnReduce(squared, maxOp<scalar>());
+  if (most <= sqr(largestSpeed_)) return;
+  if (squared < most) fastest = vector::min;  // another rank has the fastest cell
+  reduce(fastest, maxOp<vector>());
+  FatalErrorInFunction << "valve " << name_ << " at time " << mesh_.time().timeName()
+                       << ": the run diverges: the blood at " << fastest << " has " << std::sqrt(most)
+                       << " m/s, and more than largestSpeed, " << largestSpeed_
+                       << " m/s, cannot be: halve deltaT in system/controlDict, and start again from the beginning "
+                       << "(in a case of riis patient: ./Allrun --fresh)" << exit(FatalError);
+}
+
 void riisValve::correct(volVectorField &U) {
+  checkSpeed(U.primitiveField());
   vectorField force(K_.primitiveField() * U.primitiveField());
   if (withVelocity_) force -= KU_->primitiveField();
   const vector sum = gSum(vectorField(force * mesh_.V().field()));

@@ -264,6 +264,11 @@ TEST(report_has_sizes_and_residuals) {
        *words; ++words)
     if (!strstr(program_out, *words)) fail_msg("no %s in %s", *words, program_out);
   if (strstr(program_out, "leaflet_height")) fail_msg("a held size is in the report: %s", program_out);
+  /* Residuals are in millimetres in every unit. */
+  RUN_FINE("place", json_of("a.json", "m", 0.01, "LPS", 1, "\"parameters\": {\"leaflet_height\": 1.5}, "), "--valve",
+           "trileaflet", "--noise", "0.0005");
+  if (!strstr(program_out, "residual mm") || !strstr(program_out, "\nrms 0.5"))
+    fail_msg("the residuals in metres: %s", program_out);
 }
 
 /* Landmarks of a patient with unequal cusps, in millimetres. */

@@ -176,6 +176,31 @@ class OpenfoamCase(unittest.TestCase):
         self.assertTrue(min(ventricle) < atrium < max(ventricle))
         self.assertNotIn("pressure_outlet", self.dictionary(case, "system/controlDict")["functions"])
 
+    def test_the_page_changes_the_end_and_the_time_step(self):
+        case, _ = self.write()
+        page = (TEXTS.parents[2] / "docs/patient_openfoam.md").read_text(encoding="utf-8")
+        for command in re.findall("^sed .*controlDict.*$", page, re.MULTILINE):
+            subprocess.run(["bash", "-c", command], cwd=case, check=True)
+        control = self.dictionary(case, "system/controlDict")
+        self.assertEqual((control["endTime"], control["deltaT"]), (["2.4"], ["5e-4"]))
+
+    def test_a_valve_that_is_held(self):
+        case, _ = self.write(hold=0.5)
+        law = self.dictionary(case, "system/fvOptions")["aortic_valve"]["opening"]
+        self.assertEqual(numbers(law["closed"]), [0.5])
+        self.assertGreater(numbers(law["openAbove"])[0], 1e8)
+        # The command of docs/patient_openfoam.md makes the same law from the case of a valve that moves.
+        page = (TEXTS.parents[2] / "docs/patient_openfoam.md").read_text(encoding="utf-8")
+        command = re.search("^sed .*closed 0.5.*$", page, re.MULTILINE)[0]
+        case, _ = self.write()
+        subprocess.run(["bash", "-c", command], cwd=case, check=True)
+        self.assertEqual(self.dictionary(case, "system/fvOptions")["aortic_valve"]["opening"], law)
+        # Much blood flows back through a valve that is held open, and the table does not judge this.
+        done = self.run_case(case, tools=self.tools(*self.programs), FAULT="held")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertIn("the valve does not move", done.stdout)
+        self.assertRegex(done.stdout, "backward volume +[0-9.]+ ml\n")
+
     def test_refusals(self):
         _, said = self.write(1, unit="mm")
         self.assertIn("its mesh is in millimetres, and this solver needs metres", said)
@@ -344,6 +369,38 @@ class OpenfoamCase(unittest.TestCase):
         owner.wait()
         self.assertEqual(self.run_case(case, tools=tools).returncode, 0)
 
+    def test_a_run_that_diverged_starts_again(self):
+        tools = self.tools(*self.programs)
+        # The words of the plug-in, or the last row of the table, show that a run diverged.
+        for fault in "words", "table":
+            case, _ = self.write()
+            done = self.run_case(case, tools=tools, CUT_AT="0.4", DIVERGES=fault)
+            self.assertEqual(done.returncode, 1)
+            self.assertIn("pimpleFoam failed", done.stderr)
+            done = self.run_case(case, tools=tools)
+            self.assertEqual((done.returncode, done.stdout), (1, ""), fault)
+            self.assertRegex(done.stderr, "the last run here diverged .* and cannot go on")
+            commands = [line.removeprefix("Allrun:   ") for line in done.stderr.split("\n") if line.startswith("Allrun:   ")]
+            self.assertEqual(commands[1], "./Allrun --fresh")
+            subprocess.run(["bash", "-c", commands[0]], cwd=case, check=True)
+            self.assertAlmostEqual(numbers(self.dictionary(case, "system/controlDict")["deltaT"])[0], 5e-4, 12)
+            self.assertEqual(self.run_case(case, "picture", tools=tools).returncode, 2)  # what is written can still be drawn
+            (case / "processor0").mkdir()
+            done = self.run_case(case, "--fresh", tools=tools)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            self.assertIn("--fresh removes the results of earlier runs: 2 written times, and postProcessing", done.stdout)
+            self.assertIn("from 0 s to 0.8 s", done.stdout)
+            self.assertFalse((case / "log.before").exists() or (case / "processor0").exists())
+            self.assertEqual([path.name for path in (case / "postProcessing/valve").iterdir()], ["0"])
+            self.assertTrue((case / "0/p").exists())
+        done = self.run_case(case, "--fresh", "4", tools=tools)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertIn("on 4 processes", done.stdout)
+        done = self.run_case(case, "--fresh", "picture", tools=tools)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("--fresh removes the times that picture would draw", done.stderr)
+        self.assertTrue((case / "postProcessing").exists())
+
     def test_a_run_on_four_processes(self):
         case, _ = self.write()
         done = self.run_case(case, "4", tools=self.tools(*self.programs))
@@ -385,19 +442,25 @@ def stand_in_beat():
     start = max([float(path.name) for path in pathlib.Path().glob("0.*") if path.is_dir()] + [0])
     end = float(os.environ.get("CUT_AT", "0.8"))
     print("riis aortic_valve: the closed valve has 0.001 m2 in the mesh, and is expected to drop 0.8 of (R / eps) u")
+    if os.environ.get("DIVERGES") == "words":
+        print("valve aortic_valve at time 0.4: the run diverges: the blood at (0 0 0) has 319 m/s")
     rows, flows, speeds, pressures = [], [], [], []
     for step in range(round(1000 * start) + 1, round(1000 * end) + 1):
         time = step / 1000
-        opening = 1 if 100 < step <= 400 else 0
+        opening = 0.5 if fault == "held" else 1 if 100 < step <= 400 else 0
         flow = 1e-4 if 100 < step <= 300 else (-1e-5 if fault != "back" else -1e-4) if 300 < step <= 400 else 0
         difference = 5 * MMHG if opening else -90 * MMHG
+        if fault == "held":
+            flow = 1e-4 if step <= 300 else -2e-4
         if not opening:
             flow = difference * 1e-3 * 1e-3 / 1e4 / 0.8 * (1.01 if fault != "leak" else 1.1)
         speed = 3 if fault == "band" else 0.5
         rows.append([time, opening, difference, flow, 0, 0, 3e-4 * opening, 0, 0, speed])
         pressures.append([time, (125 if time == 0.2 else 80) * MMHG / RHO])
         flows.append([time, flow, -flow + (1e-11 if fault != "balance" else 1e-8)])
-        speeds.append([time, "mag(U)", 0, "(0 0 0)", 9 if fault == "moving" else 2, "(1 1 1)"])
+        is_last = step == round(1000 * end)
+        fastest = 9 if fault == "moving" else "6.97e+13" if is_last and os.environ.get("DIVERGES") == "table" else 2
+        speeds.append([time, "mag(U)", 0, "(0 0 0)", fastest, "(1 1 1)"])
     name = f"{start:g}"
     for folder, file, table in (("valve", "riisValve.dat", rows), ("pressure_outlet", "surfaceFieldValue.dat", pressures),
                                 ("fastest", "fieldMinMax.dat", speeds),

@@ -24,6 +24,7 @@ import unittest
 PROGRAM = ""
 PATIENT = None  # the module make_patient
 COARSE = ["--half-thickness", "1.6 mm", "--largest-edge", "5 mm"]  # cheap meshes
+CUT = ["--skirt", "0.01 mm"]  # no wall is so near, so the run ends after the valve is placed
 
 
 def write_stl(path, triangles, factor=1.0, sign=1.0):
@@ -371,6 +372,16 @@ exec '{shutil.which("gmsh")}' "$@" $longer
         write_landmarks(self.folder / "landmarks.json", ventricle.landmarks(random.Random(3)))
         report, _ = self.made("--half-thickness", "2 mm", "--largest-edge", "8 mm", wall="lv.stl")
         self.assertEqual((report["valve"], report["unit"]), ("mitral", "m"))
+        # The horns show the side of the atrium. A flow into the atrium is refused before the mesh is made.
+        along = report["flow"]
+        for sign, status in (-1, 2), (1, 0):
+            direction = ",".join(str(sign * x) for x in along)
+            found = self.patient("--flow=" + direction, *CUT, wall="lv.stl", output="flow")
+            text = "--flow: .* points into the atrium: both horns .* show a flow along .*: leave out --flow"
+            self.assertEqual(bool(re.search(text, found.stderr)), status == 2, found.stderr)
+            self.assertEqual(found.returncode, 2 if status == 2 else 1, found.stderr)
+        self.refused(2, "--valve: .* are those of a mitral valve, and coapting is an aortic valve: leave out --valve",
+                     "--valve", "coapting", wall="lv.stl", output="none")
         self.assertEqual((report["n_leaking_edges"], report["closed"], report["open"]), (0, "closed", "open"))
         centre = {b["name"]: b["centre"] for b in report["boundaries"]}
         atrium = [1e-3 * x for x in ventricle.placed((0, 0, 16))]
@@ -389,10 +400,15 @@ exec '{shutil.which("gmsh")}' "$@" $longer
                 self.assertLess(math.dist(report[name], finer[name]), 2e-5, name)
 
     def test_wrong_end(self):
-        """The only end is on the wrong side of the valve."""
+        """An end is on the wrong side of the valve. The message names the option, and prints the right options."""
         self.files()
-        inlet = ",".join(map(str, self.root.placed(0, 0, PATIENT.TOP)))
-        self.refused(1, "the end inlet at .* is after the valve: write --inlet X,Y,Z", *COARSE, "--inlet", inlet)
+        bottom, top = (self.root.placed(0, 0, z) for z in (PATIENT.BOTTOM, PATIENT.TOP))
+        for option, point, words in (("inlet", top, "the end inlet at .*, which --inlet chose, is after the valve"),
+                                     ("outlet", bottom, "the end outlet at .*, which --outlet chose, is before the valve")):
+            done = self.refused(1, words, *COARSE, f"--{option}=" + ",".join(map(str, point)))
+            inlet, outlet = re.search(": write --inlet=([^ ]+) --outlet=([^ ]+)$", done.stderr.strip()).groups()
+            for text, end in (inlet, bottom), (outlet, top):
+                self.assertLess(math.dist(map(float, text.split(",")), end), 1.0, done.stderr)
 
     def test_refused_options(self):
         self.files()
@@ -403,6 +419,10 @@ exec '{shutil.which("gmsh")}' "$@" $longer
         self.files(wall_factor=1e-3)
         done = self.refused(2, "--half-thickness: 1 m is not from .* write --half-thickness '1 mm'", "--half-thickness", "1")
         self.assertFalse((self.folder / "case").exists(), done.stderr)
+        self.refused(2, "--hold needs --solver openfoam", "--hold", "0.5")
+        self.refused(2, "--hold: 1 is not below 1: write --hold 0.999", "--hold", "1", "--solver", "openfoam")
+        self.refused(2, "--valve: .* are those of an aortic valve, and mitral is a mitral valve: leave out --valve",
+                     "--valve", "mitral")
         self.refused(2, "--valve: the aortic valve does not close: write --valve coapting", "--valve", "aortic")
         self.refused(2, "--valve: riis patient takes .* not bileaflet", "--valve", "bileaflet")
         self.assertIn("--output is required", self.run_riis("patient", "root.stl", "landmarks.json").stderr)
@@ -457,7 +477,25 @@ exec '{shutil.which("gmsh")}' "$@" $longer
         (case / "notes.txt").write_text("mine", encoding="utf-8")
         self.refused(1, "--output: case: the folder is not empty, and riis patient did not make it: name another", "--replace")
         self.assertEqual((case / "notes.txt").read_text(encoding="utf-8"), "mine")
-        self.refused(1, "--output: no/case: cannot be made", output="no/case")
+        self.refused(1, "--output: root.stl/case: cannot be made: Not a directory", output="root.stl/case")
+        # Parent folders are made. A far wall is refused in the new folder.
+        self.refused(1, "wall.stl: the wall is not within --skirt", *CUT, output="new/parent/case")
+        self.assertTrue((self.folder / "new/parent/case/UNFINISHED.txt").exists())
+        # The message names the results of a solver that --replace would remove.
+        for computed, words in (("openfoam/0.8", "a computed beat of 0.8 s in openfoam"),
+                                ("openfoam/processor0/0.46", "a computed beat of 0.46 s in openfoam"),
+                                ("svmultiphysics/4-procs", "the computed svmultiphysics/4-procs"),
+                                ("fenicsx/flow_001.bp", "the computed fenicsx/flow_001.bp")):
+            shutil.rmtree(self.folder / "old", ignore_errors=True)
+            (self.folder / "old" / computed).mkdir(parents=True)
+            (self.folder / "old" / "openfoam/0").mkdir(parents=True, exist_ok=True)
+            (self.folder / "old/patient.json").write_text("{}", encoding="utf-8")
+            done = self.patient(output="old")
+            self.assertEqual(done.returncode, 1)
+            self.assertIn(f"write --replace, which also removes {words}", done.stderr)
+            done = self.patient("--replace", *CUT, output="old")
+            self.assertRegex(done.stdout, f"(?m)^replaced  removed {words}$")
+            self.assertFalse((self.folder / "old" / computed).exists())
         self.refused(1, "--output: root.stl: is a file, not a folder", output="root.stl")
         # If a run was cut off, the next run may use the same folder. Files that the program would remove there cannot be inputs.
         (case / "UNFINISHED.txt").write_text("", encoding="utf-8")
@@ -470,6 +508,10 @@ exec '{shutil.which("gmsh")}' "$@" $longer
         here = self.folder
         write_stl(here / "hole.stl", self.triangles[:4000] + self.triangles[4003:])
         self.refused(1, "hole.stl: .*hole", wall="hole.stl")
+        # A pinhole cannot be an end.
+        write_stl(here / "pinhole.stl", self.triangles[:4000] + self.triangles[4001:])
+        done = self.refused(1, "pinhole.stl: the surface has a hole of 3 edges at .*: close it", wall="pinhole.stl")
+        self.assertNotIn("--outlet", done.stderr)
         far = [tuple((x + 200, y, z) for x, y, z in t) for t in self.triangles]
         write_stl(here / "two.stl", self.triangles + far)
         self.refused(1, "two.stl: .*2 pieces", wall="two.stl")

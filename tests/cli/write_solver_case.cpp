@@ -24,6 +24,7 @@ SolverCase case_of(const Json &json) {
   solver.skirt = json.at("skirt");
   solver.resistance = json.at("resistance");
   solver.starts_closed = json.at("starts_closed");
+  if (json.contains("hold")) solver.hold = json.at("hold").get<double>();
   solver.upstream = json.at("upstream");
   solver.downstream = json.at("downstream");
   solver.ball_radius = json.at("ball_radius");

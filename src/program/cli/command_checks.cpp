@@ -308,6 +308,9 @@ PatientOptions finish_patient(const Command &command, PatientOptions options) {
   if (options.has_valve) use_named_valve(options);
   check_set_opening(options, "has no effect, because the command uses all openings of the valve");
   if (options.noise && options.noise->number < 0) refuse_usage("--noise: " + options.noise->text + " is below 0");
+  if (options.hold && options.solver != "openfoam")
+    refuse_usage("--hold needs --solver openfoam: only its case holds a valve at an opening");
+  if (options.hold && *options.hold >= 1) refuse_usage("--hold: 1 is not below 1: write --hold 0.999");
   if (options.solver == "none") return options;
   const Unit needed = options.solver == "svmultiphysics" ? Unit::centimetre : Unit::metre;
   if (options.unit && *options.unit != needed)

@@ -686,7 +686,8 @@ void declare_patient(Command command, PatientOptions &options) {
       .text("--solver", "NAME", "Also write a case: openfoam, svmultiphysics, fenicsx or none (default)",
             options.solver)
       ->check(CLI::IsMember(solver_names));
-  command.flag("--replace", "Replace the files that an earlier riis patient wrote to FOLDER", options.replace);
+  command.flag("--replace", "Replace the files that an earlier riis patient wrote to FOLDER, and computed results",
+               options.replace);
   declare_loudness(command, options);
   command.group("Landmarks and wall (points, and lengths without a unit, are in the unit of WALL)");
   declare_unit_of(command, "--wall-unit", "Unit of WALL (default the unit that puts the landmarks at the wall)",
@@ -729,6 +730,8 @@ void declare_patient(Command command, PatientOptions &options) {
                  options.given_largest_edge, positive_amount_of(a_length));
   command.parsed("--resistance", "R", "Resistance of the valve in kg/(m s) (default 1e4)", options.given_resistance,
                  positive_amount_of(a_resistance));
+  command.parsed("--hold", "X", "With --solver openfoam: hold the valve at an opening below 1", options.hold,
+                 parse_opening);
 }
 
 void declare_params(Command command, ParamsOptions &options) {

@@ -257,6 +257,8 @@ The command stops, and says what to do, if WALL has a fault or is not within --s
 other, if an edge leaks at one of 11 openings, or if the closed valve does not seal. If an edge leaks, riis patient first makes
 another mesh with shorter edges. FOLDER has the file UNFINISHED.txt until all steps are done. A sick valve that never closes
 need not seal.
+--replace removes what riis patient wrote to FOLDER before, and also what a solver computed in the case there. A line on stdout
+says so.
 --solver writes a case into FOLDER, and the last line on stdout is the command that runs the case.
 )"},
     {"pictures", "views, sizes, backgrounds, captions",

@@ -434,22 +434,23 @@ std::string place_report(const Placed &placed, Reader reader) {
           digits(at.noise, 2) + " " + unit + "\n";
   std::size_t name_width = 16;
   for (const std::string &name : landmarks.names) name_width = std::max(name_width, name.size() + 2);
-  const std::string column = "residual " + unit;
-  text += "\n" + filled("landmark", name_width) + (placed.is_warped ? filled(column, 16) + "warped " + unit : column) +
-          "\n";
+  // Distances between valve and landmarks are in millimetres in every unit, because a person reads and compares them.
+  const double mm = factor_between(landmarks.unit, Unit::millimetre);
+  const auto distance = [&](double in_unit) { return distance_text(mm * in_unit, mm * at.scale); };
+  const std::string column = "residual mm";
+  text += "\n" + filled("landmark", name_width) + (placed.is_warped ? filled(column, 16) + "warped mm" : column) + "\n";
   for (std::size_t i = 0; i < landmarks.names.size(); ++i) {
-    const std::string residual = digits(placed.residuals[i], 3);
+    const std::string residual = digits(mm * placed.residuals[i], 3);
     text += filled(landmarks.names[i], name_width) +
-            (placed.is_warped ? filled(residual, 16) + distance_text(placed.still_off[i], at.scale) : residual) + "\n";
+            (placed.is_warped ? filled(residual, 16) + distance(placed.still_off[i]) : residual) + "\n";
   }
-  text += "rms " + digits(at.rms, 3) + ", worst " + digits(at.worst, 3) + " at " +
+  text += "rms " + digits(mm * at.rms, 3) + ", worst " + digits(mm * at.worst, 3) + " at " +
           landmarks.names[static_cast<std::size_t>(at.worst_landmark_id)] + "\n";
   const auto farthest = std::max_element(placed.still_off.begin(), placed.still_off.end());
   if (placed.is_warped)
-    text += "warped, rms " + distance_text(root_mean_square(placed.still_off), at.scale) + ", worst " +
-            distance_text(*farthest, at.scale) + " at " +
+    text += "warped, rms " + distance(root_mean_square(placed.still_off)) + ", worst " + distance(*farthest) + " at " +
             landmarks.names[static_cast<std::size_t>(farthest - placed.still_off.begin())] +
-            (placed.warp_noise > 0 ? "; smoothed by the noise of " + digits(placed.warp_noise, 3) + " " + unit : "") +
+            (placed.warp_noise > 0 ? "; smoothed by the noise of " + digits(mm * placed.warp_noise, 3) + " mm" : "") +
             "\n";
   else if (placed.kind != "bileaflet" && at.worst > 3 * std::max(placed.noise, 1e-6 * at.scale))
     text += "The valve misses the landmarks. " + option_text(reader, "warp", "exact") + " takes it to them, " +

@@ -83,10 +83,12 @@ def add_clinical(lines, beat, dt, period, motions):
     forward, back = (dt * sum(max(sign * step["flow"], 0) for step in beat) for sign in (1, -1))
     lines.add("forward volume", 1e6 * forward, "ml", None if forward > 0 else (False, "above 0"))
     share = back / forward if forward > 0 else float("inf")
-    lines.add("backward volume", 1e6 * back, "ml", (share < MOST_BACK, f"below {100 * MOST_BACK:.0f} %, {100 * share:.1f} %"))
+    opened = [step for step in beat if step["opening"] > 0]
+    is_held = bool(opened) and not motions  # a valve that is held open lets blood flow back
+    lines.add("backward volume", 1e6 * back, "ml",
+              None if is_held else (share < MOST_BACK, f"below {100 * MOST_BACK:.0f} %, {100 * share:.1f} %"))
     peak = max(beat, key=lambda step: step["flow"])
     lines.add("largest flow", 1e6 * peak["flow"], "ml/s", note=f"at {peak['time']:.3f} s")
-    opened = [step for step in beat if step["opening"] > 0]
     fast = [step for step in opened if step["flow"] > 0.5 * peak["flow"]]
     if fast:
         lines.add("mean gradient, while the flow is above half its largest",

@@ -165,8 +165,8 @@ class EndChoice {
     for (const FlatPart &part : parts_)
       if (part.was_open && !is_chosen(part))
         refuse("the surface has a hole of " + counted(static_cast<std::int64_t>(part.triangles.size()), "edge") +
-               " at " + place(part) +
-               ": close it, as by the filter Close Holes of MeshLab, or make it an end by --outlet=" + place(part));
+               " at " + place(part) + ": close it, as by the filter Close Holes of MeshLab" +
+               (part.is_large ? ", or make it an end by --outlet=" + place(part) : ""));
   }
 
   // Returns a list of the flat parts.

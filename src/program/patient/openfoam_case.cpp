@@ -136,6 +136,8 @@ void write_openfoam_case(const SolverCase &the) {
   const Pressures pressures = pressures_of(the, ends);
   const std::string placed = (fs::path(the.folder) / "placed.json").string();
   const std::string valve = foam_valve_of(placed, parse_json_file(placed, "a placed valve"), the.skirt);
+  // The law of a valve that is held finds no pressure that opens the valve.
+  const std::string never = "1e9; // never\n        closed ";
   // In a rigid ventricle, much blood flows back through a mitral valve. A mitral valve therefore begins to close before the flow
   // reverses.
   const std::map<std::string, std::string> values = {
@@ -149,7 +151,7 @@ void write_openfoam_case(const SolverCase &the) {
       {"PERIOD", shortest(beat_period)},
       {"MOTION_SECONDS", shortest(motion_seconds)},
       {"DWELL_SECONDS", shortest(dwell_seconds)},
-      {"OPEN_ABOVE", shortest(opening_pressure)},
+      {"OPEN_ABOVE", the.hold ? never + shortest(*the.hold) : shortest(opening_pressure)},
       {"UPSTREAM", point_of(the.upstream)},
       {"DOWNSTREAM", point_of(the.downstream)},
       {"RADIUS", shortest(the.ball_radius)},

@@ -110,6 +110,7 @@ class PatientRun {
     gmsh_ = require_gmsh();
     read_landmarks_and_wall();
     PatientFolder folder(options_.folder, options_.replace, inputs_);
+    if (!folder.removed().empty()) steps_.say("replaced", "removed " + folder.removed());
     copy_inputs();
     place();
     check_valve();
@@ -136,11 +137,17 @@ class PatientRun {
                                                          : "";
     the_.kind = kind_of(landmarks_, given, Reader::program);
     check_kind(the_.kind);
-    check_names_of_cusps(landmarks_, the_.kind);
     the_.is_mitral = is_mitral_kind(the_.kind);
     the_.name = the_.is_mitral ? "mitral_valve" : "aortic_valve";
     the_.folder = ".";
     the_.solver = options_.solver;
+    the_.hold = options_.hold;
+    const std::string kind_by_roles = kind_of_roles(landmarks_);
+    if (options_.has_valve && !kind_by_roles.empty() && is_mitral_kind(kind_by_roles) != the_.is_mitral)
+      refuse_usage("--valve: the landmarks of " + options_.landmarks + " are those of " +
+                   (the_.is_mitral ? "an aortic" : "a mitral") + " valve, and " + the_.kind + " is " +
+                   (the_.is_mitral ? "a mitral" : "an aortic") + " valve: leave out --valve");
+    check_names_of_cusps(landmarks_, the_.kind);
     const auto point_of = [](const std::vector<double> &xyz) { return std::array<double, 3>{xyz[0], xyz[1], xyz[2]}; };
     EndPoints points;
     if (options_.inlet) points.inlet = point_of(*options_.inlet);
@@ -182,14 +189,16 @@ class PatientRun {
   // Returns the length that an option gives, in the unit of the folder. Without a unit, a number has the unit of the wall.
   // `least` and `most` are in millimetres.
   double length_of(const std::optional<Amount> &given, double usual_mm, double least_mm, double most_mm) const {
-    if (!given) return usual_mm * millimetre_;
+    // Rounding errors of the conversion would show in the commands.
+    const auto in_unit = [&](double mm) { return *number_in(printed("%.12g", mm * millimetre_)); };
+    if (!given) return in_unit(usual_mm);
     const double mm = given->number * (given->has_unit ? 1000 : factor_between(frame_.unit, Unit::millimetre));
     if (mm < least_mm || mm > most_mm)
       refuse_usage(
           given->subject + ": " + given->text + (given->has_unit ? "" : std::string(" ") + name_of(frame_.unit)) +
           " is not from " + shown(least_mm) + " to " + shown(most_mm) + " mm" +
           (given->has_unit ? "" : ": write " + given->subject + " '" + given->text + " mm' if millimetres are meant"));
-    return mm * millimetre_;
+    return in_unit(mm);
   }
 
   std::string in_mm(double length) const { return printed("%.3g", length / millimetre_) + " mm"; }
@@ -212,11 +221,11 @@ class PatientRun {
 
   // ---- The valve ----
 
-  Words place_words(const Words &more) const {
+  Words place_words(const Words &more, bool with_flow = true) const {
     Words words = {"place",  landmarks_name_,   "--valve", options_.disease.empty() ? the_.kind : options_.disease,
                    "--unit", name_of(the_.unit)};
     if (frame_.axes != "mesh") words.insert(words.end(), {"--axes", frame_.axes});
-    if (options_.flow) words.insert(words.end(), {"--flow", numbers_text(options_.flow->data(), 3, ",")});
+    if (options_.flow && with_flow) words.insert(words.end(), {"--flow", numbers_text(options_.flow->data(), 3, ",")});
     if (!options_.params.empty()) words.insert(words.end(), {"--params", "params.json"});
     for (const std::string &setting : options_.settings) words.insert(words.end(), {"--set", setting});
     return joined({words, more});
@@ -228,6 +237,7 @@ class PatientRun {
   }
 
   void place() {
+    check_flow();
     static const char *const names[] = {"none", "exact", "smoothed"};
     const Words noise_words = options_.noise ? Words{"--noise", shortest(noise())} : Words();
     const StepEnd end = steps_.run(
@@ -242,15 +252,45 @@ class PatientRun {
     steps_.say("place", text, end.seconds);
     if (!fit["undetermined"].empty())
       steps_.say("place", "not determined by the landmarks, and guessed by proportions: " +
-                              joined_by(fit["undetermined"].get<std::vector<std::string>>(), ", ") +
+                              joined_by(described(fit["undetermined"]), ", ") +
                               ". More landmarks or --set would determine them (logs/place.log)");
     report_["fit"] = fit;
     const PlacedFile file = read_placed("placed.json", placed, the_.unit);
     for (std::size_t k = 0; k < 3; ++k) centre_[k] = file.where.translation[k];
-    const double *const axis = file.where.rotation_axis;
-    // The atrium of a mitral valve lies in the direction of z.
-    flow_ = turned({0, 0, the_.is_mitral ? -1.0 : 1.0}, {axis[0], axis[1], axis[2]}, file.where.rotation_angle);
+    flow_ = flow_of(file);
     name_ends(wall_, centre_, flow_);
+  }
+
+  // Returns the direction of the blood. The atrium of a mitral valve lies in the direction of z.
+  Vector3 flow_of(const PlacedFile &file) const {
+    const double *const axis = file.where.rotation_axis;
+    return turned({0, 0, is_mitral_ ? -1.0 : 1.0}, {axis[0], axis[1], axis[2]}, file.where.rotation_angle);
+  }
+
+  // Returns the names of parameters with their descriptions.
+  std::vector<std::string> described(const std::vector<std::string> &names) const {
+    const Valve valve = make_kind(kind_, "--valve");
+    std::vector<std::string> made;
+    for (const riis_parameter &parameter : all_parameters(valve))
+      if (std::find(names.begin(), names.end(), parameter.name) != names.end())
+        made.push_back(std::string(parameter.name) + " (" + parameter.description + ")");
+    return made;
+  }
+
+  // Refuses a direction of flow that contradicts the landmarks. Without --flow, the horns of a mitral annulus show the side of
+  // the atrium, if their height exceeds its error enough. Other landmarks and --flow are compared by riis place.
+  void check_flow() {
+    if (!is_mitral_ || !options_.flow) return;
+    const char *const trial = "logs/flow_trial.json";
+    if (!steps_.run_silently("flow_trial", place_words({"--output", trial}, false)).is_fine()) return;
+    const auto along = flow_of(read_placed(trial, parse_json_file(trial, "a placed valve"), unit_));
+    const std::vector<double> &given = *options_.flow;
+    if (dot(along, {given[0], given[1], given[2]}) >= 0) return;
+    refuse_usage("--flow: " + numbers_text(given.data(), 3, ",") +
+                 " points into the atrium: both horns of an annulus lie on the atrium's side, so the landmarks of " +
+                 options_.landmarks + " show a flow along " +
+                 numbers_text(along.data(), 3, ",", [](double x) { return printed("%.2f", x); }) +
+                 ": leave out --flow");
   }
 
   // If the warp folds, finds a noise that smooths the warp enough.
@@ -464,19 +504,49 @@ class PatientRun {
     steps_.say("passage", text, steps_.seconds() - begin);
   }
 
-  // Refuses ends that lie on the wrong side of the closed valve.
+  // Refuses ends that lie on the wrong side of the closed valve. If the user chose one of them, the message names the option.
   void check_ends(const ValveSides &sides) const {
     if (!sides.are_apart) return;
+    std::vector<std::pair<std::string, bool>> wrong;  // ends, and whether they are before the valve
     for (const auto &[names, is_before] : {std::pair(sides.after, false), std::pair(sides.before, true)})
-      for (const std::string &name : names) {
-        if ((name == "inlet") == is_before) continue;
-        const auto end = std::find_if(the_.boundaries.begin(), the_.boundaries.end(),
-                                      [&](const Boundary &boundary) { return boundary.name == name; });
-        refuse_data(
-            "mesh.msh: the end " + name + " at " + point_text(end->centre) + " is " + (is_before ? "before" : "after") +
-            " the valve: write --inlet X,Y,Z with a point of the end before it" +
-            (is_before ? ", and --outlet X,Y,Z with a point of each end after it; other flat parts become wall" : ""));
-      }
+      for (const std::string &name : names)
+        if ((name == "inlet") != is_before) wrong.emplace_back(name, is_before);
+    if (wrong.empty()) return;
+    const auto is_chosen = [&](const auto &end) {
+      return end.first == "inlet" ? options_.inlet.has_value() : !options_.outlets.empty();
+    };
+    const auto chosen = std::find_if(wrong.begin(), wrong.end(), is_chosen);
+    const auto &[name, is_before] = chosen == wrong.end() ? wrong[0] : *chosen;
+    refuse_data(
+        "mesh.msh: the end " + name + " at " + point_text(end_named(name).centre) +
+        (chosen == wrong.end() ? "" : ", which --" + std::string(name == "inlet" ? "inlet" : "outlet") + " chose,") +
+        " is " + (is_before ? "before" : "after") + " the valve" + cure_of_ends(sides));
+  }
+
+  const Boundary &end_named(const std::string &name) const {
+    return *std::find_if(the_.boundaries.begin(), the_.boundaries.end(),
+                         [&](const Boundary &boundary) { return boundary.name == name; });
+  }
+
+  // Returns the options that choose the ends on the right sides of the valve.
+  std::string cure_of_ends(const ValveSides &sides) const {
+    std::string text;
+    if (options_.flow) text = ", by --flow: turn --flow round if it points against the blood; otherwise";
+    if (sides.before.empty() || sides.after.empty())
+      return text + (text.empty() ? ": " : " ") + "no flat end is " + (sides.before.empty() ? "before" : "after") +
+             " it: cut the vessel flat there";
+    const auto option = [&](const char *begin, const std::string &name) {
+      const double to_wall = factor_between(the_.unit, frame_.unit);
+      std::vector<std::string> numbers;
+      for (const double x : end_named(name).centre) numbers.push_back(printed("%.5g", to_wall * x));
+      return begin + joined_by(numbers, ",");
+    };
+    const auto largest = std::max_element(
+        sides.before.begin(), sides.before.end(),
+        [&](const std::string &a, const std::string &b) { return end_named(a).area < end_named(b).area; });
+    text += (text.empty() ? ":" : "") + std::string(" write ") + option("--inlet=", *largest);
+    for (const std::string &name : sides.after) text += option(" --outlet=", name);
+    return text + (sides.before.size() > 1 ? "; other flat parts become wall" : "");
   }
 
   template <class Point>
@@ -538,6 +608,11 @@ class PatientRun {
     if (options_.solver == "svmultiphysics") write_svmultiphysics_case(the_);
     if (options_.solver == "fenicsx") write_fenicsx_case(the_);
     steps_.say("case", "for " + options_.solver, steps_.seconds() - begin);
+    if (the_.is_mitral)
+      steps_.say(
+          "case",
+          "its ventricle has a rigid wall and cannot fill: the blood that passes the valve leaves at once through "
+          "the outlet, also in diastole, and the outlet has the pressure of the ventricle, not of the aorta");
   }
 
   void write_report() {

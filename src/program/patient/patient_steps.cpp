@@ -45,7 +45,25 @@ void check_inputs(const fs::path &folder, const std::string &path, const std::ve
     }
 }
 
-std::string taken_folder(const std::string &path, bool replace, const std::vector<std::string> &inputs) {
+// Returns words about the results that a solver has computed in the folder, or "". riis patient makes new cases without results.
+std::string computed_in(const fs::path &folder) {
+  std::error_code error;
+  double last = 0;
+  for (const char *const name : {"openfoam", "openfoam/processor0"})
+    for (fs::directory_iterator entry(folder / name, error), end; !error && entry != end; entry.increment(error))
+      last = std::max(last, number_in(entry->path().filename().string()).value_or(0));
+  if (last > 0) return "a computed beat of " + shortest(last) + " s in openfoam";
+  for (const char *const name : {"svmultiphysics", "fenicsx"})
+    for (fs::directory_iterator entry(folder / name, error), end; !error && entry != end; entry.increment(error)) {
+      const std::string file = entry->path().filename().string();
+      if (file.find("-procs") != std::string::npos || file.rfind("flow_", 0) == 0)
+        return "the computed " + std::string(name) + "/" + file;
+    }
+  return "";
+}
+
+std::string taken_folder(const std::string &path, bool replace, const std::vector<std::string> &inputs,
+                         std::string &removed) {
   std::error_code error;
   const fs::path folder = fs::absolute(path).lexically_normal();
   if (fs::exists(folder, error)) {
@@ -56,13 +74,15 @@ std::string taken_folder(const std::string &path, bool replace, const std::vecto
     if (error) refuse_folder(path, "cannot be read: " + error.message());
     if (!is_empty && !is_own)
       refuse_folder(path, "the folder is not empty, and riis patient did not make it: name another");
+    removed = computed_in(folder);
     if (!is_empty && !is_unfinished && !replace)
-      refuse_folder(path, "the folder has the results of an earlier run: name another, or write --replace");
+      refuse_folder(path, "the folder has the results of an earlier run: name another, or write --replace" +
+                              (removed.empty() ? "" : ", which also removes " + removed));
     check_inputs(folder, path, inputs);
     // The report is removed first. A folder that has lost some of its files therefore never looks finished.
     for (const char *const name : own_names) fs::remove_all(folder / name, error);
   } else {
-    fs::create_directory(folder, error);
+    fs::create_directories(folder, error);
     if (error) refuse_folder(path, "cannot be made: " + error.message());
   }
   return folder.string();
@@ -71,7 +91,7 @@ std::string taken_folder(const std::string &path, bool replace, const std::vecto
 }  // namespace
 
 PatientFolder::PatientFolder(const std::string &path, bool replace, const std::vector<std::string> &inputs)
-    : path_(taken_folder(path, replace, inputs)), locks_({(fs::path(path_) / marker_file).string()}) {
+    : path_(taken_folder(path, replace, inputs, removed_)), locks_({(fs::path(path_) / marker_file).string()}) {
   std::error_code error;
   fs::current_path(path_, error);
   if (error) refuse_folder(path, "cannot be entered: " + error.message());

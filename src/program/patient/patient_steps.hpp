@@ -20,10 +20,13 @@ class PatientFolder {
   // Makes the folder, or uses an empty or unfinished folder. With `replace`, the folder of an earlier run is also allowed.
   // `inputs` are the absolute paths of the files that the run reads.
   PatientFolder(const std::string &path, bool replace, const std::vector<std::string> &inputs);
+  // Returns words about the computed results of a solver that were removed, or "".
+  const std::string &removed() const { return removed_; }
   // Records that the folder has all its files.
   void finish();
 
  private:
+  std::string removed_;
   std::string path_;  // absolute
   OutputLocks locks_;
 };

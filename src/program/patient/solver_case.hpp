@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,7 @@ struct SolverCase {
   double resistance = 1e4;                    // R, kg/(m s)
   double density = 1060, viscosity = 3.5e-3;  // of blood, kg/m3 and Pa s
   bool starts_closed = true;
+  std::optional<double> hold{};  // the opening at which the valve is held; nothing: the blood moves the valve
   std::array<double, 3> upstream{},
       downstream{};                  // points in the blood before and after the valve, and the radius of balls
   double ball_radius = 0;            // of the balls around these points, in which pressures are read
