@@ -264,12 +264,12 @@ class PatientRun {
   // Returns the direction of the blood. The atrium of a mitral valve lies in the direction of z.
   Vector3 flow_of(const PlacedFile &file) const {
     const double *const axis = file.where.rotation_axis;
-    return turned({0, 0, is_mitral_ ? -1.0 : 1.0}, {axis[0], axis[1], axis[2]}, file.where.rotation_angle);
+    return turned({0, 0, the_.is_mitral ? -1.0 : 1.0}, {axis[0], axis[1], axis[2]}, file.where.rotation_angle);
   }
 
   // Returns the names of parameters with their descriptions.
   std::vector<std::string> described(const std::vector<std::string> &names) const {
-    const Valve valve = make_kind(kind_, "--valve");
+    const Valve valve = make_kind(the_.kind, "--valve");
     std::vector<std::string> made;
     for (const riis_parameter &parameter : all_parameters(valve))
       if (std::find(names.begin(), names.end(), parameter.name) != names.end())
@@ -280,10 +280,10 @@ class PatientRun {
   // Refuses a direction of flow that contradicts the landmarks. Without --flow, the horns of a mitral annulus show the side of
   // the atrium, if their height exceeds its error enough. Other landmarks and --flow are compared by riis place.
   void check_flow() {
-    if (!is_mitral_ || !options_.flow) return;
+    if (!the_.is_mitral || !options_.flow) return;
     const char *const trial = "logs/flow_trial.json";
     if (!steps_.run_silently("flow_trial", place_words({"--output", trial}, false)).is_fine()) return;
-    const auto along = flow_of(read_placed(trial, parse_json_file(trial, "a placed valve"), unit_));
+    const auto along = flow_of(read_placed(trial, parse_json_file(trial, "a placed valve"), the_.unit));
     const std::vector<double> &given = *options_.flow;
     if (dot(along, {given[0], given[1], given[2]}) >= 0) return;
     refuse_usage("--flow: " + numbers_text(given.data(), 3, ",") +
