@@ -19,6 +19,7 @@ import struct
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 PROGRAM = ""
@@ -296,12 +297,12 @@ exec '{shutil.which("gmsh")}' "$@" $longer
         wall, first, _ = self.root_case()
         command = [PROGRAM, "patient", wall / "mesh.vtu", "landmarks.json", "--output", "case", *COARSE]
         environment = {**os.environ, **self.undrawn}
-        with subprocess.Popen(command, cwd=self.folder, stdout=subprocess.PIPE, text=True, env=environment) as run:
-            for line in run.stdout:
-                if line.startswith("  $ gmsh -3"):
-                    run.kill()
-                    break
         case = self.folder / "case"
+        commands = case / "commands.sh"
+        with subprocess.Popen(command, cwd=self.folder, stdout=subprocess.DEVNULL, env=environment) as run:
+            while run.poll() is None and not (commands.exists() and "\ngmsh -3" in commands.read_text(encoding="utf-8")):
+                time.sleep(0.01)
+            run.kill()
         self.assertTrue((case / "UNFINISHED.txt").exists())
         self.assertTrue((case / "gmsh" / "surface.msh").exists())
         (case / "mine.txt").write_text("kept", encoding="utf-8")
