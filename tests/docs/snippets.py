@@ -58,7 +58,8 @@ def snippets(list_file=None):
             if block[2] not in ("sh", "python"):
                 continue
             content = textwrap.dedent(block[3])
-            keys = [(document, content.split("\n", 1)[0].rstrip()), (document, "*")]
+            first = content.split("\n", 1)[0].rstrip()
+            keys = [(document, first), (document, re.sub(r" +#.*", "", first)), (document, "*")]
             key = next((one for one in keys if one in listed), None)
             unused.discard(key)
             condition = listed[key][0] if key else ""
