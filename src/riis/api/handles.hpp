@@ -83,17 +83,17 @@ struct Handle {
 // The handles that a call uses until its end, each with whether the call writes it. A call may name a handle twice.
 class UsesOfCall {
  public:
-  UsesOfCall() noexcept : outer_(innermost) { innermost = this; }
+  UsesOfCall() noexcept : outer_(std::exchange(innermost(), this)) {}
   ~UsesOfCall() {
     for (const auto &[uses, writes] : used_)
       if (uses) uses->end(writes);
-    innermost = outer_;
+    innermost() = outer_;
   }
   UsesOfCall(const UsesOfCall &) = delete;
   UsesOfCall &operator=(const UsesOfCall &) = delete;
   static bool add(Uses &uses, bool writes) {
-    if (!innermost) return true;  // tests reach handles outside of a public call
-    for (auto &[used, is_written] : innermost->used_) {
+    if (!innermost()) return true;  // tests reach handles outside of a public call
+    for (auto &[used, is_written] : innermost()->used_) {
       if (used == &uses) return true;
       if (used) continue;
       if (!uses.begin(writes)) return false;
@@ -104,7 +104,7 @@ class UsesOfCall {
   }
 
  private:
-  inline static thread_local UsesOfCall *innermost = nullptr;
+  static UsesOfCall *&innermost() noexcept;  // of this thread
   UsesOfCall *outer_;
   std::array<std::pair<Uses *, bool>, 4> used_{};
 };

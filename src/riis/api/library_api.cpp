@@ -1,8 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// Defines the public functions that belong to no handle: the last error, names of statuses, version, log.
+// Defines the public functions that belong to no handle: the last error, names of statuses, version, log. Counts the calls of a
+// thread.
+#include "api/handles.hpp"
 #include "api/structs.hpp"
 #include "base/errors.hpp"
 #include "base/log.hpp"
+
+namespace riis {
+
+UsesOfCall *&UsesOfCall::innermost() noexcept {
+  static thread_local UsesOfCall *call = nullptr;
+  return call;
+}
+
+}  // namespace riis
 
 extern "C" {
 
