@@ -69,8 +69,8 @@ TEST(test_useless_options) {
   REFUSED(2, "--closing-seconds excludes --cycle", EXPORT, "--time-step", "0.1", "--cycle", cycle, "--closing-seconds",
           "1");
   REFUSED(2, "more.vtu is one argument too many", EXPORT, "mesh.vtu", "more.vtu", "--time-step", "0.001", RAMPS);
-  REFUSED(2, "--set opening has no effect, because the export contains all openings", EXPORT, "--time-step",
-          "0.001", RAMPS, "--set", "opening=0.5");
+  REFUSED(2, "--set opening has no effect, because the export contains all openings", EXPORT, "--time-step", "0.001",
+          RAMPS, "--set", "opening=0.5");
   const char *const others[] = {"--opening=0.5", "--triangulation=adapted", "--flip-normals", "--surface=s.vtp"};
   for (size_t i = 0; i < sizeof others / sizeof others[0]; ++i)
     REFUSED(2, " is not an option", EXPORT, "--time-step", "0.001", RAMPS, others[i]);
