@@ -78,7 +78,7 @@ RIIS_API riis_status riis_reaction_init(riis_reaction *reaction, int64_t struct_
  * in the band. If a scheme has K at its faces, the pressure equation of a moving valve needs a source. Without the source the
  * force is wrong by newtons (docs/solvers.md, "The source in the band"). The source acts in each set of cells that walls and
  * faces with K dt > rho enclose, and equals the outflow of u_surface through these faces. Finite elements have the same error for
- * K dt > rho, and no source is known for them.
+ * K dt > rho, and no such volume source is known for finite elements.
  * Errors: as riis_marks_add_resistance. RIIS_INVALID_ARGUMENT also if n_leaflets is too small (the message names the leaflet id),
  * if a leaflet lacks an edge, if an edge is bad, and if the reaction has no array. */
 RIIS_API riis_status riis_marks_add_reaction(const riis_marks *marks, const riis_resistance *resistance,
