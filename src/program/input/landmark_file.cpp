@@ -178,7 +178,7 @@ class Collector {
     std::string expected = "; an aortic valve has " + aortic + "; a mitral valve has other names";
     if (const std::vector<std::string> own = names_of_cusps(kind); !own.empty())
       expected = "; the " + kind + " valve has " + joined_by(own, ", ");
-    else if (kind == "mitral" || kind == "mitral_coapting")
+    else if (is_mitral_kind(kind))
       expected = "; the " + kind + " valve has " + mitral;
     refuse_file(file_.path, quoted(name) + " is not the name of a landmark" +
                                 did_you_mean(plain(name), names, "\"", "\"") + expected +
@@ -487,6 +487,15 @@ void check_names_of_cusps(const LandmarkFile &landmarks, const std::string &kind
   if (missing.empty()) return;
   refuse_file(landmarks.path, "lacks " + joined_by(missing, ", ") + ", which the " + kind + " valve needs: add " +
                                   (missing.size() == 1 ? "this point" : "these points"));
+}
+
+bool is_mitral_kind(const std::string &kind) { return kind == "mitral" || kind == "mitral_coapting"; }
+
+std::string landmark_ending(const std::string &path) {
+  const std::string slicer = ".mrk.json";
+  const bool is_slicer =
+      path.size() > slicer.size() && path.compare(path.size() - slicer.size(), slicer.size(), slicer) == 0;
+  return is_slicer ? slicer : ending_of(path);
 }
 
 LandmarkFile read_landmarks(const std::string &path, const std::string &text, const std::string &kind) {

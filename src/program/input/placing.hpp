@@ -45,6 +45,10 @@ struct LandmarkFile {
   void convert(Axes to);
 };
 
+bool is_mitral_kind(const std::string &kind);
+
+// Returns the ending of a file of landmarks, such as ".mrk.json". The ending tells the file's format.
+std::string landmark_ending(const std::string &path);
 // Reads the text of a file of landmarks. The ending of its path tells the format. If a name is wrong, the message lists the names
 // for the kind of valve that the user named, or "".
 LandmarkFile read_landmarks(const std::string &path, const std::string &text, const std::string &kind = "");

@@ -131,8 +131,8 @@ class BandMeasures {
   std::int64_t n_regions_ = 0;
 };
 
-// In: a surface and the pieces of a mesh. Out: the share of the leaflets' area that is farther than the half thickness from the
-// mesh. Skirts and the housing of a bileaflet valve do not count, because they may reach beyond the wall.
+// The inputs are a surface and the pieces of a mesh. The result is the share of the leaflets' area that is farther than the half
+// thickness from the mesh. Skirts and the housing of a bileaflet valve do not count, because they may reach beyond the wall.
 class LeafletsOutside {
  public:
   // Takes the surface at the valve's present position.

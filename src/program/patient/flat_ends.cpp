@@ -405,10 +405,8 @@ std::string cure_of_unit(const LandmarkFile &landmarks, Unit other) {
     return "multiply its numbers by " + shortest(factor_between(other, Unit::millimetre)) +
            ", because an .fcsv file is always in mm";
   if (has_ending(path, ".csv")) return "write # unit = " + name + " in it";
-  const std::string slicer = ".mrk.json";
-  const bool is_slicer =
-      path.size() > slicer.size() && path.compare(path.size() - slicer.size(), slicer.size(), slicer) == 0;
-  return "write " + std::string(is_slicer ? "\"coordinateUnits\"" : "\"unit\"") + ": \"" + name + "\" in it";
+  const std::string key = landmark_ending(path) == ".mrk.json" ? "coordinateUnits" : "unit";
+  return "write " + quoted(key) + ": " + quoted(name) + " in it";
 }
 
 // Refuses landmarks that have the size of a valve and lie at the wall only if their numbers have another unit than the file

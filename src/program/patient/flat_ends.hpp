@@ -72,7 +72,7 @@ struct WallFrame {
 WallFrame frame_of_wall(const PatientWall &wall, const LandmarkFile &landmarks, std::optional<Unit> unit,
                         const std::string &axes);
 
-// In: the file of a wall. Out: a closed surface whose triangles face outwards.
+// The input is the file of a wall. The result is a closed surface whose triangles face outwards.
 
 using Corners = Triangles::Corners;
 

@@ -65,8 +65,6 @@ constexpr Beat mitral_beat{"time,opening\n0.00,0\n0.22,0\n0.29,1\n0.40,0.62\n0.5
                            "0.2:0.68:0.04"};
 const char *const shown_period = "0.72";
 
-bool is_mitral_kind(const std::string &kind) { return kind == "mitral" || kind == "mitral_coapting"; }
-
 // Returns the kind of valve to which the landmarks belong, or "".
 std::string kind_of_roles(const LandmarkFile &landmarks) {
   const auto n_of = [&](std::int32_t role) { return std::count(landmarks.roles.begin(), landmarks.roles.end(), role); };
@@ -83,14 +81,6 @@ void check_kind(const std::string &kind) {
     refuse_usage("--valve: the aortic valve does not close: write --valve coapting or --valve trileaflet");
   refuse_usage("--valve: riis patient takes " + one_of({kinds.begin(), kinds.end()}) + ", not " + kind +
                "; docs/patient.md has the single commands, which take every kind");
-}
-
-// Returns the ending of a file of landmarks. The ending tells the file's format.
-std::string landmark_ending(const std::string &path) {
-  const std::string slicer = ".mrk.json";
-  const bool is_slicer =
-      path.size() > slicer.size() && path.compare(path.size() - slicer.size(), slicer.size(), slicer) == 0;
-  return is_slicer ? slicer : ending_of(path);
 }
 
 // Returns the numbers that a step has written to its report.

@@ -45,9 +45,8 @@ std::string require_gmsh();
 // If gmsh fails, the refusal has gmsh's last message and its log. Also refuses a mesh that is not closed or has lost an end.
 PatientMesh mesh_patient(const PatientWall &wall, const PatientMeshOptions &options);
 
-// In: the mesh with a placed valve. Out: a point in the blood before the valve, a point behind the valve, and the side of the
-// valve on which each end lies.
-
+// The input is a mesh with a placed valve. The results are a point in the blood upstream of the valve, a point downstream, and
+// the side of the valve on which each end lies.
 struct ValveSides {
   std::array<double, 3> upstream{}, downstream{};
   double ball_radius = 0;  // of balls around the two points that meet neither the wall nor the band at any opening

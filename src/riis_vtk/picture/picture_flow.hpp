@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a mesh with a velocity, and a surface. Out: the panel with the speed in the plane of a view through the middle of the
-// surface. Lines show the wall and the leaflets where the plane cuts them.
+// The inputs are a mesh with a velocity, and a surface. The result is a panel with the speed in the plane of a view through the
+// middle of the surface. Lines show the wall and the leaflets where the plane cuts them.
 #pragma once
 
 #include <vtkSmartPointer.h>

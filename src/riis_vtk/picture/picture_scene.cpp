@@ -36,8 +36,8 @@ namespace {
 constexpr int least_letter = 6;
 constexpr int least_height_with_texts = 120;
 constexpr std::int32_t n_views = 3;  // the number of views in a picture of three views
-constexpr double reach_of_flow =
-    4;  // a picture of a flow shows more of the mesh, because a jet is longer than its valve
+// A picture of a flow shows more of the mesh, because a jet is longer than its valve.
+constexpr double reach_of_flow = 4;
 constexpr const char *view_names[] = {"side", "top", "oblique"};
 
 // Returns the number with commas between thousands.
