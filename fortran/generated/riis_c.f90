@@ -563,8 +563,8 @@ module riis_c
   !> The widest passage from one set of nodes to another: the path along mesh edges that stays as far from the surface
   !! as possible.
   type, bind(c) :: riis_passage
-    integer(c_int64_t) :: node_id  !< the node of the path that is nearest to the surface; -1 without a path. If nodes
-                                   !! have equal distances, the higher id counts as nearest
+    integer(c_int64_t) :: node_id  !< of all nodes of the path, the node nearest to the surface; -1 without a path. If
+                                   !! nodes have equal distances, the higher id counts as nearest
     real(c_double) :: distance     !< the distance of node_id. If the half thickness is at least this distance, the
                                    !! passage is closed, otherwise it is open. 0 without a path. With an offset o,
                                    !! `distance` is the least half thickness that marks the node, and nodes are ordered
@@ -596,10 +596,10 @@ module riis_c
   end type riis_leaflet
 
   !> The orifice of a surface: the part of an outline that the triangles do not cover, seen along an axis. The axis is
-  !! the direction of the vector area of the outline's edges in space. The axis of a valve points towards +z of the
-  !! valve. The axis of arrays and keyframes points to the side of their normals. The axis of a bileaflet valve is its z
-  !! axis. A skirt does not count. If leaflets of arrays do not touch at the commissures, straight lines join their
-  !! ends. Lengths are in mesh units (docs/theory/measures.md, "Outline").
+  !! the direction of the vector area that the edges of the outline enclose. The axis of a valve points towards +z of
+  !! the valve. The axis of arrays and keyframes points to the side of their normals. The axis of a bileaflet valve is
+  !! its z axis. A skirt does not count. If leaflets of arrays do not touch at the commissures, straight lines join
+  !! their ends. Lengths are in mesh units (docs/theory/measures.md, "Outline").
   type, bind(c) :: riis_orifice
     real(c_double) :: area           !< the area of the orifice. Without an outline, all fields but axis and rim_reach
                                      !! are 0

@@ -395,10 +395,9 @@ subroutine riisf_surface_offset(surface, valve, half_thickness, tolerance, scale
   status = riis_surface_update(c_handle_of(surface), c_handle_of(valve), options)
 end subroutine riisf_surface_offset
 
-!> Replaces the surface's content by a valve, and gives every vertex a velocity. The triangles are those that
-!! riisf_surface_update makes, to the last bit. For a valve at rest, also pass the valve as valve_before. Errors: as
-!! riisf_surface_update. RIIS_INVALID_PARAMETER for a valve_before of another kind or other patches, or with parameters that do
-!! not fit together.
+!> Replaces the surface's content by a valve, and gives every vertex a velocity. The triangles are bitwise the same as those of
+!! riisf_surface_update. For a valve at rest, also pass the valve as valve_before. Errors: as riisf_surface_update.
+!! RIIS_INVALID_PARAMETER for a valve_before of another kind or other patches, or with parameters that do not fit together.
 subroutine riisf_surface_update_moving(surface, valve, valve_before, dt, status)
   use, intrinsic :: iso_c_binding, only: c_double
   use, intrinsic :: iso_fortran_env, only: int64
@@ -410,7 +409,7 @@ subroutine riisf_surface_update_moving(surface, valve, valve_before, dt, status)
   integer(int64), intent(in) :: valve_before              !< The earlier state, of the same kind. Valves from patches must have
                                                           !! the same curves and sides.
   real(c_double), intent(in) :: dt                        !< The time from valve_before to valve, 1e-30 to 1e30, or -1e30 to
-                                                          !! -1e-30 if time runs back.
+                                                          !! -1e-30 if time runs backwards.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   status = riis_surface_update_moving(c_handle_of(surface), c_handle_of(valve), c_handle_of(valve_before), dt)
 end subroutine riisf_surface_update_moving
@@ -431,7 +430,7 @@ subroutine riisf_surface_place_moving(surface, valve, valve_before, dt, half_thi
   integer(int64), intent(in) :: valve_before              !< The earlier state, of the same kind. Valves from patches must have
                                                           !! the same curves and sides.
   real(c_double), intent(in) :: dt                        !< The time from valve_before to valve, 1e-30 to 1e30, or -1e30 to
-                                                          !! -1e-30 if time runs back.
+                                                          !! -1e-30 if time runs backwards.
   real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
                                                           !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
   real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
@@ -470,7 +469,7 @@ subroutine riisf_surface_place_moving(surface, valve, valve_before, dt, half_thi
       options, options_before)
 end subroutine riisf_surface_place_moving
 
-!> Adds a direction in which the surface of a valve changes: by a parameter, a landmark or a number of the placement. Errors:
+!> Adds a direction in which the surface of a valve changes with a parameter, a landmark or a number of the placement. Errors:
 !! RIIS_INVALID_ARGUMENT for a surface from arrays and for a dp out of range. RIIS_INVALID_PARAMETER for a state of another kind
 !! or with other patches, and for parameters that do not fit together. RIIS_LIMIT_EXCEEDED for more than 1000 directions.
 subroutine riisf_surface_add_direction(surface, valve_after, valve_before, dp, status)
@@ -1313,11 +1312,11 @@ end subroutine riisf_adjacency_destroy
 !> Makes a surface from arrays, with the caller's winding. A triangle's id is its face's number; the halves of quad q have the
 !! ids 2 q and 2 q + 1. The id of a skipped triangle is not used again. A triangle has zero area if its longest edge is shorter
 !! than 1e-60, or if its height over its longest edge is at most 1e-12 of this edge. A skirt leads away from the axis of the
-!! attachment, the line through its centroid along its vector area (docs/theory/skirt.md). The skirt's vertices and triangles
-!! come after the caller's vertices and triangles. Without `attached`, the attachment is the closed line of open edges that
-!! encloses the largest area. This line must enclose at least 0.8 of the area of the leaflets' outline (RIIS_OUTLINE_BOUNDARY).
-!! Errors: RIIS_LIMIT_EXCEEDED for too many triangles. RIIS_INVALID_SURFACE naming the face or vertex and its value, or saying
-!! why an attachment is not found. RIIS_INVALID_ARGUMENT for a length of the skirt out of range.
+!! attachment. This axis is the line through the centroid of the attachment along its vector area (docs/theory/skirt.md). The
+!! skirt's vertices and triangles come after the caller's vertices and triangles. Without `attached`, the attachment is the
+!! closed line of open edges that encloses the largest area. This line must enclose at least 0.8 of the area of the leaflets'
+!! outline (RIIS_OUTLINE_BOUNDARY). Errors: RIIS_LIMIT_EXCEEDED for too many triangles. RIIS_INVALID_SURFACE naming the face or
+!! vertex and its value, or saying why an attachment is not found. RIIS_INVALID_ARGUMENT for a length of the skirt out of range.
 subroutine riisf_surface_from_arrays(n_vertices, x, y, z, stride, corners_per_face, n_faces, vertex_ids, index_base, &
     half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, surface, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_null_ptr, c_ptr, c_sizeof
@@ -3857,7 +3856,7 @@ subroutine riisf_add_reaction(marks, R, half_thickness, rim, n_nodes, velocity, 
   real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
   real(c_double), intent(inout) :: force(3)               !< (3): force on the whole surface, in the unit of weight K velocity,
-                                                          !! N in SI units.
+                                                          !! which is N in SI units.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
   type(riis_flow_arrays) :: flow
@@ -3898,7 +3897,7 @@ subroutine riisf_add_reaction_64(marks, R, half_thickness, rim, n_nodes, velocit
   real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
   real(c_double), intent(inout) :: force(3)               !< (3): force on the whole surface, in the unit of weight K velocity,
-                                                          !! N in SI units.
+                                                          !! which is N in SI units.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
   type(riis_flow_arrays) :: flow
@@ -3945,7 +3944,7 @@ subroutine riisf_add_reaction_components(marks, R, half_thickness, rim, n_nodes,
   real(c_double), intent(in) :: vz(*)                     !< (n_nodes), the z component.
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
   real(c_double), intent(inout) :: force(3)               !< (3): force on the whole surface, in the unit of weight K velocity,
-                                                          !! N in SI units.
+                                                          !! which is N in SI units.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
   type(riis_flow_arrays) :: flow
@@ -3988,7 +3987,7 @@ subroutine riisf_add_reaction_components_64(marks, R, half_thickness, rim, n_nod
   real(c_double), intent(in) :: vz(*)                     !< (n_nodes), the z component.
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
   real(c_double), intent(inout) :: force(3)               !< (3): force on the whole surface, in the unit of weight K velocity,
-                                                          !! N in SI units.
+                                                          !! which is N in SI units.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
   type(riis_flow_arrays) :: flow
@@ -4035,7 +4034,7 @@ subroutine riisf_add_leaflet_reaction(marks, R, half_thickness, rim, n_nodes, ve
                                                           !! most 1e60. Usually 0.
   integer(int32), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
   real(c_double), intent(inout) :: force(3)               !< (3): force on the whole surface, in the unit of weight K velocity,
-                                                          !! N in SI units.
+                                                          !! which is N in SI units.
   real(c_double), intent(inout) :: moment(3)              !< (3): moment on the whole surface.
   real(c_double), intent(inout) :: leaflet_force(3, *)    !< (3, n_leaflets): force on each leaflet. A node belongs to the
                                                           !! leaflet in riis_mark_list.leaflet_id, even if two leaflets are
@@ -4090,7 +4089,7 @@ subroutine riisf_add_leaflet_reaction_64(marks, R, half_thickness, rim, n_nodes,
                                                           !! most 1e60. Usually 0.
   integer(int32), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
   real(c_double), intent(inout) :: force(3)               !< (3): force on the whole surface, in the unit of weight K velocity,
-                                                          !! N in SI units.
+                                                          !! which is N in SI units.
   real(c_double), intent(inout) :: moment(3)              !< (3): moment on the whole surface.
   real(c_double), intent(inout) :: leaflet_force(3, *)    !< (3, n_leaflets): force on each leaflet. A node belongs to the
                                                           !! leaflet in riis_mark_list.leaflet_id, even if two leaflets are
@@ -4151,7 +4150,7 @@ subroutine riisf_add_leaflet_reaction_components(marks, R, half_thickness, rim, 
                                                           !! most 1e60. Usually 0.
   integer(int32), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
   real(c_double), intent(inout) :: force(3)               !< (3): force on the whole surface, in the unit of weight K velocity,
-                                                          !! N in SI units.
+                                                          !! which is N in SI units.
   real(c_double), intent(inout) :: moment(3)              !< (3): moment on the whole surface.
   real(c_double), intent(inout) :: leaflet_force(3, *)    !< (3, n_leaflets): force on each leaflet. A node belongs to the
                                                           !! leaflet in riis_mark_list.leaflet_id, even if two leaflets are
@@ -4208,7 +4207,7 @@ subroutine riisf_add_leaflet_reaction_components_64(marks, R, half_thickness, ri
                                                           !! most 1e60. Usually 0.
   integer(int32), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
   real(c_double), intent(inout) :: force(3)               !< (3): force on the whole surface, in the unit of weight K velocity,
-                                                          !! N in SI units.
+                                                          !! which is N in SI units.
   real(c_double), intent(inout) :: moment(3)              !< (3): moment on the whole surface.
   real(c_double), intent(inout) :: leaflet_force(3, *)    !< (3, n_leaflets): force on each leaflet. A node belongs to the
                                                           !! leaflet in riis_mark_list.leaflet_id, even if two leaflets are
@@ -4939,9 +4938,9 @@ end subroutine riisf_loads_forces_64
 ! Leaks
 ! -----------------------------------------------------------------------------------------------------------------
 
-!> Finds the leaking edges: edges of the mesh's adjacency between two unmarked nodes that cross or touch a triangle of the
-!! surface. Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, for empty marks, and for marks with another number of
-!! nodes or another half thickness. RIIS_INVALID_MESH as riisf_mark_nodes.
+!> Finds the mesh edges that leak through the surface. An edge of the mesh's adjacency leaks if both of its nodes are unmarked
+!! and the edge crosses or touches a triangle of the surface. Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, for
+!! empty marks, and for marks with another number of nodes or another half thickness. RIIS_INVALID_MESH as riisf_mark_nodes.
 subroutine riisf_find_leaks(surface, mesh, marks, n_threads, leaks, n_edges, longest, middle, half_thickness, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -5120,8 +5119,8 @@ subroutine riisf_label_open_regions_64(mesh, marks, n_threads, n_nodes, region_n
 end subroutine riisf_label_open_regions_64
 
 !> Finds the widest passage along the edges of the mesh's adjacency, whether it is open or closed. Errors: RIIS_INVALID_ARGUMENT
-!! for a mesh without adjacency. Each node in `from` and `to` must be in the mesh and in node_mask, and farther from the surface
-!! than the half thickness. RIIS_INVALID_MESH as riisf_mark_nodes.
+!! for a mesh without adjacency. RIIS_INVALID_ARGUMENT also for a node in `from` or `to` that is not in the mesh, that node_mask
+!! leaves out, or whose distance from the surface is at most the half thickness. RIIS_INVALID_MESH as riisf_mark_nodes.
 subroutine riisf_find_passage(surface, mesh, n_from, from_num, n_to, to_num, n_threads, state, node_num, distance, &
     point, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_loc, c_ptr, c_sizeof
@@ -5671,7 +5670,7 @@ subroutine riisf_find_by_area(valve, name, n_areas, areas, half_thickness, toler
   use riis_c, only: RIIS_OK, riis_area_range, riis_area_search, riis_area_search_init, riis_find_by_area, riis_status, &
       riis_surface_options, riis_surface_options_init
   implicit none
-  integer(int64), intent(in) :: valve                     !< Its own opening is ignored if openings are found.
+  integer(int64), intent(in) :: valve                     !< Its own opening is ignored if the call finds openings.
   character(len=*), intent(in) :: name                    !< 'opening', 'scale' of the placement, or the name of a parameter
                                                           !! for which riisf_valve_get gives one value.
   integer(int32), intent(in) :: n_areas                   !< 0 to 1,000,000.
@@ -5731,7 +5730,7 @@ subroutine riisf_find_by_area_64(valve, name, n_areas, areas, half_thickness, to
   use riis_c, only: RIIS_OK, riis_area_range, riis_area_search, riis_area_search_init, riis_find_by_area, riis_status, &
       riis_surface_options, riis_surface_options_init
   implicit none
-  integer(int64), intent(in) :: valve                     !< Its own opening is ignored if openings are found.
+  integer(int64), intent(in) :: valve                     !< Its own opening is ignored if the call finds openings.
   character(len=*), intent(in) :: name                    !< 'opening', 'scale' of the placement, or the name of a parameter
                                                           !! for which riisf_valve_get gives one value.
   integer(int64), intent(in) :: n_areas                   !< 0 to 1,000,000.
@@ -6262,10 +6261,10 @@ subroutine riisf_warp_create(n_landmarks, xyz, noise, scale, rotation_axis, rota
   warp = handle_of(c_handle)
 end subroutine riisf_warp_create
 
-!> Makes the warp take the landmarks to the targets. The map depends only on these targets, and not on earlier ones, to the last
-!! bit. Errors: RIIS_INVALID_ARGUMENT naming the point. RIIS_INVALID_PARAMETER for a warp that folds. A warp folds if the
-!! determinant of the map's derivative is 0 or less half way between some landmark and its nearest landmark. A larger noise in
-!! the options smooths the map, and may prevent folds.
+!> Makes the warp take the landmarks to the targets. The map is bitwise the same, whatever the earlier targets were. Errors:
+!! RIIS_INVALID_ARGUMENT naming the point. RIIS_INVALID_PARAMETER for a warp that folds. A warp folds if the determinant of the
+!! map's derivative is 0 or less half way between some landmark and its nearest landmark. A larger noise in the options smooths
+!! the map, and may prevent folds.
 subroutine riisf_warp_set_targets(warp, n_landmarks, xyz, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64

@@ -14,7 +14,7 @@ extern "C" {
 
 /* ---- Gradients: directions in which the surface of a valve changes ------------------------------------- */
 
-/* Adds a direction in which the surface of a valve changes: by a parameter, a landmark or a number of the placement.
+/* Adds a direction in which the surface of a valve changes with a parameter, a landmark or a number of the placement.
  *   `valve_after`, `valve_before`: two copies of the surface's valve. The parameter is a little larger in valve_after, and a
  *     little smaller in valve_before, than in the surface. If only the placement changes, pass the same valve twice.
  *   `dp`: the parameter's difference from valve_before to valve_after, 1e-30 to 1e30 in magnitude.

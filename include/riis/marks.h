@@ -25,9 +25,9 @@ RIIS_API void riis_marks_destroy(riis_marks **marks); /* destroys the marks and 
 enum {
   RIIS_SEARCH_AUTO = 0,       /* uses clusters or the exhaustive search, whichever is faster. The exhaustive search runs for
                                  distances by sampling or minimisation. It also runs in the first marking of a mesh without
-                                 riis_mesh_prepare, if the distance limit is at most a fifth of the surface's extent. If the limit
-                                 is larger, it runs for few nodes. A grid (riis_mesh_create_grid) is searched by clusters from its
-                                 first marking on */
+                                 riis_mesh_prepare, if the distance limit is at most a fifth of the surface's extent. With a
+                                 larger limit, it runs if there are few nodes. A grid (riis_mesh_create_grid) is searched by
+                                 clusters from its first marking on */
   RIIS_SEARCH_EXHAUSTIVE = 1, /* queries every node (paper, algorithm "Exhaustive node iteration") */
   RIIS_SEARCH_NEIGHBOR = 2,   /* walks from marked nodes to their neighbours (paper, algorithm "Recursive
                                  neighbor search") and also queries every other node that may be near. The mesh must have an
@@ -122,7 +122,7 @@ enum {
   RIIS_LIST_WITHIN_LIMIT = 1 /* the nodes within the distance limit, marked or not. Without a limit: the marked nodes */
 };
 /* A list of nodes, ascending by node_id. Lengths are in mesh units. The array `point` and the arrays below it are NULL if
- * options.fields did not request them. The call riis_closest_point gives the same values, to the last bit. */
+ * options.fields did not request them. The call riis_closest_point gives bitwise the same values. */
 typedef struct riis_mark_list {
   int64_t n_nodes;            /* in the list */
   const int64_t *node_id;     /* (n_nodes) */

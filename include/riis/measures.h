@@ -35,18 +35,18 @@ RIIS_API riis_status riis_surface_get_leaflet(const riis_surface *surface, int64
 /* The outline of an orifice. Arrays or keyframes with the triangles of a valve have the outline of this valve. */
 enum {
   RIIS_OUTLINE_NONE = 0,      /* the boundary of the leaflets does not surround a centre, or encloses no area */
-  RIIS_OUTLINE_DISC = 1,      /* bileaflet: the disc of radius about the z axis */
-  RIIS_OUTLINE_ATTACHMENT = 2, /* for other valves the farthest edge of the leaflets in each direction from the centre. This edge
-                                  is the attachment, except where a free edge reaches farther */
+  RIIS_OUTLINE_DISC = 1,      /* bileaflet: the disc about the z axis, whose radius is riis_orifice.radius */
+  RIIS_OUTLINE_ATTACHMENT = 2, /* other valves: in each direction from the centre, the farthest edge of the leaflets. This edge is
+                                  the attachment, except where a free edge reaches farther */
   RIIS_OUTLINE_BOUNDARY = 3,  /* a surface from arrays or keyframes: in each direction from the centre, the farthest edge that
                                  belongs to only one triangle */
   RIIS_OUTLINE_WALL = 4       /* riis_surface_get_orifice_in_wall: the longest line of open edges of the wall */
 };
 /* The orifice of a surface: the part of an outline that the triangles do not cover, seen along an axis. The axis is the direction
- * of the vector area of the outline's edges in space. The axis of a valve points towards +z of the valve. The axis of arrays and
- * keyframes points to the side of their normals. The axis of a bileaflet valve is its z axis. A skirt does not count. If leaflets
- * of arrays do not touch at the commissures, straight lines join their ends. Lengths are in mesh units (docs/theory/measures.md,
- * "Outline"). */
+ * of the vector area that the edges of the outline enclose. The axis of a valve points towards +z of the valve. The axis of
+ * arrays and keyframes points to the side of their normals. The axis of a bileaflet valve is its z axis. A skirt does not count.
+ * If leaflets of arrays do not touch at the commissures, straight lines join their ends. Lengths are in mesh units
+ * (docs/theory/measures.md, "Outline"). */
 typedef struct riis_orifice {
   double area;           /* the area of the orifice. Without an outline, all fields but axis and rim_reach are 0 */
   double outline_area;   /* the area inside the outline */
@@ -67,8 +67,8 @@ typedef struct riis_orifice {
   int32_t reserved;      /* 0 */
 } riis_orifice;
 /* Measures the orifice of a surface.
- *   `resistance`: only half_thickness and rim are used, with the surface's offset. RIIS_AUTO stands for the surface's half
- *     thickness. NULL stands for the defaults. */
+ *   `resistance`: only half_thickness and rim are used. The offset is that of the surface. RIIS_AUTO stands for the surface's
+ *     half thickness. NULL stands for the defaults. */
 RIIS_API riis_status riis_surface_get_orifice(const riis_surface *surface, const riis_resistance *resistance,
                                               riis_orifice *orifice, int64_t struct_size);
 /* Measures the orifice inside a wall, such as a ring or a tube around the leaflets. The call serves leaflets that do not reach
@@ -79,7 +79,7 @@ RIIS_API riis_status riis_surface_get_orifice_in_wall(const riis_surface *surfac
                                                       const riis_resistance *resistance, riis_orifice *orifice,
                                                       int64_t struct_size);
 
-/* Which area of an orifice riis_find_by_area takes. */
+/* Which area of an orifice must be equal to the given areas of riis_find_by_area. */
 enum {
   RIIS_AREA_GEOMETRIC = 0, /* riis_orifice.area */
   RIIS_AREA_EFFECTIVE = 1  /* riis_orifice.effective_area */
@@ -91,8 +91,8 @@ typedef struct riis_area_search {
   const riis_resistance *resistance;   /* as in riis_surface_get_orifice. NULL, the default, stands for defaults */
   double from, to;    /* the range to search, with `from` below `to`. The default NaN stands for 0 to 1 for the opening, 0.1 to 10
                          times the present scale, or 0.5 to 2 times the present value of a parameter. If the value of a parameter
-                         is 0, both numbers must be set. A parameter that is a share is then an exception: the default is the
-                         range of all shares */
+                         is 0, both numbers must be set. A share, which is a parameter from 0 to 1, is an exception: by default
+                         its whole range is searched */
   double tolerance;   /* the tolerance of an area, as a share of the area, 1e-12 to 1e-2. Default 1e-8 */
   int32_t n_samples;  /* the number of values that are tried first, 2 to 100,001. Default 33 */
   int32_t area;       /* RIIS_AREA_*, default RIIS_AREA_GEOMETRIC */
@@ -114,7 +114,7 @@ typedef struct riis_area_range {
 } riis_area_range;
 /* Finds the openings, or the sizes, at which the orifice of a valve has given areas (docs/theory/measures.md, "From an area to
  * a valve").
- *   `valve`: its own opening is ignored if openings are found.
+ *   `valve`: its own opening is ignored if the call finds openings.
  *   `name`: "opening", "scale" of the placement, or the name of a parameter for which riis_valve_get gives one value.
  *   `n_areas`: 0 to 1,000,000. With 0 areas only *range is written, and areas may be NULL.
  *   `areas` (n_areas), 0 to 1e120, mesh units squared.

@@ -49,7 +49,7 @@ typedef struct riis_reaction {
   int64_t struct_size;      /* set by the init function */
   double about[3];          /* the reference point of moment and leaflet_moment; magnitude at most 1e60.
                                Default 0 */
-  double *force;            /* (3): force on the whole surface, in the unit of weight K velocity, N in SI units */
+  double *force;            /* (3): force on the whole surface, in the unit of weight K velocity, which is N in SI units */
   double *moment;           /* (3): moment on the whole surface */
   int64_t n_leaflets;       /* the number of columns of leaflet_force and leaflet_moment, which must be more than
                                riis_surface_info.largest_leaflet_id. Default 0 */
@@ -75,10 +75,10 @@ RIIS_API riis_status riis_reaction_init(riis_reaction *reaction, int64_t struct_
  * of the leaflets add up to the sum of the whole surface, up to rounding. The forces on edges serve as loads in a code for
  * tissue, but do not model how a membrane carries loads to its edges. The time for a node grows as log n_edges, or as n_edges if
  * all edges are equally near. The force on a valve at rest is correct. The force on a moving valve includes the inertia of the
- * blood in the band. If a scheme has K at its faces, the pressure equation of a moving valve needs a source. Without the source
- * the force is wrong by newtons (docs/solvers.md, "The source in the band"). The source acts in each set of cells that walls and
- * faces with K dt > rho enclose, and equals the outflow of u_surface through these faces. Finite elements have the same error if
- * K dt > rho, but for finite elements no such source is known.
+ * blood in the band. If a scheme applies K at its faces, a moving valve needs a source in the pressure equation. Without the
+ * source the force is wrong by newtons (docs/solvers.md, "The source in the band"). In each set of cells that is enclosed by
+ * walls and by faces with K dt > rho, the source equals the outflow of u_surface through these faces. Finite elements have the
+ * same error if K dt > rho, but for finite elements no such source is known.
  * Errors: as riis_marks_add_resistance. RIIS_INVALID_ARGUMENT also if n_leaflets is too small (the message names the leaflet id),
  * if a leaflet lacks an edge, if an edge is bad, and if the reaction has no array. */
 RIIS_API riis_status riis_marks_add_reaction(const riis_marks *marks, const riis_resistance *resistance,

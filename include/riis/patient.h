@@ -150,8 +150,7 @@ RIIS_API riis_status riis_warp_options_init(riis_warp_options *options, int64_t 
 RIIS_API riis_status riis_warp_create(const riis_points *sources, const riis_warp_options *options, riis_warp **warp);
 /* Destroys the warp. Valves with this warp keep their copies. */
 RIIS_API void riis_warp_destroy(riis_warp **warp);
-/* Makes the warp take the landmarks to the targets. The map depends only on these targets, and not on earlier ones, to the last
- * bit.
+/* Makes the warp take the landmarks to the targets. The map is bitwise the same, whatever the earlier targets were.
  *   `targets`: one point for each source, in the order of the sources.
  * Errors: RIIS_INVALID_ARGUMENT naming the point. RIIS_INVALID_PARAMETER for a warp that folds. A warp folds if the determinant
  * of the map's derivative is 0 or less half way between some landmark and its nearest landmark. A larger noise in the options

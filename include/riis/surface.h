@@ -96,9 +96,9 @@ RIIS_API riis_status riis_surface_options_init(riis_surface_options *options, in
 /* Makes the surface of a valve: curves, polylines, Coons patches, quads and triangles (paper, 3 and 4.1; docs/theory.md).
  *   `valve`: its parameters must fit together.
  *   `options`: accuracy and placement.
- * Normals point downstream: from the ventricular to the sinus face of the cusps, from the atrial to the ventricular face of
- * the mitral valve, and to +z on closed bileaflet leaflets. On the bileaflet ring, normals point outwards. Triangles of zero
- * area, as at the root of each cusp, at the mitral commissures and at the ends of bileaflet middle edges, are skipped. The
+ * Normals point downstream: from the ventricular to the sinus face of the cusps, from the atrial to the ventricular face of the
+ * mitral valve, and to +z on closed bileaflet leaflets. On the bileaflet ring, normals point outwards. Triangles of zero area are
+ * skipped. They occur at the root of each cusp, at the mitral commissures and at the ends of bileaflet middle edges. The
  * thickness of the band around a surface is 2 eps, twice the half thickness. With an offset o the middle of the band lies o eps
  * beside the triangles, on the side to which normals point. Let s be the signed distance of a node, with the sign of its side.
  * The band holds the nodes with |s - o eps| <= eps. At a rim with the closest point p and the normal n, the band holds the nodes
@@ -138,11 +138,11 @@ RIIS_API riis_status riis_surface_arrays_init(riis_surface_arrays *arrays, int64
 
 /* Makes a surface from arrays, with the caller's winding. A triangle's id is its face's number; the halves of quad q have the ids
  * 2 q and 2 q + 1. The id of a skipped triangle is not used again. A triangle has zero area if its longest edge is shorter than
- * 1e-60, or if its height over its longest edge is at most 1e-12 of this edge.
- * A skirt leads away from the axis of the attachment, the line through its centroid along its vector area (docs/theory/skirt.md).
- * The skirt's vertices and triangles come after the caller's vertices and triangles. Without `attached`, the attachment is the
- * closed line of open edges that encloses the largest area. This line must enclose at least 0.8 of the area of the leaflets'
- * outline (RIIS_OUTLINE_BOUNDARY).
+ * 1e-60, or if its height over its longest edge is at most 1e-12 of this edge. A skirt leads away from the axis of the
+ * attachment. This axis is the line through the centroid of the attachment along its vector area (docs/theory/skirt.md). The
+ * skirt's vertices and triangles come after the caller's vertices and triangles. Without `attached`, the attachment is the closed
+ * line of open edges that encloses the largest area. This line must enclose at least 0.8 of the area of the leaflets' outline
+ * (RIIS_OUTLINE_BOUNDARY).
  * Errors: RIIS_LIMIT_EXCEEDED for too many triangles. RIIS_INVALID_SURFACE naming the face or vertex and its value, or saying
  * why an attachment is not found. RIIS_INVALID_ARGUMENT for a length of the skirt out of range. */
 RIIS_API riis_status riis_surface_create_from_arrays(const riis_surface_arrays *arrays,
@@ -185,7 +185,7 @@ typedef struct riis_surface_info {
   int32_t skirt_leaflet_id;  /* the leaflet_id of the skirt; -1: no skirt */
   int32_t housing_leaflet_id; /* bileaflet: RIIS_LEAFLET_HOUSING; -1 for other surfaces */
 } riis_surface_info;
-/* Gives the size of the surface, and the time that it took to make it. */
+/* Gives the size of the surface, and how long the last call took to make or update it. */
 RIIS_API riis_status riis_surface_get_info(const riis_surface *surface, riis_surface_info *info,
                                            int64_t struct_size);
 
@@ -236,15 +236,15 @@ RIIS_API riis_status riis_surface_get_attachment(const riis_surface *surface, ri
 
 /* ---- Motion: surfaces with velocities, from two states of a valve or from frames ----------------------- */
 
-/* Replaces the surface's content by a valve, and gives every vertex a velocity. The triangles are those that riis_surface_update
- * makes, to the last bit. For a valve at rest, also pass the valve as valve_before.
+/* Replaces the surface's content by a valve, and gives every vertex a velocity. The triangles are bitwise the same as those of
+ * riis_surface_update. For a valve at rest, also pass the valve as valve_before.
  *   `valve_before`: the earlier state, of the same kind. Valves from patches must have the same curves and sides.
- *   `dt`: the time from valve_before to valve, 1e-30 to 1e30, or -1e30 to -1e-30 if time runs back.
+ *   `dt`: the time from valve_before to valve, 1e-30 to 1e30, or -1e30 to -1e-30 if time runs backwards.
  *   `options_before`: scale, rotation and translation of the earlier state; other fields are ignored. NULL: those of the new
  *     state.
  * The velocity of a vertex is its displacement divided by dt. The displacement starts at the point of the earlier state with the
  * same patch, u and v (docs/theory/velocity.md). A warp does not change u and v, so vertices on the wall have the wall's velocity
- * (docs/theory/warp.md). As a mean over the step, the velocity is accurate to second order in the middle of the step, and to
+ * (docs/theory/warp.md). The velocity is a mean over the step. It is accurate to second order in the middle of the step, and to
  * first order at its ends.
  * Errors: as riis_surface_update. RIIS_INVALID_PARAMETER for a valve_before of another kind or other patches, or
  * with parameters that do not fit together. */

@@ -40,8 +40,8 @@ RIIS_API void riis_valve_destroy(riis_valve **valve);
  * Two parameters change the whole valve:
  * - "opening", 0 to 1, moves the valve from its closed to its open state. One set of parameters describes both states. The
  *   default is 1 (open) for the mitral valve, and 0 for other valves. The aortic valve at opening 0 is the paper's closed state,
- *   which leaves a hole. A valve from patches has only opening 0 until riis_valve_set_open_state. To move a valve, set "opening"
- *   and call riis_surface_update.
+ *   which leaves a hole. A valve from patches has only opening 0 until riis_valve_set_open_state gives it an open state. To move
+ *   a valve, set "opening" and call riis_surface_update.
  * - "skirt_length" gives any valve except "bileaflet" a skirt. The skirt is a strip that leads outwards from the attachment and
  *   closes the gap to the wall (docs/theory/skirt.md). The length is 0 (the default), or 1e-4 to 10 times
  *   the mean distance of the attachment from its axis. The skirt_length of an open state is ignored.

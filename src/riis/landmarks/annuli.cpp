@@ -259,7 +259,7 @@ void check_side(const LandmarkModel &fitted, const Landmarks &landmarks) {
   fail(RIIS_INVALID_ARGUMENT,
        "landmarks.flow is needed: without it only the horns of the annulus show the atrium's side, and they are ",
        rounded(landmarks.scale * height, 3), " nearer to the atrium than the sides, with a standard error of ",
-       rounded(landmarks.scale * error, 3), "; this must be ", sure, " errors or more");
+       rounded(landmarks.scale * error, 3), "; the difference must be at least ", sure, " standard errors");
 }
 
 // The distance between the horns that the landmarks show, seen along the annulus' normal.

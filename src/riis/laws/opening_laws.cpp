@@ -221,7 +221,7 @@ riis_opening_angle_state advance(const riis_opening_angle &law, const riis_openi
   const double n_wanted = std::ceil(step * angle_law.fastest() / largest_step);
   constexpr double max_steps = 1e6;
   if (!(n_wanted <= max_steps))
-    fail(RIIS_LIMIT_EXCEEDED, "time is ", step, " after before.time, ", n_wanted,
+    fail(RIIS_LIMIT_EXCEEDED, "time is ", step, " after before.time, which needs ", n_wanted,
          " steps of the angle's motion; at most ", max_steps,
          " are computed: take shorter steps, or look at the gains' units");
   const auto n = std::max<std::int64_t>(1, static_cast<std::int64_t>(n_wanted));
