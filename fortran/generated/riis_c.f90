@@ -248,22 +248,22 @@ module riis_c
   type, bind(c) :: riis_surface_info
     integer(c_int64_t) :: n_vertices         !< as riis_triangles.n_vertices
     integer(c_int64_t) :: n_triangles        !< triangles that answer queries
-    integer(c_int64_t) :: n_zero_area        !< triangles skipped because they have no area
+    integer(c_int64_t) :: n_zero_area        !< triangles that were skipped because they have no area
     real(c_double) :: half_thickness         !< mesh units
     real(c_double) :: area                   !< of all triangles, mesh units squared
     real(c_double) :: lower(3), upper(3)     !< bounds of the triangles, mesh units
-    real(c_double) :: seconds_triangles      !< wall time of the last call that made or updated the surface: for checks
-                                             !! and triangles
-    real(c_double) :: seconds_scene          !< wall time of the same call for groups of triangles, sampling and
-                                             !! minimisation. Embree's tree is not included, because the first query
-                                             !! that needs the tree builds it
+    real(c_double) :: seconds_triangles      !< wall time for checks and triangles, in the last call that made or
+                                             !! updated the surface
+    real(c_double) :: seconds_scene          !< wall time for groups of triangles, sampling and minimisation, in the
+                                             !! same call. Embree's tree is not included, because the first query that
+                                             !! needs the tree builds it
     real(c_double) :: error_bound            !< the largest possible error of a distance: the difference between the
                                              !! distances to the triangles and to the smooth valve. At most tolerance *
                                              !! half_thickness. 0 for a surface from arrays
     integer(c_int64_t) :: largest_leaflet_id !< of the triangles
     real(c_double) :: offset                 !< of the band, in half thicknesses
-    real(c_double) :: contact_depth          !< leaflets whose triangles cross deeper than this do more than touch
-                                             !! (docs/theory/crossings.md)
+    real(c_double) :: contact_depth          !< if triangles of leaflets cross deeper than this depth, the leaflets do
+                                             !! more than touch (docs/theory/crossings.md)
     integer(c_int32_t) :: skirt_leaflet_id   !< the leaflet_id of the skirt; -1: no skirt
     integer(c_int32_t) :: housing_leaflet_id !< bileaflet: RIIS_LEAFLET_HOUSING; -1 for other surfaces
   end type riis_surface_info
@@ -474,8 +474,9 @@ module riis_c
     integer(c_int64_t) :: n_queries      !< number of closest-point queries, of nodes and of parts of the mesh
     real(c_double) :: seconds            !< wall time of riis_mark_nodes
     integer(c_int32_t) :: search         !< the search that ran, never RIIS_SEARCH_AUTO
-    integer(c_int32_t) :: n_threads      !< the largest number of threads that any part of the marking used. A caller's
-                                         !! TBB limit affects the walks of the neighbour search, not loops
+    integer(c_int32_t) :: n_threads      !< the largest number of threads that any part of the marking used. If the
+                                         !! caller limits the threads of TBB, the limit affects only the walks of the
+                                         !! neighbour search
     integer(c_int32_t) :: complete       !< 1: all nodes within the limit were found, for the coordinates that the mesh
                                          !! was last given; 0: this is not certain
     integer(c_int32_t) :: instructions   !< the instructions that were used, never RIIS_INSTRUCTIONS_AUTO
@@ -562,8 +563,8 @@ module riis_c
   !> The widest passage from one set of nodes to another: the path along mesh edges that stays as far from the surface
   !! as possible.
   type, bind(c) :: riis_passage
-    integer(c_int64_t) :: node_id  !< the node of the path that is nearest to the surface; -1 without a path. If nodes
-                                   !! have equal distances, the higher id counts as nearest
+    integer(c_int64_t) :: node_id  !< of all nodes of the path, the node nearest to the surface; -1 without a path. If
+                                   !! nodes have equal distances, the higher id counts as nearest
     real(c_double) :: distance     !< the distance of node_id. If the half thickness is at least this distance, the
                                    !! passage is closed, otherwise it is open. 0 without a path. With an offset o,
                                    !! `distance` is the least half thickness that marks the node, and nodes are ordered
@@ -587,18 +588,18 @@ module riis_c
     integer(c_int64_t) :: n_triangles !< the number of its triangles with an area above 0
     real(c_double) :: area            !< the area of its triangles
     real(c_double) :: free_edge       !< the length of its free edge, which consists of the sides v = 1 that belong to
-                                      !! only one patch of the leaflet. In a surface from arrays, the free edge consists
-                                      !! of all open edges except the longest closed line of open edges. An open edge
-                                      !! belongs to only one triangle. 0 for a skirt
+                                      !! only one patch of the leaflet. In a surface from arrays, an edge is open if it
+                                      !! belongs to only one triangle. The free edge then consists of all open edges
+                                      !! except the longest closed line of open edges. 0 for a skirt
     integer(c_int32_t) :: leaflet_id  !< as in riis_triangles
     integer(c_int32_t) :: reserved    !< 0
   end type riis_leaflet
 
   !> The orifice of a surface: the part of an outline that the triangles do not cover, seen along an axis. The axis is
-  !! the direction of the vector area of the outline's edges in space. The axis of a valve points towards +z of the
-  !! valve. The axis of arrays and keyframes points to the side of their normals. The axis of a bileaflet valve is its z
-  !! axis. A skirt does not count. If leaflets of arrays do not touch at the commissures, straight lines join their
-  !! ends. Lengths are in mesh units (docs/theory/measures.md, "Outline").
+  !! the direction of the vector area that the edges of the outline enclose. The axis of a valve points towards +z of
+  !! the valve. The axis of arrays and keyframes points to the side of their normals. The axis of a bileaflet valve is
+  !! its z axis. A skirt does not count. If leaflets of arrays do not touch at the commissures, straight lines join
+  !! their ends. Lengths are in mesh units (docs/theory/measures.md, "Outline").
   type, bind(c) :: riis_orifice
     real(c_double) :: area           !< the area of the orifice. Without an outline, all fields but axis and rim_reach
                                      !! are 0
@@ -606,13 +607,13 @@ module riis_c
     real(c_double) :: perimeter      !< the length of the orifice's edge along the triangles. The edge is first moved
                                      !! inwards by a tenth of the half thickness, so that narrow slits do not count.
                                      !! Parts of the edge on the outline are walls and do not count
-    real(c_double) :: effective_area !< the area through which the flow can pass beside the band around the valve. The
-                                     !! edge along the triangles is moved inwards by rim_reach * half_thickness. To
-                                     !! first order the effective area is area - rim_reach * half_thickness * perimeter,
-                                     !! but never below 0
-    real(c_double) :: rim_reach      !< the factor c: 0.84 for a round rim, 0.70 for a cut rim. Computed flows through
+    real(c_double) :: effective_area !< the area through which the flow can pass beside the band around the valve. It is
+                                     !! the area of the orifice after its edge along the triangles is moved inwards by
+                                     !! rim_reach * half_thickness. To first order the effective area is area -
+                                     !! rim_reach * half_thickness * perimeter, but never below 0
+    real(c_double) :: rim_reach      !< a factor c: 0.84 for a round rim, 0.70 for a cut rim. Computed flows through
                                      !! open valves gave 0.70 to 0.98 for a round rim, and 0.46 to 0.95 for a cut rim
-                                     !! (docs/validation.md). With an offset o, c has another factor: max(0, 1 - o /
+                                     !! (docs/validation.md). An offset o multiplies c by another factor: max(0, 1 - o /
                                      !! 1.05) for a round rim, max(0, 1 - o / 0.85) for a cut rim, max(0, 1 - o / 0.8)
                                      !! for a cut rim of a mitral valve, and 1 for a bileaflet valve
     real(c_double) :: half_thickness !< eps of the resistance
@@ -636,15 +637,15 @@ module riis_c
   type, bind(c) :: riis_area_range
     real(c_double) :: from, to          !< the values that were searched
     real(c_double) :: least, most       !< the least and the largest area
-    real(c_double) :: least_at, most_at !< a value with that area
+    real(c_double) :: least_at, most_at !< a value with the least area and one with the largest area
     real(c_double) :: turns(4)          !< the first values at which a growing area begins to fall, or a falling area
                                         !! begins to grow. NaN fills the unused entries. A change by less than 1e-4 of
                                         !! the largest area does not count
     real(c_double) :: seconds           !< wall time of riis_find_by_area
     integer(c_int64_t) :: n_turns       !< the number of turns. Without a turn, the area only grows or only falls
     integer(c_int64_t) :: n_surfaces    !< the number of surfaces that were made, which is the cost of the search
-    integer(c_int64_t) :: n_refused     !< the number of sampled values that make no valve or no orifice, and are left
-                                        !! out
+    integer(c_int64_t) :: n_refused     !< the number of sampled values for which there is no valve or no orifice. The
+                                        !! search leaves them out
   end type riis_area_range
 
   !> The coaptation: the parts of the leaflets that touch another leaflet. Lengths are in mesh units.
@@ -664,8 +665,8 @@ module riis_c
   !> The first opening at which the marked mesh has a passage.
   type, bind(c) :: riis_first_passage
     real(c_double) :: opening        !< the first opening with a passage; 0 for ALWAYS, 1 for NEVER, 0 for NONE
-    real(c_double) :: closed_opening !< the largest opening below `opening` that was found closed, with FOUND; else
-                                     !! `opening`
+    real(c_double) :: closed_opening !< with RIIS_FIRST_PASSAGE_FOUND, the largest opening below `opening` that was
+                                     !! found closed; otherwise the same as `opening`
     integer(c_int64_t) :: node_id    !< the passage at `opening`, as in riis_passage
     real(c_double) :: distance       !< as in riis_passage
     real(c_double) :: point(3)       !< as in riis_passage
@@ -755,8 +756,8 @@ module riis_c
                                          !! lengths. 0 if no end has a wall
     real(c_double) :: widest_point(3)    !< the end of an edge with the widest gap
     integer(c_int64_t) :: n_ends         !< the number of ends of edges, 2 * riis_attachment.n_edges
-    integer(c_int64_t) :: n_without_wall !< the number of ends without a wall in the skirt's direction. These ends count
-                                         !! in no other field
+    integer(c_int64_t) :: n_without_wall !< the number of ends without a wall in the skirt's direction. Such an end has
+                                         !! no gap, and counts only here and in n_ends
   end type riis_gap
 
   type, bind(c) :: riis_direction
@@ -1125,7 +1126,7 @@ module riis_c
     ! -----------------------------------------------------------------------------------------------------------------
 
     !>   options         if left out: the surface's own options
-    !!   options_before  if left out: as now
+    !!   options_before  if left out: those of the new state
     function riis_surface_update_moving(surface, valve, valve_before, dt, options, options_before) result(status) &
         bind(c, name='riis_surface_update_moving')
       import :: c_double, c_ptr, riis_status, riis_surface_options

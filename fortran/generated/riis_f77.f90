@@ -101,8 +101,8 @@ subroutine riisf_valve_set(valve, name, n_values, values, status)
   status = riis_valve_set(c_handle_of(valve), c_name, int(n_values, int64), values)
 end subroutine riisf_valve_set
 
-!> Copies a parameter's values to the caller's array. Arguments as riisf_valve_set. Errors: RIIS_INVALID_PARAMETER, also for a
-!! name that means all cusps.
+!> Copies a parameter's values to the caller's array. Arguments are as in riisf_valve_set. Errors: RIIS_INVALID_PARAMETER, also
+!! for a name that means all cusps.
 subroutine riisf_valve_get(valve, name, n_values, values, status)
   use, intrinsic :: iso_c_binding, only: c_char, c_double
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -152,7 +152,7 @@ subroutine riisf_valve_is_set(valve, name, is_set, status)
 end subroutine riisf_valve_is_set
 
 !> Gives the valve an open state. At opening 0 the valve then has its own shape, and at opening 1 the shape of the valve `open`.
-!! Errors: RIIS_INVALID_PARAMETER for another kind, or other curves, degrees or sides.
+!! Errors: RIIS_INVALID_PARAMETER if `open` has another kind, or other curves, degrees or sides.
 subroutine riisf_valve_set_open_state(valve, open, status)
   use, intrinsic :: iso_fortran_env, only: int64
   use riis_support, only: c_handle_of
@@ -395,10 +395,9 @@ subroutine riisf_surface_offset(surface, valve, half_thickness, tolerance, scale
   status = riis_surface_update(c_handle_of(surface), c_handle_of(valve), options)
 end subroutine riisf_surface_offset
 
-!> Replaces the surface's content by a valve, and gives every vertex a velocity. The triangles are those that
-!! riisf_surface_update makes, to the last bit. For a valve at rest, also pass the valve as valve_before. Errors: as
-!! riisf_surface_update. RIIS_INVALID_PARAMETER for a valve_before of another kind or other patches, or with parameters that do
-!! not fit together.
+!> Replaces the surface's content by a valve, and gives every vertex a velocity. The triangles are bitwise the same as those of
+!! riisf_surface_update. For a valve at rest, also pass the valve as valve_before. Errors: as riisf_surface_update.
+!! RIIS_INVALID_PARAMETER for a valve_before of another kind or other patches, or with parameters that do not fit together.
 subroutine riisf_surface_update_moving(surface, valve, valve_before, dt, status)
   use, intrinsic :: iso_c_binding, only: c_double
   use, intrinsic :: iso_fortran_env, only: int64
@@ -410,7 +409,7 @@ subroutine riisf_surface_update_moving(surface, valve, valve_before, dt, status)
   integer(int64), intent(in) :: valve_before              !< The earlier state, of the same kind. Valves from patches must have
                                                           !! the same curves and sides.
   real(c_double), intent(in) :: dt                        !< The time from valve_before to valve, 1e-30 to 1e30, or -1e30 to
-                                                          !! -1e-30 if time runs back.
+                                                          !! -1e-30 if time runs backwards.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   status = riis_surface_update_moving(c_handle_of(surface), c_handle_of(valve), c_handle_of(valve_before), dt)
 end subroutine riisf_surface_update_moving
@@ -431,7 +430,7 @@ subroutine riisf_surface_place_moving(surface, valve, valve_before, dt, half_thi
   integer(int64), intent(in) :: valve_before              !< The earlier state, of the same kind. Valves from patches must have
                                                           !! the same curves and sides.
   real(c_double), intent(in) :: dt                        !< The time from valve_before to valve, 1e-30 to 1e30, or -1e30 to
-                                                          !! -1e-30 if time runs back.
+                                                          !! -1e-30 if time runs backwards.
   real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
                                                           !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
   real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
@@ -470,7 +469,7 @@ subroutine riisf_surface_place_moving(surface, valve, valve_before, dt, half_thi
       options, options_before)
 end subroutine riisf_surface_place_moving
 
-!> Adds a direction in which the surface of a valve changes: by a parameter, a landmark or a number of the placement. Errors:
+!> Adds a direction in which the surface of a valve changes with a parameter, a landmark or a number of the placement. Errors:
 !! RIIS_INVALID_ARGUMENT for a surface from arrays and for a dp out of range. RIIS_INVALID_PARAMETER for a state of another kind
 !! or with other patches, and for parameters that do not fit together. RIIS_LIMIT_EXCEEDED for more than 1000 directions.
 subroutine riisf_surface_add_direction(surface, valve_after, valve_before, dp, status)
@@ -549,8 +548,8 @@ end subroutine riisf_surface_destroy
 ! -----------------------------------------------------------------------------------------------------------------
 
 !> Borrows node coordinates and checks them once. The coordinates must stay in place until the mesh is updated or destroyed. With
-!! MPI, a process without nodes also makes a mesh. Errors: RIIS_INVALID_MESH naming the node and the value. RIIS_LIMIT_EXCEEDED
-!! for too many nodes.
+!! MPI, a process without nodes must also make a mesh. Errors: RIIS_INVALID_MESH naming the node and the value.
+!! RIIS_LIMIT_EXCEEDED for too many nodes.
 subroutine riisf_mesh_create(n_nodes, x, y, z, stride, mesh, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_null_ptr, c_ptr
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -594,8 +593,8 @@ subroutine riisf_mesh_create_64(n_nodes, x, y, z, stride, mesh, status)
 end subroutine riisf_mesh_create_64
 
 !> Tells the mesh that its coordinates have changed or are now in other arrays, and checks them again. Call this function after
-!! every change of coordinates. The adjacency stays if n_nodes is the same. A mesh with other nodes needs a new handle. Arguments
-!! and errors are as in riisf_mesh_create.
+!! every change of coordinates. The adjacency stays if n_nodes is the same. Make a new handle for another mesh. Arguments and
+!! errors are as in riisf_mesh_create.
 subroutine riisf_mesh_update(mesh, n_nodes, x, y, z, stride, status)
   use, intrinsic :: iso_c_binding, only: c_double
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -750,7 +749,7 @@ end subroutine riisf_mesh_update_copy_64
 !> Makes a mesh from the axes of a rectilinear grid, and stores nothing for each node. Node (i, j, k) is at X(i), Y(j), Z(k). Its
 !! number is first_num + (i - 1) stride_i + (j - 1) stride_j + (k - 1) stride_k. An array K(0:NI+1, 0:NJ+1, 0:NK+1) has the
 !! strides 1, NI+2 and (NI+2)(NJ+2), its first node is 1 plus their sum, and n_nodes is its length. Errors: RIIS_INVALID_MESH
-!! naming the axis, the index and the value. RIIS_LIMIT_EXCEEDED for numbers from 2^40 on.
+!! naming the axis, the index and the value. RIIS_LIMIT_EXCEEDED for a node's number of 2^40 or more.
 subroutine riisf_mesh_create_grid(ni, nj, nk, x, y, z, real_bits, first_num, stride_i, stride_j, stride_k, n_nodes, &
     mesh, status)
   use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr, c_sizeof
@@ -1313,11 +1312,11 @@ end subroutine riisf_adjacency_destroy
 !> Makes a surface from arrays, with the caller's winding. A triangle's id is its face's number; the halves of quad q have the
 !! ids 2 q and 2 q + 1. The id of a skipped triangle is not used again. A triangle has zero area if its longest edge is shorter
 !! than 1e-60, or if its height over its longest edge is at most 1e-12 of this edge. A skirt leads away from the axis of the
-!! attachment, the line through its centroid along its vector area (docs/theory/skirt.md). The skirt's vertices and triangles
-!! come after the caller's vertices and triangles. Without `attached`, the attachment is the closed line of open edges that
-!! encloses the largest area. This line must enclose at least 0.8 of the area of the leaflets' outline (RIIS_OUTLINE_BOUNDARY).
-!! Errors: RIIS_LIMIT_EXCEEDED for too many triangles. RIIS_INVALID_SURFACE naming the face or vertex and its value, or saying
-!! why an attachment is not found. RIIS_INVALID_ARGUMENT for a length of the skirt out of range.
+!! attachment. This axis is the line through the centroid of the attachment along its vector area (docs/theory/skirt.md). The
+!! skirt's vertices and triangles come after the caller's vertices and triangles. Without `attached`, the attachment is the
+!! closed line of open edges that encloses the largest area. This line must enclose at least 0.8 of the area of the leaflets'
+!! outline (RIIS_OUTLINE_BOUNDARY). Errors: RIIS_LIMIT_EXCEEDED for too many triangles. RIIS_INVALID_SURFACE naming the face or
+!! vertex and its value, or saying why an attachment is not found. RIIS_INVALID_ARGUMENT for a length of the skirt out of range.
 subroutine riisf_surface_from_arrays(n_vertices, x, y, z, stride, corners_per_face, n_faces, vertex_ids, index_base, &
     half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, surface, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_null_ptr, c_ptr, c_sizeof
@@ -1838,10 +1837,10 @@ subroutine riisf_keyframes_create(n_vertices, n_keys, time, xyz, period, interpo
   real(c_double), intent(in) :: time(*)                   !< (n_keys), strictly ascending, magnitude at most 1e30.
   real(c_double), intent(in) :: xyz(*)                    !< (3, n_vertices, n_keys): the vertices, frame after frame;
                                                           !! magnitude at most 1e60.
-  real(c_double), intent(in) :: period                    !< > 0: the motion repeats. All keys lie within a period of the first
-                                                          !! key. If the last key is one period after the first, it must have
-                                                          !! the same frame. 0: the surface rests before the first key and
-                                                          !! after the last.
+  real(c_double), intent(in) :: period                    !< A number above 0: the motion repeats with this period. All keys
+                                                          !! lie within a period of the first key. If the last key is one
+                                                          !! period after the first key, both keys must have the same frame. 0:
+                                                          !! the surface rests before the first key and after the last key.
   integer(int32), intent(in) :: interpolation             !< RIIS_INTERPOLATION_*, of each coordinate. Usually
                                                           !! RIIS_INTERPOLATION_LINEAR.
   integer(int32), intent(in) :: corners_per_face          !< 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3.
@@ -1890,10 +1889,10 @@ subroutine riisf_keyframes_create_64(n_vertices, n_keys, time, xyz, period, inte
   real(c_double), intent(in) :: time(*)                   !< (n_keys), strictly ascending, magnitude at most 1e30.
   real(c_double), intent(in) :: xyz(*)                    !< (3, n_vertices, n_keys): the vertices, frame after frame;
                                                           !! magnitude at most 1e60.
-  real(c_double), intent(in) :: period                    !< > 0: the motion repeats. All keys lie within a period of the first
-                                                          !! key. If the last key is one period after the first, it must have
-                                                          !! the same frame. 0: the surface rests before the first key and
-                                                          !! after the last.
+  real(c_double), intent(in) :: period                    !< A number above 0: the motion repeats with this period. All keys
+                                                          !! lie within a period of the first key. If the last key is one
+                                                          !! period after the first key, both keys must have the same frame. 0:
+                                                          !! the surface rests before the first key and after the last key.
   integer(int32), intent(in) :: interpolation             !< RIIS_INTERPOLATION_*, of each coordinate. Usually
                                                           !! RIIS_INTERPOLATION_LINEAR.
   integer(int32), intent(in) :: corners_per_face          !< 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3.
@@ -1939,8 +1938,8 @@ subroutine riisf_surface_from_keyframes(keyframes, time, dt, half_thickness, tol
   implicit none
   integer(int64), intent(in) :: keyframes                 !< Must be created.
   real(c_double), intent(in) :: time                      !< Finite, magnitude at most 1e30.
-  real(c_double), intent(in) :: dt                        !< The velocity is the mean from time - dt to time, or for dt == 0
-                                                          !! the derivative of the interpolation at that time.
+  real(c_double), intent(in) :: dt                        !< The velocity is the mean from time - dt to time. With dt 0, the
+                                                          !! velocity is the derivative of the interpolation at that time.
   real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
                                                           !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
   real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
@@ -1983,8 +1982,8 @@ subroutine riisf_surface_offset_keyframes(keyframes, time, dt, half_thickness, t
   implicit none
   integer(int64), intent(in) :: keyframes                 !< Must be created.
   real(c_double), intent(in) :: time                      !< Finite, magnitude at most 1e30.
-  real(c_double), intent(in) :: dt                        !< The velocity is the mean from time - dt to time, or for dt == 0
-                                                          !! the derivative of the interpolation at that time.
+  real(c_double), intent(in) :: dt                        !< The velocity is the mean from time - dt to time. With dt 0, the
+                                                          !! velocity is the derivative of the interpolation at that time.
   real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
                                                           !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
   real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
@@ -3467,7 +3466,7 @@ subroutine riisf_marked_resistance(marks, length, n, K, K_u_surface, status)
                                                           !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
   integer(int32), intent(inout) :: n                      !< The number of nodes that are marked, even if an array is too
                                                           !! short.
-  real(c_double), intent(inout) :: K(*)                   !< (length): K by options.resistance; written up to n.
+  real(c_double), intent(inout) :: K(*)                   !< (length): K of options.resistance; written up to n.
   real(c_double), intent(inout) :: K_u_surface(3, *)      !< (3, length): K u_surface; written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_mark_list) :: list
@@ -3508,7 +3507,7 @@ subroutine riisf_marked_resistance_64(marks, length, n, K, K_u_surface, status)
                                                           !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
   integer(int64), intent(inout) :: n                      !< The number of nodes that are marked, even if an array is too
                                                           !! short.
-  real(c_double), intent(inout) :: K(*)                   !< (length): K by options.resistance; written up to n.
+  real(c_double), intent(inout) :: K(*)                   !< (length): K of options.resistance; written up to n.
   real(c_double), intent(inout) :: K_u_surface(3, *)      !< (3, length): K u_surface; written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_mark_list) :: list
@@ -3551,7 +3550,7 @@ subroutine riisf_within_limit_resistance(marks, length, n, K, K_u_surface, statu
                                                           !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
   integer(int32), intent(inout) :: n                      !< The number of nodes within the distance limit, even if an array is
                                                           !! too short.
-  real(c_double), intent(inout) :: K(*)                   !< (length): K by options.resistance; written up to n.
+  real(c_double), intent(inout) :: K(*)                   !< (length): K of options.resistance; written up to n.
   real(c_double), intent(inout) :: K_u_surface(3, *)      !< (3, length): K u_surface; written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_mark_list) :: list
@@ -3593,7 +3592,7 @@ subroutine riisf_within_limit_resistance_64(marks, length, n, K, K_u_surface, st
                                                           !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
   integer(int64), intent(inout) :: n                      !< The number of nodes within the distance limit, even if an array is
                                                           !! too short.
-  real(c_double), intent(inout) :: K(*)                   !< (length): K by options.resistance; written up to n.
+  real(c_double), intent(inout) :: K(*)                   !< (length): K of options.resistance; written up to n.
   real(c_double), intent(inout) :: K_u_surface(3, *)      !< (3, length): K u_surface; written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_mark_list) :: list
@@ -3623,8 +3622,7 @@ subroutine riisf_within_limit_resistance_64(marks, length, n, K, K_u_surface, st
 end subroutine riisf_within_limit_resistance_64
 
 !> Adds the resistance K = (R / eps) delta(d), so that several valves add up. At a distance d below eps, delta(d) is (1 + cos(pi
-!! d / eps)) / (2 eps). Errors: RIIS_INVALID_ARGUMENT also for marks that no marking has filled, and for a field that the marks
-!! lack.
+!! d / eps)) / (2 eps). Errors: RIIS_INVALID_ARGUMENT also for empty marks, and for a field that the marks lack.
 subroutine riisf_add_resistance(marks, R, half_thickness, rim, n_nodes, K, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -3687,7 +3685,7 @@ subroutine riisf_add_resistance_64(marks, R, half_thickness, rim, n_nodes, K, st
 end subroutine riisf_add_resistance_64
 
 !> Adds K like riisf_add_resistance, but for a surface that moves, and also adds K u_surface. A scheme uses (sum of K) u - (sum
-!! of K u_surface). Errors: RIIS_INVALID_ARGUMENT also for marks that no marking has filled, and for a field that the marks lack.
+!! of K u_surface). Errors: RIIS_INVALID_ARGUMENT also for empty marks, and for a field that the marks lack.
 subroutine riisf_add_moving_resistance(marks, R, half_thickness, rim, n_nodes, K, K_u_surface, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -3760,7 +3758,7 @@ subroutine riisf_add_moving_resistance_64(marks, R, half_thickness, rim, n_nodes
 end subroutine riisf_add_moving_resistance_64
 
 !> Adds K like riisf_add_resistance, but for a surface that moves, and also adds K u_surface. A scheme uses (sum of K) u - (sum
-!! of K u_surface). Errors: RIIS_INVALID_ARGUMENT also for marks that no marking has filled, and for a field that the marks lack.
+!! of K u_surface). Errors: RIIS_INVALID_ARGUMENT also for empty marks, and for a field that the marks lack.
 subroutine riisf_add_resistance_components(marks, R, half_thickness, rim, n_nodes, K, K_u_x, K_u_y, K_u_z, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -3858,7 +3856,7 @@ subroutine riisf_add_reaction(marks, R, half_thickness, rim, n_nodes, velocity, 
   real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
   real(c_double), intent(inout) :: force(3)               !< (3): force on the whole surface, in the unit of weight K velocity,
-                                                          !! N in SI units.
+                                                          !! which is N in SI units.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
   type(riis_flow_arrays) :: flow
@@ -3899,7 +3897,7 @@ subroutine riisf_add_reaction_64(marks, R, half_thickness, rim, n_nodes, velocit
   real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
   real(c_double), intent(inout) :: force(3)               !< (3): force on the whole surface, in the unit of weight K velocity,
-                                                          !! N in SI units.
+                                                          !! which is N in SI units.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
   type(riis_flow_arrays) :: flow
@@ -3946,7 +3944,7 @@ subroutine riisf_add_reaction_components(marks, R, half_thickness, rim, n_nodes,
   real(c_double), intent(in) :: vz(*)                     !< (n_nodes), the z component.
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
   real(c_double), intent(inout) :: force(3)               !< (3): force on the whole surface, in the unit of weight K velocity,
-                                                          !! N in SI units.
+                                                          !! which is N in SI units.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
   type(riis_flow_arrays) :: flow
@@ -3989,7 +3987,7 @@ subroutine riisf_add_reaction_components_64(marks, R, half_thickness, rim, n_nod
   real(c_double), intent(in) :: vz(*)                     !< (n_nodes), the z component.
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
   real(c_double), intent(inout) :: force(3)               !< (3): force on the whole surface, in the unit of weight K velocity,
-                                                          !! N in SI units.
+                                                          !! which is N in SI units.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
   type(riis_flow_arrays) :: flow
@@ -4036,10 +4034,10 @@ subroutine riisf_add_leaflet_reaction(marks, R, half_thickness, rim, n_nodes, ve
                                                           !! most 1e60. Usually 0.
   integer(int32), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
   real(c_double), intent(inout) :: force(3)               !< (3): force on the whole surface, in the unit of weight K velocity,
-                                                          !! N in SI units.
+                                                          !! which is N in SI units.
   real(c_double), intent(inout) :: moment(3)              !< (3): moment on the whole surface.
   real(c_double), intent(inout) :: leaflet_force(3, *)    !< (3, n_leaflets): force on each leaflet. A node belongs to the
-                                                          !! leaflet in riis_mark_list.leaflet_id, also if two leaflets are
+                                                          !! leaflet in riis_mark_list.leaflet_id, even if two leaflets are
                                                           !! equally near.
   real(c_double), intent(inout) :: leaflet_moment(3, *)   !< (3, n_leaflets): moment on each leaflet.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -4091,10 +4089,10 @@ subroutine riisf_add_leaflet_reaction_64(marks, R, half_thickness, rim, n_nodes,
                                                           !! most 1e60. Usually 0.
   integer(int32), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
   real(c_double), intent(inout) :: force(3)               !< (3): force on the whole surface, in the unit of weight K velocity,
-                                                          !! N in SI units.
+                                                          !! which is N in SI units.
   real(c_double), intent(inout) :: moment(3)              !< (3): moment on the whole surface.
   real(c_double), intent(inout) :: leaflet_force(3, *)    !< (3, n_leaflets): force on each leaflet. A node belongs to the
-                                                          !! leaflet in riis_mark_list.leaflet_id, also if two leaflets are
+                                                          !! leaflet in riis_mark_list.leaflet_id, even if two leaflets are
                                                           !! equally near.
   real(c_double), intent(inout) :: leaflet_moment(3, *)   !< (3, n_leaflets): moment on each leaflet.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -4152,10 +4150,10 @@ subroutine riisf_add_leaflet_reaction_components(marks, R, half_thickness, rim, 
                                                           !! most 1e60. Usually 0.
   integer(int32), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
   real(c_double), intent(inout) :: force(3)               !< (3): force on the whole surface, in the unit of weight K velocity,
-                                                          !! N in SI units.
+                                                          !! which is N in SI units.
   real(c_double), intent(inout) :: moment(3)              !< (3): moment on the whole surface.
   real(c_double), intent(inout) :: leaflet_force(3, *)    !< (3, n_leaflets): force on each leaflet. A node belongs to the
-                                                          !! leaflet in riis_mark_list.leaflet_id, also if two leaflets are
+                                                          !! leaflet in riis_mark_list.leaflet_id, even if two leaflets are
                                                           !! equally near.
   real(c_double), intent(inout) :: leaflet_moment(3, *)   !< (3, n_leaflets): moment on each leaflet.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -4209,10 +4207,10 @@ subroutine riisf_add_leaflet_reaction_components_64(marks, R, half_thickness, ri
                                                           !! most 1e60. Usually 0.
   integer(int32), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
   real(c_double), intent(inout) :: force(3)               !< (3): force on the whole surface, in the unit of weight K velocity,
-                                                          !! N in SI units.
+                                                          !! which is N in SI units.
   real(c_double), intent(inout) :: moment(3)              !< (3): moment on the whole surface.
   real(c_double), intent(inout) :: leaflet_force(3, *)    !< (3, n_leaflets): force on each leaflet. A node belongs to the
-                                                          !! leaflet in riis_mark_list.leaflet_id, also if two leaflets are
+                                                          !! leaflet in riis_mark_list.leaflet_id, even if two leaflets are
                                                           !! equally near.
   real(c_double), intent(inout) :: leaflet_moment(3, *)   !< (3, n_leaflets): moment on each leaflet.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -4751,7 +4749,7 @@ subroutine riisf_loads_sums(radius, n_edges, edges, edge_leaflet_id, n_nodes, xy
       riis_status
   implicit none
   real(c_double), intent(in) :: radius                    !< Mesh units, 1e-50 to 1e50. A leaflet's force acts at the nodes
-                                                          !! that are nearer to the leaflet's edges than the radius.
+                                                          !! whose distance from the leaflet's edges is less than the radius.
   integer(int32), intent(in) :: n_edges                   !< At least 1.
   real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge, for example
                                                           !! riis_attachment.edges; magnitude at most 1e60. An edge may have
@@ -4793,7 +4791,7 @@ subroutine riisf_loads_sums_64(radius, n_edges, edges, edge_leaflet_id, n_nodes,
       riis_status
   implicit none
   real(c_double), intent(in) :: radius                    !< Mesh units, 1e-50 to 1e50. A leaflet's force acts at the nodes
-                                                          !! that are nearer to the leaflet's edges than the radius.
+                                                          !! whose distance from the leaflet's edges is less than the radius.
   integer(int64), intent(in) :: n_edges                   !< At least 1.
   real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge, for example
                                                           !! riis_attachment.edges; magnitude at most 1e60. An edge may have
@@ -4828,9 +4826,9 @@ end subroutine riisf_loads_sums_64
 
 !> Adds the forces of the leaflets at nodes of tissue. The forces of a leaflet have the sum leaflet_force and the moment
 !! leaflet_moment, up to rounding. Errors: as riisf_loads_sums. RIIS_INVALID_ARGUMENT also if a loaded leaflet has fewer than
-!! three nodes within the radius, or only nodes that lie nearly on a line. Nodes lie nearly on a line if their root-mean-square
-!! distance from the line is less than a hundredth of their root-mean-square distance from their middle, or less than a
-!! thousandth of the size of the edges (docs/theory/loads.md).
+!! three nodes within the radius, or only nodes that lie nearly on a line. Let r be the root-mean-square distance of the nodes
+!! from a line. The nodes lie nearly on this line if r is less than a hundredth of their root-mean-square distance from their
+!! middle. They also do if r is less than a thousandth of the size of the edges (docs/theory/loads.md).
 subroutine riisf_loads_forces(radius, n_edges, edges, edge_leaflet_id, n_nodes, xyz, weight, n_leaflets, about, &
     leaflet_force, leaflet_moment, sums, node_force, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -4840,7 +4838,7 @@ subroutine riisf_loads_forces(radius, n_edges, edges, edge_leaflet_id, n_nodes, 
       riis_status
   implicit none
   real(c_double), intent(in) :: radius                    !< Mesh units, 1e-50 to 1e50. A leaflet's force acts at the nodes
-                                                          !! that are nearer to the leaflet's edges than the radius.
+                                                          !! whose distance from the leaflet's edges is less than the radius.
   integer(int32), intent(in) :: n_edges                   !< At least 1.
   real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge, for example
                                                           !! riis_attachment.edges; magnitude at most 1e60. An edge may have
@@ -4893,7 +4891,7 @@ subroutine riisf_loads_forces_64(radius, n_edges, edges, edge_leaflet_id, n_node
       riis_status
   implicit none
   real(c_double), intent(in) :: radius                    !< Mesh units, 1e-50 to 1e50. A leaflet's force acts at the nodes
-                                                          !! that are nearer to the leaflet's edges than the radius.
+                                                          !! whose distance from the leaflet's edges is less than the radius.
   integer(int64), intent(in) :: n_edges                   !< At least 1.
   real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge, for example
                                                           !! riis_attachment.edges; magnitude at most 1e60. An edge may have
@@ -4940,9 +4938,9 @@ end subroutine riisf_loads_forces_64
 ! Leaks
 ! -----------------------------------------------------------------------------------------------------------------
 
-!> Finds the leaking edges: edges of the mesh's adjacency between two unmarked nodes that cross or touch a triangle of the
-!! surface. Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, for empty marks, and for marks with another number of
-!! nodes or another half thickness. RIIS_INVALID_MESH as riisf_mark_nodes.
+!> Finds the mesh edges that leak through the surface. An edge of the mesh's adjacency leaks if both of its nodes are unmarked
+!! and the edge crosses or touches a triangle of the surface. Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, for
+!! empty marks, and for marks with another number of nodes or another half thickness. RIIS_INVALID_MESH as riisf_mark_nodes.
 subroutine riisf_find_leaks(surface, mesh, marks, n_threads, leaks, n_edges, longest, middle, half_thickness, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -5121,8 +5119,8 @@ subroutine riisf_label_open_regions_64(mesh, marks, n_threads, n_nodes, region_n
 end subroutine riisf_label_open_regions_64
 
 !> Finds the widest passage along the edges of the mesh's adjacency, whether it is open or closed. Errors: RIIS_INVALID_ARGUMENT
-!! for a mesh without adjacency. Each node in `from` and `to` must be in the mesh and in node_mask, and farther from the surface
-!! than the half thickness. RIIS_INVALID_MESH as riisf_mark_nodes.
+!! for a mesh without adjacency. RIIS_INVALID_ARGUMENT also for a node in `from` or `to` that is not in the mesh, that node_mask
+!! leaves out, or whose distance from the surface is at most the half thickness. RIIS_INVALID_MESH as riisf_mark_nodes.
 subroutine riisf_find_passage(surface, mesh, n_from, from_num, n_to, to_num, n_threads, state, node_num, distance, &
     point, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_loc, c_ptr, c_sizeof
@@ -5397,9 +5395,9 @@ subroutine riisf_surface_leaflet(surface, leaflet_num, leaflet_id, area, free_ed
   real(c_double), intent(inout) :: area                   !< The area of its triangles.
   real(c_double), intent(inout) :: free_edge              !< The length of its free edge, which consists of the sides v = 1
                                                           !! that belong to only one patch of the leaflet. In a surface from
-                                                          !! arrays, the free edge consists of all open edges except the
-                                                          !! longest closed line of open edges. An open edge belongs to only
-                                                          !! one triangle. 0 for a skirt.
+                                                          !! arrays, an edge is open if it belongs to only one triangle. The
+                                                          !! free edge then consists of all open edges except the longest
+                                                          !! closed line of open edges. 0 for a skirt.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_leaflet) :: sizes
   status = riis_surface_get_leaflet(c_handle_of(surface), int(leaflet_num, int64) - 1, sizes, c_sizeof(sizes))
@@ -5428,9 +5426,10 @@ subroutine riisf_surface_orifice(surface, half_thickness, rim, area, outline_are
                                                           !! narrow slits do not count. Parts of the edge on the outline are
                                                           !! walls and do not count.
   real(c_double), intent(inout) :: effective_area         !< The area through which the flow can pass beside the band around
-                                                          !! the valve. The edge along the triangles is moved inwards by
-                                                          !! rim_reach * half_thickness. To first order the effective area is
-                                                          !! area - rim_reach * half_thickness * perimeter, but never below 0.
+                                                          !! the valve. It is the area of the orifice after its edge along the
+                                                          !! triangles is moved inwards by rim_reach * half_thickness. To first
+                                                          !! order the effective area is area - rim_reach * half_thickness *
+                                                          !! perimeter, but never below 0.
   integer(int32), intent(inout) :: outline                !< RIIS_OUTLINE_*.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
@@ -5460,8 +5459,8 @@ subroutine riisf_surface_orifice_in_wall(surface, wall, half_thickness, rim, are
       riis_surface_get_orifice_in_wall
   implicit none
   integer(int64), intent(in) :: surface                   !< Must be created.
-  integer(int64), intent(in) :: wall                      !< In the frame of the surface. RIIS_INVALID_ARGUMENT if this line of
-                                                          !! the wall does not surround a centre.
+  integer(int64), intent(in) :: wall                      !< In the frame of the surface. RIIS_INVALID_ARGUMENT if the line
+                                                          !! that gives the outline does not surround a centre.
   real(c_double), intent(in) :: half_thickness            !< eps of the resistance; RIIS_AUTO: the surface's.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_*, usually RIIS_RIM_ROUND.
   real(c_double), intent(inout) :: area                   !< The area of the orifice. Without an outline, all fields but axis
@@ -5472,9 +5471,10 @@ subroutine riisf_surface_orifice_in_wall(surface, wall, half_thickness, rim, are
                                                           !! narrow slits do not count. Parts of the edge on the outline are
                                                           !! walls and do not count.
   real(c_double), intent(inout) :: effective_area         !< The area through which the flow can pass beside the band around
-                                                          !! the valve. The edge along the triangles is moved inwards by
-                                                          !! rim_reach * half_thickness. To first order the effective area is
-                                                          !! area - rim_reach * half_thickness * perimeter, but never below 0.
+                                                          !! the valve. It is the area of the orifice after its edge along the
+                                                          !! triangles is moved inwards by rim_reach * half_thickness. To first
+                                                          !! order the effective area is area - rim_reach * half_thickness *
+                                                          !! perimeter, but never below 0.
   integer(int32), intent(inout) :: outline                !< RIIS_OUTLINE_*.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
@@ -5504,7 +5504,8 @@ subroutine riisf_surface_coaptation(surface, reach, leaflet_id, area, edge, stat
   integer(int64), intent(in) :: surface                   !< Must be created.
   real(c_double), intent(in) :: reach                     !< 1e-50 to 1e50. RIIS_AUTO stands for the surface's half thickness.
   integer(int32), intent(in) :: leaflet_id                !< As in riis_triangles, or RIIS_ALL_LEAFLETS for the sum over all
-                                                          !! leaflets, which counts a contact from both sides.
+                                                          !! leaflets. This sum counts each contact twice, once for each
+                                                          !! leaflet.
   real(c_double), intent(inout) :: area                   !< The area of the leaflet's triangles within reach of another
                                                           !! leaflet.
   real(c_double), intent(inout) :: edge                   !< The length of the part of its free edge (riis_leaflet) within
@@ -5531,8 +5532,8 @@ subroutine riisf_surface_gap(surface, wall, least, mean, most, missed, status)
   real(c_double), intent(inout) :: least                  !< The least gap; negative where the wall is inside.
   real(c_double), intent(inout) :: mean                   !< The mean along the attachment.
   real(c_double), intent(inout) :: most                   !< The widest gap.
-  integer(int32), intent(inout) :: missed                 !< The number of ends without a wall in the skirt's direction. These
-                                                          !! ends count in no other field.
+  integer(int32), intent(inout) :: missed                 !< The number of ends without a wall in the skirt's direction. Such
+                                                          !! an end has no gap, and counts only here and in n_ends.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_gap) :: gap
   status = riis_surface_get_gap(c_handle_of(surface), c_handle_of(wall), gap=gap, struct_size=c_sizeof(gap))
@@ -5606,9 +5607,9 @@ subroutine riisf_surface_leak(surface, R, half_thickness, drop, flow, status)
   status = riis_surface_get_leak(c_handle_of(surface), resistance, drop, flow)
 end subroutine riisf_surface_leak
 
-!> Computes the number of mesh edges across the band. An edge counts once, even if both of its nodes have it in the adjacency.
-!! Edges to ghosts and edges of length 0 do not count. Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, for empty
-!! marks, and for marks with another number of nodes. RIIS_INVALID_MESH as riisf_mark_nodes.
+!> Computes the number of mesh edges across the band. An edge counts once, even if it is in the adjacency's rows of both its
+!! nodes. Edges to ghosts and edges of length 0 do not count. Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, for
+!! empty marks, and for marks with another number of nodes. RIIS_INVALID_MESH as riisf_mark_nodes.
 subroutine riisf_cells_across(marks, mesh, least, mean, most, mean_edge, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int64
@@ -5669,9 +5670,9 @@ subroutine riisf_find_by_area(valve, name, n_areas, areas, half_thickness, toler
   use riis_c, only: RIIS_OK, riis_area_range, riis_area_search, riis_area_search_init, riis_find_by_area, riis_status, &
       riis_surface_options, riis_surface_options_init
   implicit none
-  integer(int64), intent(in) :: valve                     !< Its own opening is ignored if openings are found.
-  character(len=*), intent(in) :: name                    !< 'opening', 'scale' of the placement, or a parameter with one value
-                                                          !! in riisf_valve_get.
+  integer(int64), intent(in) :: valve                     !< Its own opening is ignored if the call finds openings.
+  character(len=*), intent(in) :: name                    !< 'opening', 'scale' of the placement, or the name of a parameter
+                                                          !! for which riisf_valve_get gives one value.
   integer(int32), intent(in) :: n_areas                   !< 0 to 1,000,000.
   real(c_double), intent(in) :: areas(*)                  !< (n_areas), 0 to 1e120, mesh units squared.
   real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
@@ -5729,9 +5730,9 @@ subroutine riisf_find_by_area_64(valve, name, n_areas, areas, half_thickness, to
   use riis_c, only: RIIS_OK, riis_area_range, riis_area_search, riis_area_search_init, riis_find_by_area, riis_status, &
       riis_surface_options, riis_surface_options_init
   implicit none
-  integer(int64), intent(in) :: valve                     !< Its own opening is ignored if openings are found.
-  character(len=*), intent(in) :: name                    !< 'opening', 'scale' of the placement, or a parameter with one value
-                                                          !! in riisf_valve_get.
+  integer(int64), intent(in) :: valve                     !< Its own opening is ignored if the call finds openings.
+  character(len=*), intent(in) :: name                    !< 'opening', 'scale' of the placement, or the name of a parameter
+                                                          !! for which riisf_valve_get gives one value.
   integer(int64), intent(in) :: n_areas                   !< 0 to 1,000,000.
   real(c_double), intent(in) :: areas(*)                  !< (n_areas), 0 to 1e120, mesh units squared.
   real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
@@ -5815,8 +5816,8 @@ subroutine riisf_find_first_passage(valve, mesh, n_from, from_num, n_to, to_num,
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int32), intent(inout) :: state                  !< RIIS_FIRST_PASSAGE_*.
   real(c_double), intent(inout) :: opening                !< The opening that was tried and has a passage.
-  real(c_double), intent(inout) :: closed_opening         !< The largest opening below `opening` that was found closed, with
-                                                          !! FOUND; else `opening`.
+  real(c_double), intent(inout) :: closed_opening         !< With RIIS_FIRST_PASSAGE_FOUND, the largest opening below `opening`
+                                                          !! that was found closed; otherwise the same as `opening`.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   integer(int64), allocatable, target :: c_from_num(:)
   integer(int64), allocatable, target :: c_to_num(:)
@@ -5892,8 +5893,8 @@ subroutine riisf_find_first_passage_64(valve, mesh, n_from, from_num, n_to, to_n
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int32), intent(inout) :: state                  !< RIIS_FIRST_PASSAGE_*.
   real(c_double), intent(inout) :: opening                !< The opening that was tried and has a passage.
-  real(c_double), intent(inout) :: closed_opening         !< The largest opening below `opening` that was found closed, with
-                                                          !! FOUND; else `opening`.
+  real(c_double), intent(inout) :: closed_opening         !< With RIIS_FIRST_PASSAGE_FOUND, the largest opening below `opening`
+                                                          !! that was found closed; otherwise the same as `opening`.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   integer(int64), allocatable, target :: c_from_num(:)
   integer(int64), allocatable, target :: c_to_num(:)
@@ -5953,10 +5954,10 @@ subroutine riisf_opening_from_table(n_keys, key_time, key_opening, period, inter
   integer(int32), intent(in) :: n_keys                    !< 1 to 1,000,000.
   real(c_double), intent(in) :: key_time(*)               !< (n_keys), strictly ascending, magnitude at most 1e30.
   real(c_double), intent(in) :: key_opening(*)            !< (n_keys), 0 to 1.
-  real(c_double), intent(in) :: period                    !< Above 0, the table repeats with this period. All keys lie within
-                                                          !! one period of the first key. If the last key is one period after
-                                                          !! the first, it must have the same opening. 0: the opening is
-                                                          !! constant before the first key and after the last.
+  real(c_double), intent(in) :: period                    !< A number above 0: the table repeats with this period. All keys lie
+                                                          !! within one period of the first key. If the last key is one period
+                                                          !! after the first key, both keys must have the same opening. 0: the
+                                                          !! opening is constant before the first key and after the last key.
   integer(int32), intent(in) :: interpolation             !< RIIS_INTERPOLATION_*, usually RIIS_INTERPOLATION_LINEAR.
   real(c_double), intent(in) :: time                      !< Magnitude at most 1e30.
   real(c_double), intent(inout) :: opening                !< Written on success.
@@ -5988,8 +5989,8 @@ subroutine riisf_opening_from_times(opening_start, opening_duration, closing_sta
                                                           !! 0 and 1.
   real(c_double), intent(in) :: open                      !< The openings of the closed and of the open valve, 0 to 1. Usually
                                                           !! 0 and 1.
-  real(c_double), intent(in) :: period                    !< Above 0, the valve opens and closes once in each period. 0: only
-                                                          !! once.
+  real(c_double), intent(in) :: period                    !< A number above 0: the valve opens and closes once in each period.
+                                                          !! 0: only once.
   real(c_double), intent(in) :: time                      !< Magnitude at most 1e30.
   real(c_double), intent(inout) :: opening                !< Written on success.
   real(c_double), intent(inout) :: rate                   !< Written on success.
@@ -6037,7 +6038,7 @@ subroutine riisf_opening_switch_advance(opening_duration, closing_duration, open
   real(c_double), intent(in) :: closing_duration          !< The time that the valve takes to close, > 0.
   real(c_double), intent(in) :: open_above                !< Pressure difference. Usually 0.
   real(c_double), intent(in) :: close_below               !< Flow. Usually 0.
-  real(c_double), intent(in) :: filter_time               !< The time constant of the filter of pressure difference and flow,
+  real(c_double), intent(in) :: filter_time               !< The time constant of the filter for pressure difference and flow,
                                                           !! >= 0. 0: no filter.
   real(c_double), intent(in) :: dwell_time                !< The shortest time between two changes of phase, >= 0. Usually 0.
   real(c_double), intent(in) :: time                      !< At least state(1).
@@ -6141,14 +6142,14 @@ end subroutine riisf_opening_angle_advance
 ! Placing and warping by a patient's landmarks
 ! -----------------------------------------------------------------------------------------------------------------
 
-!> Sets a valve's sizes, in centimetres, to a patient's sizes, and finds its placement. Errors: RIIS_INVALID_ARGUMENT for
-!! landmarks that are missing, too many, in one place, collinear or mirrored, or that are too large or too small for a heart
-!! valve at this scale. Landmarks that do not show the direction of flow are also refused. The message names the landmarks. The
-!! axis of a tricuspid or mitral_coapting valve must be at most 20 degrees from the annulus' normal. A mitral valve must satisfy
-!! three conditions: - The posterior horn is on the posterior side of the annulus, and the trigones are on the anterior side. -
-!! The axis of the fitted valve is at most 20 degrees from the annulus' normal. - The fitted AP_diameter differs from the depth
-!! that the horns or the annulus show by at most a twelfth of this depth, or by five times the noise. RIIS_INVALID_PARAMETER for
-!! a valve from patches, an unknown name in held, and sizes that do not fit together.
+!> Sets a valve's sizes, in centimetres, to a patient's sizes, and finds the placement of the valve. Errors:
+!! RIIS_INVALID_ARGUMENT for landmarks that are missing, too many, in one place, collinear or mirrored, or that are too large or
+!! too small for a heart valve at this scale. Landmarks that do not show the direction of flow are also refused. The message
+!! names the landmarks. The axis of a tricuspid or mitral_coapting valve must be at most 20 degrees from the annulus' normal. A
+!! mitral valve must satisfy three conditions: - The posterior horn is on the posterior side of the annulus, and the trigones are
+!! on the anterior side. - The axis of the fitted valve is at most 20 degrees from the annulus' normal. - The fitted AP_diameter
+!! differs from the depth that the horns or the annulus show by at most a twelfth of this depth, or by five times the noise.
+!! RIIS_INVALID_PARAMETER for a valve from patches, an unknown name in held, and sizes that do not fit together.
 subroutine riisf_place(valve, n_landmarks, xyz, role, leaflet_id, scale, noise, flow, held, rotation_axis, &
     rotation_angle, translation, residual, size_state, status)
   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_sizeof
@@ -6167,8 +6168,8 @@ subroutine riisf_place(valve, n_landmarks, xyz, role, leaflet_id, scale, noise, 
                                                           !! attachment point has its cusp and -1, and a commissure has its two
                                                           !! leaflets in any order. -1 and -1 stand for unknown leaflets. For
                                                           !! an aortic or tricuspid valve, the known leaflets must determine
-                                                          !! the names of all leaflets. For other kinds without names, the
-                                                          !! first nadir lies on cusp 0.
+                                                          !! the names of all leaflets. For other kinds, if all leaflets are
+                                                          !! unknown, the first nadir lies on cusp 0.
   real(c_double), intent(in) :: scale                     !< Mesh units in a centimetre: 10 for millimetres, 1 for centimetres,
                                                           !! or 0.01 for metres. Must be set.
   real(c_double), intent(in) :: noise                     !< The scatter of the landmarks: the standard deviation of each
@@ -6260,9 +6261,10 @@ subroutine riisf_warp_create(n_landmarks, xyz, noise, scale, rotation_axis, rota
   warp = handle_of(c_handle)
 end subroutine riisf_warp_create
 
-!> Makes the warp take the landmarks to the targets. The same targets give the same bits after any earlier targets. Errors:
+!> Makes the warp take the landmarks to the targets. The map is bitwise the same, whatever the earlier targets were. Errors:
 !! RIIS_INVALID_ARGUMENT naming the point. RIIS_INVALID_PARAMETER for a warp that folds. A warp folds if the determinant of the
-!! map's derivative is not above 0 half way between some landmark and its nearest landmark. With more noise, a warp folds less.
+!! map's derivative is 0 or less half way between some landmark and its nearest landmark. A larger noise in the options smooths
+!! the map, and may prevent folds.
 subroutine riisf_warp_set_targets(warp, n_landmarks, xyz, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -6284,8 +6286,9 @@ subroutine riisf_warp_set_targets(warp, n_landmarks, xyz, status)
   status = riis_warp_set_targets(c_handle_of(warp), targets)
 end subroutine riisf_warp_set_targets
 
-!> Warps a valve: the map moves the valve's curves at every opening, before the placement. The valve copies both maps. Errors:
-!! RIIS_INVALID_ARGUMENT for `open` without `closed`. RIIS_INVALID_PARAMETER for a bileaflet valve, which is rigid.
+!> Warps a valve by one or two maps. The maps move the valve's curves at every opening, before the placement. The valve copies
+!! the maps. Errors: RIIS_INVALID_ARGUMENT for `open` without `closed`. RIIS_INVALID_PARAMETER for a bileaflet valve, which is
+!! rigid.
 subroutine riisf_valve_set_warp(valve, closed, open, status)
   use, intrinsic :: iso_fortran_env, only: int64
   use riis_support, only: c_handle_of

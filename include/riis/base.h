@@ -34,7 +34,8 @@ enum {
   RIIS_LIMIT_EXCEEDED = 6,      /* the request is valid but too large for the library */
   RIIS_OUT_OF_MEMORY = 7,       /* memory ran out; nothing changed */
   RIIS_FILE_ERROR = 8,          /* a file cannot be read or written, or has other content (riis_vtk.h) */
-  RIIS_UNAVAILABLE = 9,         /* something is missing now: threads after a fork(), a display, a handle in use by a thread */
+  RIIS_UNAVAILABLE = 9,         /* something cannot be used now: threads after a fork(), a display, a handle that another thread
+                                   uses */
   RIIS_INTERNAL_ERROR = -1      /* an error in riis or in a library that it uses */
 };
 
@@ -48,7 +49,7 @@ RIIS_API const char *riis_last_error(void);
 /* Returns the version of the linked library, not of this header, as static text such as "1.0.0". */
 RIIS_API const char *riis_version_string(void);
 
-/* Receives messages, in the thread whose call sends them. A log function must not call the library, throw or jump out.
+/* Receives a message, in the thread whose call sends it. A log function must not call the library, throw or jump out.
  *   `user_data`: the pointer that was passed to riis_set_log.
  *   `level`: RIIS_LOG_INFO or RIIS_LOG_WARNING.
  *   `message`: one line without a newline; valid during the call only. */
@@ -61,11 +62,11 @@ enum {
 /* Sets the log function of the process. Any thread may call riis_set_log.
  *   `function`: receives the messages; NULL, the default, means no log.
  *   `user_data`: a pointer that the library passes to the function. The pointer must stay valid as long as the function is set.
- * If another thread is just sending a message, the previous log function may still receive it. With a log function, the library
- * also searches surfaces for crossings (riis_find_crossings). The library searches a shape only if the caller has chosen its
- * parameters, patches or open state. A search for crossings takes longer than an update. The openings from 0 to 1 are divided
- * into five ranges, which end at 0, 0.05, 1/3, 2/3 and 1. A shape is searched once in each range, at its first opening there. A
- * shape is not searched again after its first warning. */
+ * If another thread is just sending a message, the previous log function may still receive it. With a log function, calls that
+ * make or update a surface from a valve also search it for crossings (riis_find_crossings). Such a search takes longer than an
+ * update. The library searches a shape only if the caller has chosen its parameters, patches or open state. The openings from 0
+ * to 1 are divided into five ranges, which end at 0, 0.05, 1/3, 2/3 and 1. Each shape is searched once in each range, at its
+ * first opening there. After a first warning, the shape is not searched again. */
 RIIS_API void riis_set_log(riis_log_function function, void *user_data);
 
 /* RIIS_AUTO in a field stands for the value of another quantity, which the comment of the field names. */

@@ -14,17 +14,18 @@ extern "C" {
 
 /* ---- Gradients: directions in which the surface of a valve changes ------------------------------------- */
 
-/* Adds a direction in which the surface of a valve changes: by a parameter, a landmark or a number of the placement.
- *   `valve_after`, `valve_before`: two copies of the surface's valve. The parameter is a little larger in the first copy, and a
- *     little smaller in the second copy, than in the surface. If only the placement changes, pass the same valve twice.
+/* Adds a direction in which the surface of a valve changes with a parameter, a landmark or a number of the placement.
+ *   `valve_after`, `valve_before`: two copies of the surface's valve. The parameter is a little larger in valve_after, and a
+ *     little smaller in valve_before, than in the surface. If only the placement changes, pass the same valve twice.
  *   `dp`: the parameter's difference from valve_before to valve_after, 1e-30 to 1e30 in magnitude.
  *   `options_after`, `options_before`: scale, rotation and translation of both states; other fields are ignored. NULL: the
  *     surface's options.
  * The first call makes direction 0, and the next call makes direction 1. An update removes all directions. A marking with
- * RIIS_FIELD_GRADIENT gives the derivatives of distances and of K in all directions (docs/theory/gradients.md). Both states get
- * the triangles of the surface. The rate of a vertex is its displacement from the state before to the state after, divided by dp.
- * The error of the derivative is of second order in dp if the surface is midway between the states, otherwise of first order. A
- * dp of 1e-5 of the parameter's size suits most parameters. The two states need not satisfy the limits of a fixed triangulation.
+ * RIIS_FIELD_GRADIENT gives the derivatives of distances and of K in all directions (docs/theory/gradients.md). Both states are
+ * cut into the same triangles as the surface. The rate of a vertex is its displacement from the state before to the state after,
+ * divided by dp. The error of the derivative is of second order in dp if the surface is midway between the states, otherwise of
+ * first order. A dp of 1e-5 of the parameter's size suits most parameters. The two states need not satisfy the limits of a fixed
+ * triangulation.
  * Errors: RIIS_INVALID_ARGUMENT for a surface from arrays and for a dp out of range. RIIS_INVALID_PARAMETER for a state of
  * another kind or with other patches, and for parameters that do not fit together. RIIS_LIMIT_EXCEEDED for more than 1000
  * directions. */

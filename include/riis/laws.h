@@ -17,13 +17,13 @@ extern "C" {
 /* These rules hold for all laws:
  * - The functions are pure: the same arguments give the same bits, and the library stores no state.
  * - Times, pressures and flows have the solver's units.
- * - The pressure difference is the upstream pressure minus the downstream pressure. Flow is positive downstream. Positive
- *   pressure differences thus open a valve.
+ * - The pressure difference is the upstream pressure minus the downstream pressure. Flow is positive downstream. A positive
+ *   pressure difference thus opens a valve.
  * - `rate` is the time derivative of the opening.
  * - A state has no pointers. A solver can therefore write a state to a restart file, read it again, and continue with the same
  *   bits.
- * - `now` may point to the same struct as `before`, and gets the struct_size of `before`. To repeat a step, start from `before`
- *   again. */
+ * - `now` may point to the same struct as `before`, and gets the struct_size of `before`. To be able to repeat a step, keep the
+ *   state before it in another struct. */
 
 /* A law that interpolates the opening between given times, which are called keys. */
 typedef struct riis_opening_table {
@@ -31,9 +31,9 @@ typedef struct riis_opening_table {
   int64_t n_keys;        /* 1 to 1,000,000 */
   const double *time;    /* (n_keys), strictly ascending, magnitude at most 1e30 */
   const double *opening; /* (n_keys), 0 to 1 */
-  double period;         /* above 0, the table repeats with this period. All keys lie within one period of the first key. If the
-                            last key is one period after the first, it must have the same opening. 0, the default: the opening is
-                            constant before the first key and after the last */
+  double period;         /* a number above 0: the table repeats with this period. All keys lie within one period of the first key.
+                            If the last key is one period after the first key, both keys must have the same opening. 0, the
+                            default: the opening is constant before the first key and after the last key */
   int32_t interpolation; /* RIIS_INTERPOLATION_*, default RIIS_INTERPOLATION_LINEAR */
   int32_t reserved;      /* 0 */
 } riis_opening_table;
@@ -45,17 +45,17 @@ RIIS_API riis_status riis_opening_from_table(const riis_opening_table *table, do
                                              double *rate);
 
 /* A law that opens and closes the valve by two ramps at given times. The ramps are polynomials of degree five, so the rate and
- * its derivative are continuous. For example, a mitral valve opens from 0.45 s and closes from 0.95 s in each second, and each
- * motion takes 0.05 s. */
+ * its derivative are continuous. For example, a mitral valve begins to open at 0.45 s and to close at 0.95 s of each second, and
+ * each motion takes 0.05 s. */
 typedef struct riis_opening_times {
   int64_t struct_size;    /* set by the init function */
-  double opening_start;   /* the time at which the valve begins to open. Default NaN here and in the next three fields; NaN is
-                             refused */
+  double opening_start;   /* the time at which the valve begins to open. Default NaN for this field and the next three fields; NaN
+                             is refused */
   double opening_duration; /* how long opening takes, > 0 */
   double closing_start;   /* the time at which the valve begins to close, at least opening_start + opening_duration */
   double closing_duration; /* how long closing takes, > 0 */
   double closed, open;    /* the openings of the closed and of the open valve, 0 to 1. Default 0 and 1 */
-  double period;          /* above 0, the valve opens and closes once in each period. Default 0: only once */
+  double period;          /* a number above 0: the valve opens and closes once in each period. 0, the default: only once */
 } riis_opening_times;
 RIIS_API riis_status riis_opening_times_init(riis_opening_times *times, int64_t struct_size); /* the defaults */
 /* Gives the opening at a time by the times of the ramps. Both `opening` and `rate` may be NULL.
@@ -79,7 +79,7 @@ typedef struct riis_opening_switch {
   double closing_duration; /* the time that the valve takes to close, > 0. Default NaN, which is refused */
   double open_above;      /* pressure difference. Default 0 */
   double close_below;     /* flow. Default 0 */
-  double filter_time;  /* the time constant of the filter of pressure difference and flow, >= 0. Default 0: no filter */
+  double filter_time;  /* the time constant of the filter for pressure difference and flow, >= 0. Default 0: no filter */
   double dwell_time;   /* the shortest time between two changes of phase, >= 0. Default 0 */
 } riis_opening_switch;
 RIIS_API riis_status riis_opening_switch_init(riis_opening_switch *law, int64_t struct_size); /* the defaults */
@@ -88,7 +88,8 @@ typedef struct riis_opening_switch_state {
   int64_t struct_size;        /* set by the init function */
   double time;                /* of this state */
   double opening, rate;       /* at that time */
-  double progress;            /* how far the valve is on the way to open, 0 to 1; the opening is a smooth ramp over it */
+  double progress;            /* how far the valve is from closed (0) to open (1); the opening is a smooth function of the
+                                 progress */
   double pressure_difference; /* filtered; NaN: none yet */
   double flow;                /* filtered; NaN: none yet */
   double turn_time;           /* time of the last change of phase; NaN: none yet */
@@ -116,7 +117,7 @@ RIIS_API riis_status riis_opening_switch_advance(const riis_opening_switch *law,
  * vortex_gain 7 for the aortic and 3.5 for the mitral valve. */
 typedef struct riis_opening_angle {
   int64_t struct_size;  /* set by the init function */
-  double pressure_gain; /* K_p, >= 0. Default NaN here and in the next three fields; NaN is refused */
+  double pressure_gain; /* K_p, >= 0. Default NaN for this field and the next three fields; NaN is refused */
   double flow_gain;     /* K_q, >= 0 */
   double friction;      /* K_f, >= 0 */
   double vortex_gain;   /* K_v, >= 0 */

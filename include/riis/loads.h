@@ -17,14 +17,14 @@ extern "C" {
 /* The forces of the leaflets, and the edges at which tissue holds the leaflets. With MPI all ranks pass the same numbers. */
 typedef struct riis_loads {
   int64_t struct_size;            /* set by the init function */
-  double radius;                  /* mesh units, 1e-50 to 1e50. A leaflet's force acts at the nodes that are nearer to the
-                                     leaflet's edges than the radius. Default NaN, which is refused */
+  double radius;                  /* mesh units, 1e-50 to 1e50. A leaflet's force acts at the nodes whose distance from the
+                                     leaflet's edges is less than the radius. Default NaN, which is refused */
   double about[3];                /* the reference point of leaflet_moment; magnitude at most 1e60. Default 0 */
   int64_t n_leaflets;             /* the number of columns of sums, leaflet_force and leaflet_moment; 1 to 2^31. Default 0 */
-  const double *leaflet_force;    /* (3, n_leaflets): riis_reaction.leaflet_force, added up over all ranks. The sums do not need
-                                     it */
-  const double *leaflet_moment;   /* (3, n_leaflets): riis_reaction.leaflet_moment, added up over all ranks. The sums do not need
-                                     it */
+  const double *leaflet_force;    /* (3, n_leaflets): riis_reaction.leaflet_force, added up over all ranks. riis_loads_add_sums
+                                     does not read this array */
+  const double *leaflet_moment;   /* (3, n_leaflets): riis_reaction.leaflet_moment, added up over all ranks. riis_loads_add_sums
+                                     does not read this array */
   int64_t n_edges;                /* 1 to 2^40. Default 0 */
   const double *edges;            /* (3, 2, n_edges): both ends of each edge, for example riis_attachment.edges; magnitude at
                                      most 1e60. An edge may have length 0 */
@@ -42,8 +42,8 @@ RIIS_API riis_status riis_loads_init(riis_loads *loads, int64_t struct_size); /*
  *   `weight` (n_points), 0 to 1e60: the area or volume around a node, 0 for nodes of other ranks. NULL: 1 for each node.
  *   `sums` (11, n_leaflets): the array to which the sums are added.
  * A bileaflet valve has no attachment. A surface from arrays has an attachment only with `attached` or a skirt. For a surface
- * without an attachment, give the edges at which the leaflets are sewn, or the pivots. With MPI each rank passes its own nodes,
- * and all ranks then add up their sums.
+ * without an attachment, pass the edges at which the leaflets are sewn or hinged. With MPI each rank passes its own nodes, and
+ * all ranks then add up their sums.
  * Errors: RIIS_INVALID_ARGUMENT naming the field, or the edge, node or weight and its value. */
 RIIS_API riis_status riis_loads_add_sums(const riis_loads *loads, const riis_points *nodes, const double *weight, double *sums);
 /* Adds the forces of the leaflets at nodes of tissue. The forces of a leaflet have the sum leaflet_force and the moment
@@ -58,9 +58,9 @@ RIIS_API riis_status riis_loads_add_sums(const riis_loads *loads, const riis_poi
  * moment times angular velocity. The forces are linear in leaflet_force and leaflet_moment: pass zeros for the other leaflets to
  * get the forces of one leaflet. The forces do not model the mechanics of a membrane.
  * Errors: as riis_loads_add_sums. RIIS_INVALID_ARGUMENT also if a loaded leaflet has fewer than three nodes within the radius, or
- * only nodes that lie nearly on a line. Nodes lie nearly on a line if their root-mean-square distance from the line is less than
- * a hundredth of their root-mean-square distance from their middle, or less than a thousandth of the size of the edges
- * (docs/theory/loads.md). */
+ * only nodes that lie nearly on a line. Let r be the root-mean-square distance of the nodes from a line. The nodes lie nearly on
+ * this line if r is less than a hundredth of their root-mean-square distance from their middle. They also do if r is less than a
+ * thousandth of the size of the edges (docs/theory/loads.md). */
 RIIS_API riis_status riis_loads_add_forces(const riis_loads *loads, const riis_points *nodes, const double *weight,
                                            const double *sums, double *node_force);
 

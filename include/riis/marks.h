@@ -23,10 +23,11 @@ RIIS_API void riis_marks_destroy(riis_marks **marks); /* destroys the marks and 
 
 /* How nodes are searched. All searches except RIIS_SEARCH_PAPER find the same nodes (docs/theory/search.md). */
 enum {
-  RIIS_SEARCH_AUTO = 0,       /* clusters. The exhaustive search runs instead with sampling or minimisation, and in the first
-                                 marking of a mesh without riis_mesh_prepare if the distance limit is at most a fifth of the
-                                 surface's extent. For few nodes, the exhaustive search also runs with a larger limit. A grid
-                                 (riis_mesh_create_grid) has clusters from its first marking on */
+  RIIS_SEARCH_AUTO = 0,       /* uses clusters or the exhaustive search, whichever is faster. The exhaustive search runs for
+                                 distances by sampling or minimisation. It also runs in the first marking of a mesh without
+                                 riis_mesh_prepare, if the distance limit is at most a fifth of the surface's extent. With a
+                                 larger limit, it runs if there are few nodes. A grid (riis_mesh_create_grid) is searched by
+                                 clusters from its first marking on */
   RIIS_SEARCH_EXHAUSTIVE = 1, /* queries every node (paper, algorithm "Exhaustive node iteration") */
   RIIS_SEARCH_NEIGHBOR = 2,   /* walks from marked nodes to their neighbours (paper, algorithm "Recursive
                                  neighbor search") and also queries every other node that may be near. The mesh must have an
@@ -34,8 +35,9 @@ enum {
   RIIS_SEARCH_PAPER = 3,      /* the paper's algorithm without any change, for comparison. This search misses nodes that are not
                                  connected to its only starting node. The mesh must have an adjacency */
   RIIS_SEARCH_CLUSTERS = 4    /* discards distant clusters of nodes in single precision, and decides about the other nodes in
-                                 double precision. The exhaustive search runs instead (stats.search) for 2^32 points and more, and
-                                 for a mesh that is a million times as large as the surface or as far away */
+                                 double precision. The exhaustive search runs instead for 2^32 nodes or more, and if the size of
+                                 the mesh or its distance from the surface is a million times the size of the surface.
+                                 riis_mark_stats.search tells which search ran */
 };
 
 /* The processor's instructions that a marking uses. All instruction sets give the same bits. */
@@ -68,10 +70,11 @@ enum {
   RIIS_RIM_CUT = 1    /* no half tube: nodes whose closest point is on the rim do not resist */
 };
 
-/* The term K (u - u_surface) of the momentum equation, with the fluid velocity u and the surface velocity u_surface
- * (paper, 2.1; docs/theory/marks.md, "Resistance"). At a distance d < eps, K = (R / eps) delta(d) with
- * delta(d) = (1 + cos(pi d / eps)) / (2 eps). At larger distances K is 0. If the surface has an offset o, d is |s - o eps|, the
- * distance from the middle of the band. Here eps is the half thickness of this resistance (riis_surface_create). */
+/* The term K (u - u_surface) of the momentum equation, with the fluid velocity u and the surface velocity u_surface (paper, 2.1;
+ * docs/theory/marks.md, "Resistance"). At a distance d < eps, K = (R / eps) delta(d) with
+ * delta(d) = (1 + cos(pi d / eps)) / (2 eps). At larger distances K is 0. Here eps is the half thickness of this resistance. If
+ * the surface has an offset o, d is |s - o eps|, the distance from the middle of the band. Here s is the signed distance
+ * (riis_surface_create). */
 typedef struct riis_resistance {
   int64_t struct_size;   /* set by the init function */
   double R;              /* the resistance, 0 or 1e-300 to 1e60, in mass / (length time), such as kg/(m s). A flat closed valve in
@@ -88,7 +91,7 @@ typedef struct riis_mark_options {
   int64_t struct_size;       /* set by the init function */
   double distance_limit;     /* the search finds the nodes whose distance is at most this limit. The limit must be at least (1 +
                                 |o|) half thicknesses, with the offset o of the surface, and at most 1e60. Default RIIS_AUTO: the
-                                search finds the marked nodes only. The limit does not change the marked nodes */
+                                search finds the marked nodes only. The limit does not change which nodes are marked */
   const uint8_t *node_mask;  /* (n_nodes): 0 leaves a node out of the search. The coordinates of the node must still be finite.
                                 NULL: all nodes */
   const riis_resistance *resistance; /* requests riis_mark_list.K, and also riis_mark_list.K_u_surface if the surface has
@@ -107,8 +110,8 @@ RIIS_API riis_status riis_mark_options_init(riis_mark_options *options, int64_t 
  * nodes in the band (riis_surface_create).
  *   `marks`: its content is replaced.
  * The log warns if the mesh and the surface seem to have different units: the largest sides of their bounding boxes differ by
- * more than a factor of 50, or one of these sides is below the half thickness. The warning of different units comes once for each
- * surface and mesh, at most eight times for each mesh, and never for fewer than 1000 nodes.
+ * more than a factor of 50, or one of these sides is below the half thickness. This warning comes once for each pair of surface
+ * and mesh, at most eight times for each mesh, and never for fewer than 1000 nodes.
  * Errors: RIIS_INVALID_MESH for a coordinate that became non-finite after it was given. */
 RIIS_API riis_status riis_mark_nodes(const riis_surface *surface, const riis_mesh *mesh,
                                      const riis_mark_options *options, riis_marks *marks);
@@ -119,14 +122,14 @@ enum {
   RIIS_LIST_WITHIN_LIMIT = 1 /* the nodes within the distance limit, marked or not. Without a limit: the marked nodes */
 };
 /* A list of nodes, ascending by node_id. Lengths are in mesh units. The array `point` and the arrays below it are NULL if
- * options.fields did not request them. The call riis_closest_point gives the same values, to the last bit. */
+ * options.fields did not request them. The call riis_closest_point gives bitwise the same values. */
 typedef struct riis_mark_list {
   int64_t n_nodes;            /* in the list */
   const int64_t *node_id;     /* (n_nodes) */
   const double *distance;     /* (n_nodes) */
   const int64_t *triangle_id; /* (n_nodes): of the closest triangle, as in riis_closest */
   const int32_t *leaflet_id;  /* (n_nodes): of that triangle */
-  const double *K;            /* (n_nodes): K by options.resistance; NULL without a resistance */
+  const double *K;            /* (n_nodes): K of options.resistance; NULL without a resistance */
   const double *K_u_surface;  /* (3, n_nodes): K u_surface; NULL without a resistance or velocities */
   const double *point;        /* (3, n_nodes): the closest point of the surface */
   const double *normal;       /* (3, n_nodes): the unit normal of its triangle */
@@ -145,15 +148,15 @@ typedef struct riis_mark_list {
                                  consists of edges of only one triangle; vertices with equal coordinates count as one */
   const int32_t *patch_id;    /* (n_nodes): as in riis_triangles */
   int64_t n_directions;       /* the surface's directions during the marking; 0 without RIIS_FIELD_GRADIENT */
-  const double *distance_gradient; /* (n_directions, n_nodes): the derivative of the distance in each direction, -n.V. The unit
-                                      vector n points from the closest point to the node. V is the rate of the closest point in
-                                      the triangle triangle_id. On the surface the derivative is 0, because the distance has a
-                                      kink there. The distance also has a kink at nodes with several nearest places */
+  const double *distance_gradient; /* (n_directions, n_nodes): the derivative of the distance in each direction, which is -n.V.
+                                      The unit vector n points from the closest point to the node. V is the rate of the closest
+                                      point in the triangle triangle_id. On the surface the derivative is 0, because the distance
+                                      has a kink there. The distance also has a kink at nodes with several nearest places */
   const double *K_gradient;   /* (n_directions, n_nodes): the derivative of K for constant R and half thickness. The derivative is
-                                 0 where K is 0. NULL without a resistance. With an offset, on the surface n is the surface's
-                                 normal, and at a rim the normal turns too */
-  const double *height;       /* (n_nodes): the signed distance s of riis_surface_create for a surface with an offset. At a rim
-                                 the signed distance is n.(x - p). NULL without an offset */
+                                 0 where K is 0. NULL without a resistance. With an offset, n at a node on the surface is the
+                                 surface's normal, and at a rim the derivative includes the rotation of the normal */
+  const double *height;       /* (n_nodes): the signed distance s of riis_surface_create for a surface with an offset. At a rim it
+                                 is n.(x - p), with the normal n, the node x and the closest point p. NULL without an offset */
 } riis_mark_list;
 /* Gives one of the two lists of the last marking. The list is valid until the marks are destroyed or passed to riis_mark_nodes
  * again.
@@ -185,8 +188,8 @@ typedef struct riis_mark_stats {
   int64_t n_queries;    /* number of closest-point queries, of nodes and of parts of the mesh */
   double seconds;       /* wall time of riis_mark_nodes */
   int32_t search;       /* the search that ran, never RIIS_SEARCH_AUTO */
-  int32_t n_threads;    /* the largest number of threads that any part of the marking used. A caller's TBB limit affects the walks
-                           of the neighbour search, not loops */
+  int32_t n_threads;    /* the largest number of threads that any part of the marking used. If the caller limits the threads of
+                           TBB, the limit affects only the walks of the neighbour search */
   int32_t complete;     /* 1: all nodes within the limit were found, for the coordinates that the mesh was last given; 0: this
                            is not certain */
   int32_t instructions; /* the instructions that were used, never RIIS_INSTRUCTIONS_AUTO */

@@ -20,8 +20,8 @@ typedef struct riis_leaflet {
   int64_t n_triangles; /* the number of its triangles with an area above 0 */
   double area;         /* the area of its triangles */
   double free_edge;    /* the length of its free edge, which consists of the sides v = 1 that belong to only one patch of the
-                          leaflet. In a surface from arrays, the free edge consists of all open edges except the longest closed
-                          line of open edges. An open edge belongs to only one triangle. 0 for a skirt */
+                          leaflet. In a surface from arrays, an edge is open if it belongs to only one triangle. The free edge
+                          then consists of all open edges except the longest closed line of open edges. 0 for a skirt */
   int32_t leaflet_id;  /* as in riis_triangles */
   int32_t reserved;    /* 0 */
 } riis_leaflet;
@@ -32,32 +32,32 @@ RIIS_API riis_status riis_surface_get_n_leaflets(const riis_surface *surface, in
 RIIS_API riis_status riis_surface_get_leaflet(const riis_surface *surface, int64_t leaflet, riis_leaflet *sizes,
                                               int64_t struct_size);
 
-/* The outline of an orifice. If arrays or keyframes have the triangles of a valve, their outline is that of the valve. */
+/* The outline of an orifice. Arrays or keyframes with the triangles of a valve have the outline of this valve. */
 enum {
   RIIS_OUTLINE_NONE = 0,      /* the boundary of the leaflets does not surround a centre, or encloses no area */
-  RIIS_OUTLINE_DISC = 1,      /* bileaflet: the disc of radius about the z axis */
-  RIIS_OUTLINE_ATTACHMENT = 2, /* for other valves the farthest edge of the leaflets in each direction from the centre. This edge
-                                  is the attachment, except where a free edge reaches farther */
-  RIIS_OUTLINE_BOUNDARY = 3,  /* a surface from arrays or keyframes: in each direction, the farthest edge that only one triangle
-                                 has */
+  RIIS_OUTLINE_DISC = 1,      /* bileaflet: the disc about the z axis, whose radius is riis_orifice.radius */
+  RIIS_OUTLINE_ATTACHMENT = 2, /* other valves: in each direction from the centre, the farthest edge of the leaflets. This edge is
+                                  the attachment, except where a free edge reaches farther */
+  RIIS_OUTLINE_BOUNDARY = 3,  /* a surface from arrays or keyframes: in each direction from the centre, the farthest edge that
+                                 belongs to only one triangle */
   RIIS_OUTLINE_WALL = 4       /* riis_surface_get_orifice_in_wall: the longest line of open edges of the wall */
 };
 /* The orifice of a surface: the part of an outline that the triangles do not cover, seen along an axis. The axis is the direction
- * of the vector area of the outline's edges in space. The axis of a valve points towards +z of the valve. The axis of arrays and
- * keyframes points to the side of their normals. The axis of a bileaflet valve is its z axis. A skirt does not count. If leaflets
- * of arrays do not touch at the commissures, straight lines join their ends. Lengths are in mesh units (docs/theory/measures.md,
- * "Outline"). */
+ * of the vector area that the edges of the outline enclose. The axis of a valve points towards +z of the valve. The axis of
+ * arrays and keyframes points to the side of their normals. The axis of a bileaflet valve is its z axis. A skirt does not count.
+ * If leaflets of arrays do not touch at the commissures, straight lines join their ends. Lengths are in mesh units
+ * (docs/theory/measures.md, "Outline"). */
 typedef struct riis_orifice {
   double area;           /* the area of the orifice. Without an outline, all fields but axis and rim_reach are 0 */
   double outline_area;   /* the area inside the outline */
   double perimeter;      /* the length of the orifice's edge along the triangles. The edge is first moved inwards by a tenth of
                             the half thickness, so that narrow slits do not count. Parts of the edge on the outline are walls and
                             do not count */
-  double effective_area; /* the area through which the flow can pass beside the band around the valve. The edge along the
-                            triangles is moved inwards by rim_reach * half_thickness. To first order the effective area is area -
-                            rim_reach * half_thickness * perimeter, but never below 0 */
-  double rim_reach;      /* the factor c: 0.84 for a round rim, 0.70 for a cut rim. Computed flows through open valves gave 0.70
-                            to 0.98 for a round rim, and 0.46 to 0.95 for a cut rim (docs/validation.md). With an offset o, c has
+  double effective_area; /* the area through which the flow can pass beside the band around the valve. It is the area of the
+                            orifice after its edge along the triangles is moved inwards by rim_reach * half_thickness. To first
+                            order the effective area is area - rim_reach * half_thickness * perimeter, but never below 0 */
+  double rim_reach;      /* a factor c: 0.84 for a round rim, 0.70 for a cut rim. Computed flows through open valves gave 0.70 to
+                            0.98 for a round rim, and 0.46 to 0.95 for a cut rim (docs/validation.md). An offset o multiplies c by
                             another factor: max(0, 1 - o / 1.05) for a round rim, max(0, 1 - o / 0.85) for a cut rim, max(0, 1 - o
                             / 0.8) for a cut rim of a mitral valve, and 1 for a bileaflet valve */
   double half_thickness; /* eps of the resistance */
@@ -67,19 +67,19 @@ typedef struct riis_orifice {
   int32_t reserved;      /* 0 */
 } riis_orifice;
 /* Measures the orifice of a surface.
- *   `resistance`: only half_thickness and rim are used, with the surface's offset. RIIS_AUTO stands for the surface's half
- *     thickness. NULL stands for the defaults. */
+ *   `resistance`: only half_thickness and rim are used. The offset is that of the surface. RIIS_AUTO stands for the surface's
+ *     half thickness. NULL stands for the defaults. */
 RIIS_API riis_status riis_surface_get_orifice(const riis_surface *surface, const riis_resistance *resistance,
                                               riis_orifice *orifice, int64_t struct_size);
 /* Measures the orifice inside a wall, such as a ring or a tube around the leaflets. The call serves leaflets that do not reach
  * the wall, such as the leaflets of a mechanical valve from arrays. The longest connected line of open edges of the wall gives
  * the outline and the axis (docs/theory/measures.md, "Outline"). The other arguments are as in riis_surface_get_orifice.
- *   `wall`: in the frame of the surface. RIIS_INVALID_ARGUMENT if this line of the wall does not surround a centre. */
+ *   `wall`: in the frame of the surface. RIIS_INVALID_ARGUMENT if the line that gives the outline does not surround a centre. */
 RIIS_API riis_status riis_surface_get_orifice_in_wall(const riis_surface *surface, const riis_surface *wall,
                                                       const riis_resistance *resistance, riis_orifice *orifice,
                                                       int64_t struct_size);
 
-/* Which area of an orifice riis_find_by_area takes. */
+/* Which area of an orifice must be equal to the given areas of riis_find_by_area. */
 enum {
   RIIS_AREA_GEOMETRIC = 0, /* riis_orifice.area */
   RIIS_AREA_EFFECTIVE = 1  /* riis_orifice.effective_area */
@@ -89,9 +89,10 @@ typedef struct riis_area_search {
   int64_t struct_size;                 /* set by the init function */
   const riis_surface_options *surface; /* options of the valve's surface. NULL, the default, stands for defaults */
   const riis_resistance *resistance;   /* as in riis_surface_get_orifice. NULL, the default, stands for defaults */
-  double from, to;    /* the range to search, with `from` below `to`. The default NaN stands for 0 to 1 for the opening, for a
-                         tenth to ten times the scale, and for half to twice a parameter. If the parameter is 0, both numbers must
-                         be set, except for a share, which is searched over all shares */
+  double from, to;    /* the range to search, with `from` below `to`. The default NaN stands for 0 to 1 for the opening, 0.1 to 10
+                         times the present scale, or 0.5 to 2 times the present value of a parameter. If the value of a parameter
+                         is 0, both numbers must be set. A share, which is a parameter from 0 to 1, is an exception: by default
+                         its whole range is searched */
   double tolerance;   /* the tolerance of an area, as a share of the area, 1e-12 to 1e-2. Default 1e-8 */
   int32_t n_samples;  /* the number of values that are tried first, 2 to 100,001. Default 33 */
   int32_t area;       /* RIIS_AREA_*, default RIIS_AREA_GEOMETRIC */
@@ -102,29 +103,30 @@ RIIS_API riis_status riis_area_search_init(riis_area_search *search, int64_t str
 typedef struct riis_area_range {
   double from, to;          /* the values that were searched */
   double least, most;       /* the least and the largest area */
-  double least_at, most_at; /* a value with that area */
+  double least_at, most_at; /* a value with the least area and one with the largest area */
   double turns[4];          /* the first values at which a growing area begins to fall, or a falling area begins to grow. NaN
                                fills the unused entries. A change by less than 1e-4 of the largest area does not count */
   double seconds;           /* wall time of riis_find_by_area */
   int64_t n_turns;          /* the number of turns. Without a turn, the area only grows or only falls */
   int64_t n_surfaces;       /* the number of surfaces that were made, which is the cost of the search */
-  int64_t n_refused;        /* the number of sampled values that make no valve or no orifice, and are left out */
+  int64_t n_refused;        /* the number of sampled values for which there is no valve or no orifice. The search leaves them
+                               out */
 } riis_area_range;
 /* Finds the openings, or the sizes, at which the orifice of a valve has given areas (docs/theory/measures.md, "From an area to
  * a valve").
- *   `valve`: its own opening is ignored if openings are found.
- *   `name`: "opening", "scale" of the placement, or a parameter with one value in riis_valve_get.
+ *   `valve`: its own opening is ignored if the call finds openings.
+ *   `name`: "opening", "scale" of the placement, or the name of a parameter for which riis_valve_get gives one value.
  *   `n_areas`: 0 to 1,000,000. With 0 areas only *range is written, and areas may be NULL.
  *   `areas` (n_areas), 0 to 1e120, mesh units squared.
  *   `search`: NULL stands for the defaults.
  *   `values` (n_areas): the openings or sizes. NULL: not wanted.
  *   `reached` (n_areas): the areas at these values. NULL: not wanted.
  *   `range`: the areas that can be reached. NULL: not wanted.
- * The area 0 stands for the closed valve: it gives the opening with the least area, even if that area is not 0. If several
- * openings have the wanted area, the call gives the least of them. If several sizes have the wanted area, the call gives the size
- * nearest to the present size. With RIIS_TRIANGULATION_ADAPTED the area jumps by up to 1e-4 of the largest area where the
- * triangles change. If a wanted area lies inside a jump, the call gives the value at the nearer end of the jump. The search may
- * miss areas that occur only between two neighbouring samples.
+ * The area 0 stands for the closed valve: the call then gives the opening with the least area, even if this area is not 0. If
+ * several openings have the wanted area, the call gives the least of them. If several sizes have the wanted area, the call gives
+ * the size nearest to the present size. With RIIS_TRIANGULATION_ADAPTED the area jumps by up to 1e-4 of the largest area where
+ * the triangles change. If a wanted area lies inside a jump, the call gives the value at the nearer end of the jump. The search
+ * may miss areas that occur only between two neighbouring samples.
  * Errors: RIIS_INVALID_ARGUMENT naming the area. If the area is out of reach, the message names the range. RIIS_INVALID_PARAMETER
  * for an unknown name, for a parameter with three values, for a valve with one state or no orifice, and if the name does not
  * change the area. If a surface cannot be made, the message also names the opening or size. On an error nothing is written. */
@@ -144,8 +146,8 @@ typedef struct riis_coaptation {
 } riis_coaptation;
 /* Measures the coaptation. Contact with a skirt or with the bileaflet housing does not count.
  *   `reach`: 1e-50 to 1e50. RIIS_AUTO stands for the surface's half thickness.
- *   `leaflet_id`: as in riis_triangles, or RIIS_ALL_LEAFLETS for the sum over all leaflets, which counts a contact from both
- *     sides.
+ *   `leaflet_id`: as in riis_triangles, or RIIS_ALL_LEAFLETS for the sum over all leaflets. This sum counts each contact twice,
+ *     once for each leaflet.
  * The error of an area is at most 1e-3 reach times the length of the contact's outline (docs/theory/measures.md). If the reach is
  * below 1/250 of the diagonal of the surface's box, details below 1/2000 of this diagonal are lost.
  * Errors: RIIS_INVALID_ARGUMENT for a leaflet that the surface lacks, and for a reach out of range. */
@@ -181,7 +183,8 @@ enum {
 /* The first opening at which the marked mesh has a passage. */
 typedef struct riis_first_passage {
   double opening;        /* the first opening with a passage; 0 for ALWAYS, 1 for NEVER, 0 for NONE */
-  double closed_opening; /* the largest opening below `opening` that was found closed, with FOUND; else `opening` */
+  double closed_opening; /* with RIIS_FIRST_PASSAGE_FOUND, the largest opening below `opening` that was found closed; otherwise
+                            the same as `opening` */
   int64_t node_id;       /* the passage at `opening`, as in riis_passage */
   double distance;       /* as in riis_passage */
   double point[3];       /* as in riis_passage */
@@ -211,8 +214,8 @@ typedef struct riis_cells_across {
   int64_t n_edges;       /* the number of edges with at least one marked node. If n_edges is 0, all fields except half_thickness
                             are 0 */
 } riis_cells_across;
-/* Computes the number of mesh edges across the band. An edge counts once, even if both of its nodes have it in the adjacency.
- * Edges to ghosts and edges of length 0 do not count.
+/* Computes the number of mesh edges across the band. An edge counts once, even if it is in the adjacency's rows of both its
+ * nodes. Edges to ghosts and edges of length 0 do not count.
  *   `marks`: marks from riis_mark_nodes.
  *   `mesh`: the mesh of the marking, with an adjacency.
  * Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, for empty marks, and for marks with another number of

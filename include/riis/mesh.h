@@ -18,14 +18,14 @@ extern "C" {
 typedef struct riis_mesh riis_mesh;
 
 /* Borrows node coordinates and checks them once. The coordinates must stay in place until the mesh is updated or destroyed. With
- * MPI, a process without nodes also makes a mesh.
+ * MPI, a process without nodes must also make a mesh.
  *   `n_nodes`: 0 to 2^40; with 0 the pointers may be NULL.
  * Errors: RIIS_INVALID_MESH naming the node and the value. RIIS_LIMIT_EXCEEDED for too many nodes. */
 RIIS_API riis_status riis_mesh_create(int64_t n_nodes, const double *x, const double *y, const double *z,
                                       int64_t stride, riis_mesh **mesh);
 /* Tells the mesh that its coordinates have changed or are now in other arrays, and checks them again. Call this function after
- * every change of coordinates. The adjacency stays if n_nodes is the same. A mesh with other nodes needs a new handle. Arguments
- * and errors are as in riis_mesh_create. */
+ * every change of coordinates. The adjacency stays if n_nodes is the same. Make a new handle for another mesh. Arguments and
+ * errors are as in riis_mesh_create. */
 RIIS_API riis_status riis_mesh_update(riis_mesh *mesh, int64_t n_nodes, const double *x, const double *y,
                                       const double *z, int64_t stride);
 /* Copies node coordinates and checks them. Use this call for a temporary array of Fortran, or for single precision, which is
@@ -42,9 +42,9 @@ RIIS_API void riis_mesh_destroy(riis_mesh **mesh);
  * Errors: RIIS_LIMIT_EXCEEDED for 2^32 nodes or more. RIIS_INVALID_MESH as riis_mark_nodes. */
 RIIS_API riis_status riis_mesh_prepare(riis_mesh *mesh, int32_t n_threads);
 
-/* A rectilinear grid: three axes, and the place of each node in the caller's arrays. Node (i, j, k) is at (x[i], y[j], z[k])
- * and has the number first + i stride[0] + j stride[1] + k stride[2], all from 0. A number below n_nodes may have no node, such
- * as the number of an entry in a halo. */
+/* A rectilinear grid: three axes, and the place of each node in the caller's arrays. Node (i, j, k) is at (x[i], y[j], z[k]) and
+ * has the number first + i stride[0] + j stride[1] + k stride[2], all from 0. A number below n_nodes may belong to no node, for
+ * example if it is the number of an entry in a halo. */
 typedef struct riis_grid {
   int64_t struct_size;   /* set by the init function */
   int64_t ni, nj, nk;    /* nodes along each axis, each >= 1 */
@@ -64,11 +64,11 @@ typedef struct riis_grid {
 } riis_grid;
 RIIS_API riis_status riis_grid_init(riis_grid *grid, int64_t struct_size); /* the defaults */
 /* Makes a mesh from the axes of a grid, and stores nothing for each node. A marking gives the same bits as on a mesh that
- * riis_mesh_create makes from the same nodes. The edges of the mesh come from riis_mesh_set_adjacency, otherwise from
- * riis_adjacency_create_from_grid. Axes are not periodic. Markings refuse RIIS_SEARCH_NEIGHBOR and RIIS_SEARCH_PAPER. Sampling
- * and minimisation are refused for more than 10^8 nodes.
+ * riis_mesh_create makes from the same nodes. The edges of the mesh are those of riis_adjacency_create_from_grid, unless
+ * riis_mesh_set_adjacency gives others. Axes are not periodic. Markings refuse RIIS_SEARCH_NEIGHBOR and RIIS_SEARCH_PAPER.
+ * Sampling and minimisation are refused for more than 10^8 nodes.
  *   `grid`: the axes, which are copied. In all other calls, the mesh has the grid's n_nodes.
- * Errors: RIIS_INVALID_MESH naming the axis, the index and the value. RIIS_LIMIT_EXCEEDED for numbers from 2^40 on. */
+ * Errors: RIIS_INVALID_MESH naming the axis, the index and the value. RIIS_LIMIT_EXCEEDED for a node's number of 2^40 or more. */
 RIIS_API riis_status riis_mesh_create_grid(const riis_grid *grid, riis_mesh **mesh);
 /* Gives a mesh other axes, or turns a mesh of points into a grid. The call riis_mesh_update turns a grid into points.
  * Errors: those of riis_mesh_create_grid; the mesh then keeps its nodes. */

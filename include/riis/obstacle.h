@@ -21,7 +21,7 @@ typedef struct riis_resistance_arrays {
   double *K;                   /* (n_nodes) by K_stride; NULL if not wanted */
   int64_t K_stride;            /* default 1 */
   double *K_u_surface[3];      /* (n_nodes) by K_u_surface_stride, for x, y and z; all NULL if not wanted */
-  int64_t K_u_surface_stride;  /* numbers from node to node: default 1; 3 for xyz(3,n) with {xyz, xyz + 1, xyz + 2} */
+  int64_t K_u_surface_stride;  /* default 1; 3 for xyz(3,n) with {xyz, xyz + 1, xyz + 2} */
 } riis_resistance_arrays;
 /* Fills *arrays with the defaults. */
 RIIS_API riis_status riis_resistance_arrays_init(riis_resistance_arrays *arrays, int64_t struct_size);
@@ -29,7 +29,7 @@ RIIS_API riis_status riis_resistance_arrays_init(riis_resistance_arrays *arrays,
  * (sum of K) u - (sum of K u_surface). Nodes may be cell centres or quadrature points. The struct riis_mark_list also gives K and
  * K u_surface.
  *   `resistance`: RIIS_RIM_CUT needs RIIS_FIELD_RIM, and K_u_surface needs RIIS_FIELD_VELOCITY.
- * Errors: RIIS_INVALID_ARGUMENT also for marks that no marking has filled, and for a field that the marks lack. */
+ * Errors: RIIS_INVALID_ARGUMENT also for empty marks, and for a field that the marks lack. */
 RIIS_API riis_status riis_marks_add_resistance(const riis_marks *marks, const riis_resistance *resistance,
                                                const riis_resistance_arrays *arrays);
 
@@ -43,18 +43,18 @@ typedef struct riis_flow_arrays {
 } riis_flow_arrays;
 RIIS_API riis_status riis_flow_arrays_init(riis_flow_arrays *flow, int64_t struct_size); /* the defaults */
 /* The caller's arrays, to which the forces and moments of the flow are added. NULL leaves a sum out. The arrays must not overlap.
- * A node's force is weight K (velocity - u_surface), and acts at the node's closest point. The power of a rigid surface is
- * therefore force times velocity plus moment times angular velocity, even with an offset. */
+ * A node's force is weight K (velocity - u_surface), and acts at the node's closest point. If the surface moves rigidly, the
+ * power of the forces is therefore force times velocity plus moment times angular velocity, even with an offset. */
 typedef struct riis_reaction {
   int64_t struct_size;      /* set by the init function */
   double about[3];          /* the reference point of moment and leaflet_moment; magnitude at most 1e60.
                                Default 0 */
-  double *force;            /* (3): force on the whole surface, in the unit of weight K velocity, N in SI units */
+  double *force;            /* (3): force on the whole surface, in the unit of weight K velocity, which is N in SI units */
   double *moment;           /* (3): moment on the whole surface */
   int64_t n_leaflets;       /* the number of columns of leaflet_force and leaflet_moment, which must be more than
                                riis_surface_info.largest_leaflet_id. Default 0 */
-  double *leaflet_force;    /* (3, n_leaflets): force on each leaflet. A node belongs to the leaflet in
-                               riis_mark_list.leaflet_id, also if two leaflets are equally near */
+  double *leaflet_force;    /* (3, n_leaflets): force on each leaflet. A node belongs to the leaflet in riis_mark_list.leaflet_id,
+                               even if two leaflets are equally near */
   double *leaflet_moment;   /* (3, n_leaflets): moment on each leaflet */
   int64_t n_edges;          /* the number of edges, at least 1. Not used without edge_force and edge_moment. Default 0 */
   const double *edges;      /* (3, 2, n_edges): both ends of each edge, for example riis_attachment.edges;
@@ -72,13 +72,13 @@ RIIS_API riis_status riis_reaction_init(riis_reaction *reaction, int64_t struct_
  *   `flow`: u and the volumes; u_surface counts as 0 if the marking lacks RIIS_FIELD_VELOCITY.
  *   `reaction`: moments and sums of edges need RIIS_FIELD_POINT.
  * Each result is a sum over nodes. With MPI all ranks pass the same reference point and edges, and add up their results. The sums
- * of leaflets add up to the sum of the whole surface, up to rounding. The forces on edges serve as loads for a code of tissue,
- * but do not model how a membrane carries loads to its edges. The time for a node grows as log n_edges, or as n_edges if all
- * edges are equally near. The force on a valve at rest is correct. The force on a moving valve includes the inertia of the blood
- * in the band. If a scheme has K at its faces, the pressure equation of a moving valve needs a source. Without the source the
- * force is wrong by newtons (docs/solvers.md, "The source in the band"). The source acts in each set of cells that walls and
- * faces with K dt > rho enclose, and equals the outflow of u_surface through these faces. Finite elements have the same error for
- * K dt > rho, and no such volume source is known for finite elements.
+ * of the leaflets add up to the sum of the whole surface, up to rounding. The forces on edges serve as loads in a code for
+ * tissue, but do not model how a membrane carries loads to its edges. The time for a node grows as log n_edges, or as n_edges if
+ * all edges are equally near. The force on a valve at rest is correct. The force on a moving valve includes the inertia of the
+ * blood in the band. If a scheme applies K at its faces, a moving valve needs a source in the pressure equation. Without the
+ * source the force is wrong by newtons (docs/solvers.md, "The source in the band"). In each set of cells that is enclosed by
+ * walls and by faces with K dt > rho, the source equals the outflow of u_surface through these faces. Finite elements have the
+ * same error if K dt > rho, but for finite elements no such source is known.
  * Errors: as riis_marks_add_resistance. RIIS_INVALID_ARGUMENT also if n_leaflets is too small (the message names the leaflet id),
  * if a leaflet lacks an edge, if an edge is bad, and if the reaction has no array. */
 RIIS_API riis_status riis_marks_add_reaction(const riis_marks *marks, const riis_resistance *resistance,
@@ -90,10 +90,10 @@ RIIS_API riis_status riis_marks_add_reaction(const riis_marks *marks, const riis
  *   `n_vertices`: riis_triangles.n_vertices.
  *   `vertex_force` (3, n_vertices): the array to which the forces are added. The three vertices of a node's closest triangle
  *     share the node's force. The barycentric coordinates of the closest point are the shares.
- * The forces on the vertices of a leaflet add up to leaflet_force of riis_marks_add_reaction, and their moment is
- * leaflet_moment, up to rounding. For every motion of the vertices, the forces on the vertices have the same power as the forces
- * of the nodes. Vertices with equal coordinates are not joined: a valve repeats its vertices along sides of patches, and arrays
- * may share a vertex between leaflets. With MPI, add up the forces of all ranks.
+ * The forces on the vertices of a leaflet add up to leaflet_force of riis_marks_add_reaction, and their moment is leaflet_moment,
+ * up to rounding. For every motion of the vertices, the forces on the vertices have the same power as the forces of the nodes.
+ * Vertices with equal coordinates keep separate forces, as along the sides of a valve's patches. A vertex that leaflets of arrays
+ * share has the sum of their forces. With MPI, add up the forces of all ranks.
  * Errors: as riis_marks_add_reaction. RIIS_INVALID_ARGUMENT also for marks without RIIS_FIELD_BARYCENTRIC, for another number of
  * vertices, and if the surface lacks a closest triangle. */
 RIIS_API riis_status riis_marks_add_vertex_reaction(const riis_marks *marks, const riis_surface *surface,
@@ -110,8 +110,8 @@ typedef struct riis_band_sums {
 /* A band around the surface, and a value at the nodes. */
 typedef struct riis_band {
   int64_t struct_size;  /* set by the init function */
-  double inner, outer;  /* the band holds the distances d with 0 <= inner <= d <= outer. With the offset o, outer + |o| eps must
-                           be at most the marking's distance limit. Default 0 */
+  double inner, outer;  /* the band holds the distances d with 0 <= inner <= d <= outer. With an offset o and the half thickness
+                           eps, outer + |o| eps must be at most the marking's distance limit. Default 0 */
   int64_t n_nodes;      /* the number of nodes of the marking, which must have RIIS_FIELD_SIDE and RIIS_FIELD_RIM */
   const double *value;  /* (n_nodes), such as the pressure; NULL only for 0 nodes */
   const double *weight; /* (n_nodes), volume around a node, 0 for nodes of other ranks; NULL only for 0 nodes */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * patient.h - valves of a patient: sizes and placement from landmarks, a warp that meets them, and a skirt that reaches the wall.
- * The header riis.h includes this file, and has the rules that hold for every call.
+ * patient.h - valves of a patient: sizes and placement from landmarks, a warp that takes a valve to landmarks, and a skirt that
+ * reaches the wall. The header riis.h includes this file, and has the rules that hold for every call.
  */
 /* clang-format off: argument lists in comments are laid out by hand */
 #ifndef RIIS_PATIENT_H
@@ -17,25 +17,24 @@ extern "C" {
 
 /* The anatomy that a landmark marks, on the closed valve. */
 enum {
-  RIIS_LANDMARK_COMMISSURE = 0,     /* cusps: the top of the attachment between two cusps; as many as cusps. tricuspid: the
-                                       annulus between two leaflets; exactly 3 */
-  RIIS_LANDMARK_NADIR = 1,          /* cusps: the lowest point of a cusp's attachment; as many as cusps */
+  RIIS_LANDMARK_COMMISSURE = 0,     /* cusps: the top of the attachment between two cusps; as many as there are cusps. tricuspid:
+                                       the annulus between two leaflets; exactly 3 */
+  RIIS_LANDMARK_NADIR = 1,          /* cusps: the lowest point of a cusp's attachment; as many as there are cusps */
   RIIS_LANDMARK_COAPTATION = 2,     /* cusps: where the closed cusps meet; at most 1. The valve's axis passes through this point;
                                        the point's height is not used */
   RIIS_LANDMARK_ANNULUS = 3,        /* mitral, mitral_coapting, tricuspid: a point of the annulus; 4 or more, in their
                                        order around it. bileaflet: a point of the housing's circle at mid-height; 3 or
                                        more */
-  RIIS_LANDMARK_ANTERIOR_HORN = 4,  /* mitral: the annulus at the middle of the anterior leaflet; exactly 1.
-                                       mitral_coapting: the same, and also the next horn and the commissures; without
-                                       this horn, both commissures and the flow are needed */
-  RIIS_LANDMARK_POSTERIOR_HORN = 5, /* mitral: the annulus at the middle of the posterior leaflet; at most 1 */
+  RIIS_LANDMARK_ANTERIOR_HORN = 4,  /* the annulus at the middle of the anterior leaflet. mitral: exactly 1. mitral_coapting: at
+                                       most 1; without this horn, both commissures and the flow are needed */
+  RIIS_LANDMARK_POSTERIOR_HORN = 5, /* mitral, mitral_coapting: the annulus at the middle of the posterior leaflet; at most 1 */
   RIIS_LANDMARK_TRIGONE = 6,        /* mitral: a point of the annulus at an end of the length IT_distance; at most 2. Trigones
                                        behind the anterior horn count as points of the annulus (riis_placement.n_as_annulus) */
-  RIIS_LANDMARK_POSTEROMEDIAL = 7,  /* mitral: the annulus at the posteromedial commissure; at most 1 */
-  RIIS_LANDMARK_ANTEROLATERAL = 8,  /* mitral: the annulus at the anterolateral commissure; at most 1 */
+  RIIS_LANDMARK_POSTEROMEDIAL = 7,  /* mitral, mitral_coapting: the annulus at the posteromedial commissure; at most 1 */
+  RIIS_LANDMARK_ANTEROLATERAL = 8,  /* mitral, mitral_coapting: the annulus at the anterolateral commissure; at most 1 */
   RIIS_LANDMARK_HINGE = 9,          /* bileaflet: an end of a leaflet's hinge line; 2 of one leaflet, or 4 */
   RIIS_LANDMARK_ATTACHMENT = 10     /* cusps: any further point of the attachment; at most 900. The sizes and the placement do not
-                                       depend on such a point, which serves a warp by riis_placement_arrays.place */
+                                       depend on these points, but a warp can use them (riis_placement_arrays.place) */
 };
 /* Landmarks of a patient, in the caller's arrays. */
 typedef struct riis_landmarks {
@@ -47,7 +46,7 @@ typedef struct riis_landmarks {
   const int32_t *leaflet_id; /* (2, n_landmarks): the leaflets of each landmark. A nadir or attachment point has its cusp and -1,
                                 and a commissure has its two leaflets in any order. -1 and -1 stand for unknown leaflets. NULL:
                                 all -1. For an aortic or tricuspid valve, the known leaflets must determine the names of all
-                                leaflets. For other kinds without names, the first nadir lies on cusp 0 */
+                                leaflets. For other kinds, if all leaflets are unknown, the first nadir lies on cusp 0 */
   double scale;              /* mesh units in a centimetre: 10 for millimetres, 1 for centimetres, or 0.01 for metres. Must be
                                 set */
   double noise;              /* the scatter of the landmarks: the standard deviation of each coordinate, mesh units, >= 0.
@@ -63,9 +62,9 @@ RIIS_API riis_status riis_landmarks_init(riis_landmarks *landmarks, int64_t stru
 
 /* Where a parameter's value comes from. */
 enum {
-  RIIS_SIZE_KEPT = 0,        /* it is the valve's own */
-  RIIS_SIZE_DETERMINED = 1,  /* the landmarks determine the parameter: its standard error at their noise moves the
-                                valve by at most a fifteenth of its radius */
+  RIIS_SIZE_KEPT = 0,        /* the value is the valve's own */
+  RIIS_SIZE_DETERMINED = 1,  /* the landmarks determine the parameter: a change by its standard error moves the valve by at most a
+                                fifteenth of the valve's radius */
   RIIS_SIZE_TIED = 2,        /* no landmark bears on the parameter, which follows from other sizes by the valve's proportions */
   RIIS_SIZE_UNDETERMINED = 3 /* landmarks bear on the parameter but do not determine it, so it stays near the valve's
                                 proportions */
@@ -97,11 +96,11 @@ typedef struct riis_placement_arrays {
   int32_t *size_state;       /* (number of parameters): RIIS_SIZE_* */
   double *place;             /* (3, n_landmarks): the landmarks' places on the closed valve, in mesh units. A warp takes these
                                 places to the landmarks. A commissure's place is the mean of its cusps' ends. The places of
-                                attachment points are chosen so that this warp bends least. Equal points of one line have one
-                                place */
+                                attachment points are chosen so that this warp bends least. Equal landmarks on the annulus, or on
+                                the attachment of one cusp, have the same place */
 } riis_placement_arrays;
 RIIS_API riis_status riis_placement_arrays_init(riis_placement_arrays *arrays, int64_t struct_size); /* NULL arrays */
-/* Sets a valve's sizes, in centimetres, to a patient's sizes, and finds its placement.
+/* Sets a valve's sizes, in centimetres, to a patient's sizes, and finds the placement of the valve.
  *   `valve`: a valve of any kind with any parameters. Lengths without a landmark keep their proportions. Translation, opening and
  *     the open state of riis_valve_set_open_state stay.
  *   `held`: the names of the parameters whose values do not change, separated by blanks or commas. "" stands for no name.
@@ -151,11 +150,11 @@ RIIS_API riis_status riis_warp_options_init(riis_warp_options *options, int64_t 
 RIIS_API riis_status riis_warp_create(const riis_points *sources, const riis_warp_options *options, riis_warp **warp);
 /* Destroys the warp. Valves with this warp keep their copies. */
 RIIS_API void riis_warp_destroy(riis_warp **warp);
-/* Makes the warp take the landmarks to the targets. The same targets give the same bits after any earlier targets.
+/* Makes the warp take the landmarks to the targets. The map is bitwise the same, whatever the earlier targets were.
  *   `targets`: one point for each source, in the order of the sources.
  * Errors: RIIS_INVALID_ARGUMENT naming the point. RIIS_INVALID_PARAMETER for a warp that folds. A warp folds if the determinant
- * of the map's derivative is not above 0 half way between some landmark and its nearest landmark. With more noise, a warp folds
- * less. */
+ * of the map's derivative is 0 or less half way between some landmark and its nearest landmark. A larger noise in the options
+ * smooths the map, and may prevent folds. */
 RIIS_API riis_status riis_warp_set_targets(riis_warp *warp, const riis_points *targets);
 /* Makes the warp take the landmarks to their places at a given time, which are interpolated between frames.
  *   `frames`: n_vertices is the number of landmarks. The keys are read during the call only.
@@ -185,16 +184,18 @@ RIIS_API riis_status riis_warp_get_info(const riis_warp *warp, riis_warp_info *i
  * Errors: RIIS_INVALID_ARGUMENT naming the point. */
 RIIS_API riis_status riis_warp_map(const riis_warp *warp, const riis_points *points, double *mapped);
 
-/* Warps a valve: the map moves the valve's curves at every opening, before the placement. The valve copies both maps.
+/* Warps a valve by one or two maps. The maps move the valve's curves at every opening, before the placement. The valve copies the
+ * maps.
  *   `closed`: the map at opening 0. If both maps are NULL, the valve loses its warp.
  *   `open`: the map at opening 1. If this map is NULL, `closed` serves for all openings.
  * Between openings 0 and 1 the map is (1 - opening) times `closed` plus opening times `open`. The valve's patches then lie
- * between the mapped curves. Error bounds, fixed triangulations and velocities are therefore as for any valve. The warp may move
- * even with RIIS_TRIANGULATION_FIXED. Landmarks of `closed` cut the curves of the closed valve, and landmarks of `open` cut the
- * curves of the open valve. The warped valve thus passes through the mapped landmarks on its curves. For a moving annulus, use
- * two valves in turn. In each step, call riis_warp_set_targets and this function for one of the two valves, and pass both valves
- * to riis_surface_update_moving. Either both valves have a warp, or neither has one. A call that makes or updates a surface
- * refuses a warp that folds at the valve or turns a part of the valve over: RIIS_INVALID_PARAMETER names the place and the value.
+ * between the mapped curves. Error bounds, fixed triangulations and velocities are therefore as for any valve. The warp may
+ * change even with RIIS_TRIANGULATION_FIXED. Landmarks of `closed` cut the curves of the closed valve, and landmarks of `open`
+ * cut the curves of the open valve. The warped valve thus passes through the mapped landmarks on its curves. For a moving
+ * annulus, use two valves in turn. In each step, call riis_warp_set_targets and this function for one of the two valves, and pass
+ * both valves to riis_surface_update_moving. Both valves must have a warp, or neither of them. A call that makes or updates a
+ * surface refuses a warp that folds at the valve or turns a part of the valve over: RIIS_INVALID_PARAMETER names the place and
+ * the value.
  * Errors: RIIS_INVALID_ARGUMENT for `open` without `closed`. RIIS_INVALID_PARAMETER for a bileaflet valve, which is rigid. */
 RIIS_API riis_status riis_valve_set_warp(riis_valve *valve, const riis_warp *closed, const riis_warp *open);
 
@@ -206,15 +207,16 @@ typedef struct riis_gap {
                                wall */
   double widest_point[3];   /* the end of an edge with the widest gap */
   int64_t n_ends;           /* the number of ends of edges, 2 * riis_attachment.n_edges */
-  int64_t n_without_wall;   /* the number of ends without a wall in the skirt's direction. These ends count in no other field */
+  int64_t n_without_wall;   /* the number of ends without a wall in the skirt's direction. Such an end has no gap, and counts only
+                               here and in n_ends */
 } riis_gap;
 /* Measures the gap between a valve's attachment and a wall, such as a patient's vessel.
  *   `wall`: a surface in the valve's frame, usually by riis_surface_create_from_arrays.
  *   `distance` (2, n_edges): receives the gap at both ends of each edge of riis_attachment. RIIS_FAR_DISTANCE stands for an end
  *     without a wall. NULL: not wanted.
  * The gap is the distance to the wall in the skirt's direction, which is outwards from the valve's axis and perpendicular to it
- * (docs/theory/skirt.md). If the wall lies there several times, the nearest place counts. The gap is negative if the wall lies
- * inside the attachment.
+ * (docs/theory/skirt.md). If the wall is met several times in this direction, the nearest place counts. The gap is negative if
+ * the wall lies inside the attachment.
  * Errors: RIIS_INVALID_ARGUMENT for a surface without an attachment, and for an attachment that encloses no area. */
 RIIS_API riis_status riis_surface_get_gap(const riis_surface *surface, const riis_surface *wall, double *distance,
                                           riis_gap *gap, int64_t struct_size);
@@ -224,7 +226,7 @@ RIIS_API riis_status riis_surface_get_gap(const riis_surface *surface, const rii
  *   `options`: scale, rotation and translation place the valve, and n_threads is used. NULL stands for the defaults.
  * At each point of the closed valve's attachment, the skirt is as long as the gap, but at least 0.01 of the attachment's mean
  * distance from the axis. The lengths of the skirt stay while the valve opens. The parameter "skirt_length" becomes the largest
- * length, before placement. A later "skirt_length" of the caller replaces the lengths at the points.
+ * length, before placement. If the caller later sets "skirt_length", it replaces the lengths at all points.
  * Errors: RIIS_INVALID_ARGUMENT naming the first point from which the wall is missed or farther than longest.
  * RIIS_INVALID_PARAMETER for a bileaflet valve, and for an attachment that encloses no area. */
 RIIS_API riis_status riis_valve_set_skirt_to_wall(riis_valve *valve, const riis_surface *wall, double longest,

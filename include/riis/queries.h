@@ -97,9 +97,9 @@ RIIS_API void riis_crossings_destroy(riis_crossings **crossings); /* destroys th
  *   `crossings`: its content is replaced.
  * The depth of a pair is the length of the shortest translation of one triangle after which the two triangles only touch
  * (docs/theory/crossings.md). Triangles that touch or lie in one plane have depth 0. Triangles of one leaflet that share a vertex
- * (equal placed coordinates) are neighbours, and do not count as a pair. The call tests the triangles for any measure of the
- * surface. Where smooth leaflets touch, their triangles may cross by up to twice riis_surface_info.error_bound. A log function
- * (riis_set_log) gets warnings of deeper crossings even without this call.
+ * (equal placed coordinates) are neighbours, and do not count as a pair. The call always tests the triangles, even if the surface
+ * measures distances by sampling or minimisation. Where smooth leaflets touch, their triangles may cross by up to twice
+ * riis_surface_info.error_bound. A log function (riis_set_log) gets warnings of deeper crossings even without this call.
  * Errors: RIIS_INVALID_ARGUMENT naming the field. */
 RIIS_API riis_status riis_find_crossings(const riis_surface *surface, const riis_crossing_options *options,
                                          riis_crossings *crossings);

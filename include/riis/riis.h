@@ -2,12 +2,11 @@
  *
  * riis.h - the whole public interface of riis: heart valves as resistive immersed implicit surfaces.
  *
- * From a riis_valve, which has named parameters, riis_surface_create makes a riis_surface of triangles. riis_mark_nodes then
- * finds the nodes in the band around this surface, and puts them into riis_marks.
+ * A riis_valve has named parameters. riis_surface_create makes a riis_surface of triangles from it. riis_mark_nodes then finds
+ * the nodes in the band around this surface, and puts them into riis_marks.
  *
- * A flow solver gives the nodes of its mesh, and gets the nodes near the valve's leaflets, with their distances. At these
- * nodes the momentum equation has the term K (u - u_surface), which holds the blood back. No mesh has to follow the
- * moving leaflets.
+ * A flow solver passes the nodes of its mesh, and gets the nodes near the valve's leaflets with their distances. At these nodes
+ * the momentum equation has the term K (u - u_surface), which holds the blood back. No mesh has to follow the moving leaflets.
  *
  * The shortest complete program:
  *
@@ -28,8 +27,8 @@
  *   struct count from that base, 0 (default) or 1. A field id_bits gives the ids' width: 32 (default) or 64.
  * - Points: point i is x[i * stride], y[i * stride], z[i * stride]. Coordinates are finite, of magnitude at most 1e60. The stride
  *   counts numbers, not bytes, and is at least 1. Separate arrays have the stride 1. An array xyz(3,n) has the stride 3, with y =
- *   x + 1 and z = x + 2. Calls refuse components that overlap. A field real_bits gives the width of the numbers: 64 (default) or
- *   32 bits. Without this field the numbers are doubles. These rules also hold for vectors.
+ *   x + 1 and z = x + 2. Calls refuse arrays x, y and z that overlap. A field real_bits gives the width of the numbers: 64
+ *   (default) or 32 bits. Without a field real_bits the numbers are doubles. The rules of points also hold for vectors.
  * - Order: the first argument is the object after which the function is named. The other arguments follow in this order: what the
  *   call reads, options, what the call writes. Functions with `get` in their names return the content of an object.
  * - Status: a function that can fail returns a riis_status; 0 is success, and riis_last_error() gives the message of a failure.
@@ -37,9 +36,9 @@
  *   negative, an object that the call writes may be damaged: destroy this object. No function aborts, prints or throws.
  * - Any function may return RIIS_INVALID_ARGUMENT for a forbidden NULL and for an argument or field out of range,
  *   RIIS_INVALID_STRUCT_SIZE for a struct of a wrong size, and RIIS_OUT_OF_MEMORY.
- * - Handles: a new object is the last argument, and is written only on success. A destroy function takes a handle's
- *   address, accepts NULL, and sets the handle to NULL. A destroy function ignores a handle of another kind. All other calls
- *   refuse such a handle.
+ * - Handles: a new object is the last argument, and is written only on success. A destroy function takes a handle's address,
+ *   accepts NULL, and sets the handle to NULL. A destroy function ignores a handle of another kind, and all other calls refuse
+ *   it.
  * - Memory: a call reads its arguments and their arrays only while it runs. A call that borrows arrays for longer says so in its
  *   comment. Arrays that a call returns belong to the handle, and are valid until the handle's next update or destruction. A
  *   returned array without entries is NULL. The caller may also pass NULL for an array without entries.
@@ -48,18 +47,18 @@
  * - Structs that a call reads begin with struct_size. The init function of a struct sets struct_size and the defaults, and sets
  *   all other fields to 0 or NULL. A NULL options pointer means all defaults. New fields are appended to a struct, or replace its
  *   field `reserved`, which must be 0.
- * - Threads: any number of threads may read a handle (const) at once. While a thread writes a handle, no other thread may use
- *   it, and most calls that try are refused. Different handles never interfere. Results are bitwise the same for any number of
- *   threads.
+ * - Threads: any number of threads may read a handle (const) at once. While a thread writes a handle, no other thread may use it.
+ *   The library refuses most calls that break this rule. Different handles never interfere. Results are bitwise the same for any
+ *   number of threads.
  * - n_threads: 1 to 1024, or 0, the default. By default a call takes one thread, and one more for each 4096 triangles of the
- *   surface, 16,384 nodes, cells or faces, or 2048 points. For an update, the triangles before the update count. The default
- *   never exceeds the number of processors in the calling thread's affinity mask. By default, parts of a call with little work
- *   take one thread. With n_threads 1, the library starts no thread. OMP_NUM_THREADS and omp_set_num_threads have no effect. If
- *   the system refuses a thread or its memory, OpenMP and TBB end the process (docs/building.md). The library's own threads block
- *   all signals except the signals of errors, such as SIGSEGV.
- * - fork(): if the library has used several threads, a child process may use only one thread, which is then the default. If a
- *   child requests more threads, the call returns RIIS_UNAVAILABLE. A child cannot make surfaces if another thread was inside the
- *   library during the fork.
+ *   surface, for each 16,384 nodes, cells or faces, or for each 2048 points. An update counts the triangles that the surface had
+ *   before. The default never exceeds the number of processors in the calling thread's affinity mask. By default, a part of a
+ *   call with little work takes only one thread. With n_threads 1, the library starts no thread. OMP_NUM_THREADS and
+ *   omp_set_num_threads have no effect. If the system refuses a thread or its memory, OpenMP and TBB end the process
+ *   (docs/building.md). The library's own threads block all signals except the signals of errors, such as SIGSEGV.
+ * - fork(): after the library has used several threads, a child process may use only one thread. One thread is then its default.
+ *   If a child requests more threads, the call returns RIIS_UNAVAILABLE. A child cannot make surfaces if another thread was
+ *   inside the library during the fork.
  * - Environment: calls and log functions run with the default floating-point environment. At its end, each call restores the
  *   caller's floating-point environment. The caller's OpenMP and TBB settings are not changed.
  *
@@ -155,7 +154,7 @@
  *   riis_leaks_create, riis_leaks_destroy
  *   riis_find_leaks                      mesh edges that leak through the surface
  *   riis_leaks_get_list                  these edges
- *   riis_label_open_regions              the regions that the marks part
+ *   riis_label_open_regions              the regions that the marks separate
  *   riis_passage_ends_init
  *   riis_find_passage                    the widest passage between two sets of nodes
  * measures.h: sizes that matter for a flow
@@ -176,7 +175,7 @@
  *   riis_place                           sizes and placement from a patient's landmarks
  *   riis_warp_options_init
  *   riis_warp_create, riis_warp_destroy  a map from landmarks to landmarks
- *   riis_warp_set_targets                the places to which it takes the landmarks
+ *   riis_warp_set_targets                the places to which the warp takes the landmarks
  *   riis_warp_set_targets_at             the same from a table in time
  *   riis_warp_get_info                   the quality of the map
  *   riis_warp_map                        maps points

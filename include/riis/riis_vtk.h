@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * riis_vtk.h - optional component: meshes and surfaces from and to VTK files, and pictures. The component is a separate library,
- * riis_vtk, so that the core needs no VTK.
+ * riis_vtk.h - optional component: reads and writes meshes and surfaces in VTK files, and draws pictures. The component is a
+ * separate library, riis_vtk, so that the core needs no VTK.
  *
- * The rules of riis.h also hold here, and riis_last_error() has the messages. These rules are added:
+ * The rules of riis.h also hold here, and riis_last_error() has the messages. The following rules are added:
  *
  * - VTK keeps process-wide state: call these functions from one thread at a time.
  * - Messages that VTK would print are caught, and become the message of the error.
@@ -62,8 +62,8 @@ RIIS_API riis_status riis_vtk_mesh_get_nodes(const riis_vtk_mesh *mesh, int64_t 
  * file, or from a legacy file of these kinds. The mesh has two or more nodes along each axis, and coordinates that strictly
  * ascend. The cells are hexahedra. Coordinates and cells are stored only after a call that needs them, such as
  * riis_vtk_mesh_get_nodes. Calls for arrays, such as riis_vtk_mesh_set_marks, do not need coordinates and cells.
- *   `grid`: its arrays x, y and z are valid until the mesh is destroyed. For any other mesh, ni, nj and nk are 0, as after
- *     riis_vtk_mesh_use_centers or riis_vtk_mesh_choose_cells. */
+ *   `grid`: its arrays x, y and z are valid until the mesh is destroyed. For any other mesh, ni, nj and nk are 0, for example
+ *     after riis_vtk_mesh_use_centers or riis_vtk_mesh_choose_cells. */
 RIIS_API riis_status riis_vtk_mesh_get_axes(const riis_vtk_mesh *mesh, riis_grid *grid, int64_t struct_size);
 
 /* Makes the adjacency of the mesh for riis_mesh_set_adjacency. Two nodes are neighbours if an edge of a volume cell joins them.
@@ -78,7 +78,7 @@ RIIS_API riis_status riis_vtk_mesh_get_axes(const riis_vtk_mesh *mesh, riis_grid
  * lattice. */
 RIIS_API riis_status riis_vtk_mesh_create_adjacency(const riis_vtk_mesh *mesh, int32_t n_threads,
                                                     riis_adjacency **adjacency);
-/* Counts the volume cells. If a mesh has no volume cells, as a mesh of triangles, nothing can be said about leaks.
+/* Counts the volume cells. For a mesh without volume cells, such as a mesh of triangles, leaks cannot be found.
  *   `n_volume_cells`: NULL if not wanted.
  *   `n_cells_left_out`: the number of volume cells whose edges are not known (riis_vtk_mesh_create_adjacency). NULL if not
  *     wanted. */
@@ -89,7 +89,7 @@ RIIS_API riis_status riis_vtk_mesh_get_volume_cells(const riis_vtk_mesh *mesh, i
  * node ids for the second call.
  *   `n_cells`: the number of cells, as riis_vtk_mesh_get_nodes gives it.
  *   `offsets` (n_cells + 1): cell i has the nodes node_ids[offsets[i]] to node_ids[offsets[i + 1] - 1]; NULL if not wanted.
- *   `types` (n_cells): the numbers that VTK has for types of cells, such as 10 for a tetrahedron; NULL if not wanted.
+ *   `types` (n_cells): VTK's numbers for the types of the cells, such as 10 for a tetrahedron; NULL if not wanted.
  *   `n_node_ids`: the last offset; 0 if node_ids is NULL.
  *   `node_ids` (n_node_ids), from 0, in VTK's order; NULL if not wanted. Each point of a polyhedron is listed once.
  * Errors: RIIS_INVALID_ARGUMENT for a wrong n_cells or n_node_ids, and for a mesh of centres. */
@@ -99,9 +99,9 @@ RIIS_API riis_status riis_vtk_mesh_copy_cells(const riis_vtk_mesh *mesh, int64_t
 /* Makes the part of the mesh's adjacency that riis_find_leaks needs, in one pass over the cells. The part consists of the edges
  * that are longer than a given length and whose bounding box meets the surface's bounding box. The adjacency borrows nothing from
  * the mesh. Use this part only for riis_find_leaks, because it has too few edges for a search.
- *   `longer_than`: a length of 2 (1 - |o|) half thicknesses of the marking, with the offset o. With the length 0, the part has
- *     all edges near the surface. Use 0 after a marking by RIIS_SEARCH_PAPER, sampling or minimisation. The part also has edges
- *     that are shorter than longer_than by up to a billionth.
+ *   `longer_than`: pass 2 (1 - |o|) half thicknesses of the marking, with the offset o. After a marking by RIIS_SEARCH_PAPER,
+ *     sampling or minimisation, pass 0. With 0, the part has all edges near the surface. The part also has edges that are shorter
+ *     than longer_than by up to a billionth.
  *   `n_cells_left_out`: as in riis_vtk_mesh_get_volume_cells.
  * Errors: RIIS_INVALID_ARGUMENT if longer_than is below 0 or not finite. */
 RIIS_API riis_status riis_vtk_mesh_create_long_edges(const riis_vtk_mesh *mesh, const riis_surface *surface,
@@ -140,9 +140,9 @@ RIIS_API riis_status riis_vtk_mesh_set_point_array(riis_vtk_mesh *mesh, const ch
 RIIS_API riis_status riis_vtk_mesh_set_unit(riis_vtk_mesh *mesh, const char *name, const char *unit);
 /* Tells whether the mesh has a point array of a name: *has becomes 1 or 0. */
 RIIS_API riis_status riis_vtk_mesh_has_point_array(const riis_vtk_mesh *mesh, const char *name, int32_t *has);
-/* Gives the median length of the mesh's edges. The call counts the edges of volume cells, as in riis_vtk_mesh_create_adjacency,
- * and of faces except polygons, once for each cell. If a mesh has more than 20,000 cells, the call measures only 20,000 of them,
- * evenly spaced in the list. The length is 0 if the mesh has no edges. */
+/* Gives the median length of the mesh's edges. The call measures the edges of volume cells, as in riis_vtk_mesh_create_adjacency,
+ * and of faces except polygons. An edge counts once for each of its cells. If a mesh has more than 20,000 cells, the call
+ * measures only 20,000 of them, evenly spaced in the list. The length is 0 if the mesh has no edges. */
 RIIS_API riis_status riis_vtk_mesh_get_median_edge(const riis_vtk_mesh *mesh, double *length);
 
 /* Keeps only the cells with certain values in a cell array, and the nodes of these cells. The call can, for example, remove the
@@ -156,7 +156,7 @@ RIIS_API riis_status riis_vtk_mesh_get_median_edge(const riis_vtk_mesh *mesh, do
  * Errors: RIIS_INVALID_ARGUMENT if the mesh lacks the array or the named group. The mesh is then unchanged. */
 RIIS_API riis_status riis_vtk_mesh_choose_cells(riis_vtk_mesh *mesh, const char *where, int64_t *n_chosen);
 /* Gives a cell array that probably numbers the domains of the mesh. In such an array, the volume cells have 2 to 16 different
- * whole numbers. Some pair of cells of the same type with a common node has different numbers. Names such as "rank", which mean
+ * whole numbers. At least two cells of the same type that share a node have different numbers. Names such as "rank", which mean
  * something else, are excluded.
  *   `array`: the name of the array, valid until the next call or the mesh's destruction. "" if no array was found.
  *   `n_values`: the number of different values; 0 if no array was found.
@@ -294,13 +294,16 @@ RIIS_API riis_status riis_vtk_surface_write(const riis_surface *surface, const c
 
 /* ---- Motion -------------------------------------------------------------------------------------------- */
 
-/* The frames of a moving surface, such as a patient's valve. The frames come from files with the same faces at several times. The
- *   caller makes keyframes from the frames, and may set a period and an interpolation: riis_vtk_motion_read_pvd("valve.pvd",
- *   NULL, &motion);
+/* The frames of a moving surface, such as a patient's valve. The frames come from files with the same faces at several times.
+ * The caller makes keyframes from the frames, and may set a period and an interpolation:
+ *
+ *   riis_vtk_motion_read_pvd("valve.pvd", NULL, &motion);
  *   riis_vtk_motion_get_arrays(motion, &arrays, sizeof arrays);
  *   riis_vtk_motion_get_frames(motion, &frames, sizeof frames);
  *   frames.period = 0.8;
- *   riis_keyframes_create(&arrays, &frames, &keyframes); riis_vtk_motion_destroy(&motion);
+ *   riis_keyframes_create(&arrays, &frames, &keyframes);
+ *   riis_vtk_motion_destroy(&motion);
+ *
  * All reading functions share these rules:
  * - The formats are those of riis_vtk_surface_read. There are at most 1,000,000 files. All files have the same points and cells
  *   in the same order. Polygons and quads are cut as in the first file.
@@ -438,7 +441,8 @@ RIIS_API riis_status riis_vtk_picture_options_init(riis_vtk_picture_options *opt
  *   such as a box, is drawn whole.
  * - The captions give the half thickness and the number of marked nodes.
  * - With a velocity, the right panel shows the speed in the plane of the view through the centre of the surface's area. Lines
- *   show the wall and the leaflets where the plane cuts them. The bar of colours has the array's unit, otherwise `unit` "/s".
+ *   show the wall and the leaflets where the plane cuts them. The bar of colours has the array's unit. If the array has no unit,
+ *   the bar has `unit` with "/s" at its end.
  * - Axes and a scale bar are below the panels. A mesh that is much longer than the surface is cut off, and captions explain the
  *   dashed lines there. Pictures lower than 120 pixels have no texts, axes or bar.
  * - RIIS_VTK_VIEW_THREE and RIIS_VTK_VIEW_VALVE_THREE draw one column for each view, with one panel above the other. All columns

@@ -19,20 +19,20 @@ typedef struct riis_leaks riis_leaks;
 RIIS_API riis_status riis_leaks_create(riis_leaks **leaks); /* makes leaks without an edge */
 RIIS_API void riis_leaks_destroy(riis_leaks **leaks); /* destroys the leaks and their list */
 
-/* Finds the leaking edges: edges of the mesh's adjacency between two unmarked nodes that cross or touch a triangle of
- * the surface.
+/* Finds the mesh edges that leak through the surface. An edge of the mesh's adjacency leaks if both of its nodes are unmarked and
+ * the edge crosses or touches a triangle of the surface.
  *   `surface`, `mesh`: the surface and the mesh of the marking. The mesh must have an adjacency.
  *   `marks`: marks from riis_mark_nodes.
  *   `options`: the options of the marking. An edge with a node that node_mask leaves out does not leak.
  *   `leaks`: its content is replaced.
  * The decision is exact for coordinates in double precision; coordinates below 1e-90 count as 0. The adjacency may have an edge
- * at one or at both of its nodes, and the edge appears once in the list. Edges to ghosts are ignored. Edges that are at most two
- * half thicknesses long do not leak (docs/meshes.md). With an offset o, edges of at most 2 (1 - |o|) half thicknesses do not
- * leak. Longer edges may leak beside rims, but seldom if they are at most 2 sqrt(1 - o^2) half thicknesses long. With an offset,
- * an edge does not leak if both of its nodes are on the same side and away from rims, because the edge then only cuts the corner
- * of a fold. If the same triangles are marked again with the half thickness of riis_leak_list, no edge leaks, except with
+ * in the row of one of its nodes or in the rows of both. The list has the edge once. Edges to ghosts are ignored. Edges that are
+ * at most two half thicknesses long do not leak (docs/meshes.md). With an offset o, this length is 2 (1 - |o|) half thicknesses.
+ * Longer edges may leak beside rims, but seldom if they are at most 2 sqrt(1 - o^2) half thicknesses long. With an offset, an
+ * edge does not leak if both of its nodes are on the same side and away from rims, because the edge then only cuts the corner of
+ * a fold. If the same triangles are marked again with the half thickness of riis_leak_list, no edge leaks, except with
  * RIIS_SEARCH_PAPER. However, an update with this half thickness moves a valve's triangles by up to tolerance * half_thickness,
- * so search for leaks again after it.
+ * so search for leaks again after the update.
  * Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, for empty marks, and for marks with another number of nodes or
  * another half thickness. RIIS_INVALID_MESH as riis_mark_nodes. */
 RIIS_API riis_status riis_find_leaks(const riis_surface *surface, const riis_mesh *mesh,
@@ -66,8 +66,8 @@ RIIS_API riis_status riis_leaks_get_list(const riis_leaks *leaks, riis_leak_list
  *   `n_nodes`: the number of nodes of the marking.
  *   `label` (n_nodes): for each node, the lowest node id of its region, or -1 outside all regions.
  *   `n_regions`: the number of regions; may be NULL.
- * The adjacency may have an edge at one or at both of its nodes. Edges to ghosts are ignored: with MPI, ranks must exchange their
- * labels (examples/mpi_leaks.c).
+ * The adjacency may have an edge in the row of one of its nodes or in the rows of both. Edges to ghosts are ignored: with MPI,
+ * ranks must exchange their labels (examples/mpi_leaks.c).
  * Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, for empty marks, and for marks with another number of nodes. */
 RIIS_API riis_status riis_label_open_regions(const riis_mesh *mesh, const riis_marks *marks,
                                              const riis_mark_options *options, int64_t n_nodes, int64_t *label,
@@ -82,8 +82,8 @@ enum {
 /* The widest passage from one set of nodes to another: the path along mesh edges that stays as far from the surface as
  * possible. */
 typedef struct riis_passage {
-  int64_t node_id;  /* the node of the path that is nearest to the surface; -1 without a path. If nodes have equal distances, the
-                       higher id counts as nearest */
+  int64_t node_id;  /* of all nodes of the path, the node nearest to the surface; -1 without a path. If nodes have equal
+                       distances, the higher id counts as nearest */
   double distance;  /* the distance of node_id. If the half thickness is at least this distance, the passage is closed, otherwise
                        it is open. 0 without a path. With an offset o, `distance` is the least half thickness that marks the node,
                        and nodes are ordered by it: s / (1 + o) for a signed distance s >= 0, and -s / (1 - o) for s < 0 */
@@ -106,9 +106,11 @@ RIIS_API riis_status riis_passage_ends_init(riis_passage_ends *ends, int64_t str
  *   `mesh`: must have an adjacency, and need not have been marked.
  *   `ends`: a path includes its two ends, so the distances of the ends from the surface also limit the passage.
  *   `options`: only node_mask, n_threads and instructions are used. No path passes through a node that node_mask leaves out.
- * An update with another half thickness moves a valve's triangles by up to tolerance * half_thickness, so search again after it.
- * Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency. Each node in `from` and `to` must be in the mesh and in node_mask,
- * and farther from the surface than the half thickness. RIIS_INVALID_MESH as riis_mark_nodes. */
+ * An update with another half thickness moves a valve's triangles by up to tolerance * half_thickness, so search again after the
+ * update.
+ * Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency. RIIS_INVALID_ARGUMENT also for a node in `from` or `to` that is not
+ * in the mesh, that node_mask leaves out, or whose distance from the surface is at most the half thickness. RIIS_INVALID_MESH as
+ * riis_mark_nodes. */
 RIIS_API riis_status riis_find_passage(const riis_surface *surface, const riis_mesh *mesh,
                                        const riis_passage_ends *ends, const riis_mark_options *options,
                                        riis_passage *passage, int64_t struct_size);

@@ -30,8 +30,8 @@ enum {
   RIIS_LEAFLET_POSITIVE = 0,    /* bileaflet: the leaflet at x > 0 */
   RIIS_LEAFLET_NEGATIVE = 1,    /* bileaflet: the leaflet at x < 0 */
   RIIS_LEAFLET_HOUSING = 2,     /* bileaflet: the housing's wall, if ring_height is not 0 */
-  RIIS_LEAFLET_SKIRT = 3        /* the skirt, if skirt_length is not 0. The skirt of four cusps, of patches or of arrays has a
-                                   larger id if the leaflets need it: the largest leaflet_id + 1.
+  RIIS_LEAFLET_SKIRT = 3        /* the skirt, if skirt_length is not 0. With four cusps, patches or arrays, a leaflet may have the
+                                   id 3 or a larger id. The skirt then has the largest leaflet_id + 1.
                                    riis_surface_info.skirt_leaflet_id tells the id */
 };
 
@@ -44,8 +44,8 @@ enum {
 /* How the distance of a point to the surface is measured (paper, 4.1). Sampling and minimisation serve comparisons with the
  * paper, and work only for surfaces of valves. Both measure the distance to points S(u,v) of the patches, with the error e =
  * measure_tolerance * half_thickness (docs/theory/paper-distances.md). Their closest points have the leaflet_id of the patch, the
- * normal of S (0 0 0 if S has none), triangle_id -1, barycentric 0 and side 0. RIIS_INVALID_ARGUMENT refuses both with
- * RIIS_SEARCH_CLUSTERS, and with arrays for barycentric and side. */
+ * normal of S (0 0 0 if S has none), triangle_id -1, barycentric 0 and side 0. RIIS_INVALID_ARGUMENT refuses sampling and
+ * minimisation with RIIS_SEARCH_CLUSTERS, and with arrays for barycentric and side. */
 enum {
   RIIS_MEASURE_TRIANGLES = 0,   /* the closest point of all triangles, without approximation */
   RIIS_MEASURE_SAMPLING = 1,    /* the nearest of up to 16,777,216 sample points, which are spaced evenly on the patches. The
@@ -96,9 +96,9 @@ RIIS_API riis_status riis_surface_options_init(riis_surface_options *options, in
 /* Makes the surface of a valve: curves, polylines, Coons patches, quads and triangles (paper, 3 and 4.1; docs/theory.md).
  *   `valve`: its parameters must fit together.
  *   `options`: accuracy and placement.
- * Normals point downstream: from the ventricular to the sinus face of the cusps, from the atrial to the ventricular face of
- * the mitral valve, and to +z on closed bileaflet leaflets. On the bileaflet ring, normals point outwards. Triangles of zero
- * area, as at the root of each cusp, at the mitral commissures and at the ends of bileaflet middle edges, are skipped. The
+ * Normals point downstream: from the ventricular to the sinus face of the cusps, from the atrial to the ventricular face of the
+ * mitral valve, and to +z on closed bileaflet leaflets. On the bileaflet ring, normals point outwards. Triangles of zero area are
+ * skipped. They occur at the root of each cusp, at the mitral commissures and at the ends of bileaflet middle edges. The
  * thickness of the band around a surface is 2 eps, twice the half thickness. With an offset o the middle of the band lies o eps
  * beside the triangles, on the side to which normals point. Let s be the signed distance of a node, with the sign of its side.
  * The band holds the nodes with |s - o eps| <= eps. At a rim with the closest point p and the normal n, the band holds the nodes
@@ -130,20 +130,19 @@ typedef struct riis_surface_arrays {
                                 the default: no skirt */
   const uint8_t *attached;   /* (n_vertices): a number above 0 marks a vertex of the attachment. The attachment consists of the
                                 open edges whose two vertices are attached. NULL: with a skirt, the call chooses the attachment */
-  const double *skirt_lengths; /* (n_vertices): the skirt's lengths at the attached vertices, at most skirt_length. A length that
-                                  is less than the least skirt_length counts as the least skirt_length. NULL: skirt_length
-                                  everywhere */
+  const double *skirt_lengths; /* (n_vertices): the skirt's lengths at the attached vertices, at most skirt_length. A length below
+                                  the least possible skirt_length counts as this least length. NULL: skirt_length everywhere */
 } riis_surface_arrays;
 /* Fills *arrays with the defaults. */
 RIIS_API riis_status riis_surface_arrays_init(riis_surface_arrays *arrays, int64_t struct_size);
 
 /* Makes a surface from arrays, with the caller's winding. A triangle's id is its face's number; the halves of quad q have the ids
  * 2 q and 2 q + 1. The id of a skipped triangle is not used again. A triangle has zero area if its longest edge is shorter than
- * 1e-60, or if its height over its longest edge is at most 1e-12 of this edge.
- * A skirt leads away from the axis of the attachment, the line through its centroid along its vector area (docs/theory/skirt.md).
- * The skirt's vertices and triangles come after the caller's vertices and triangles. Without `attached`, the attachment is the
- * closed line of open edges that encloses the largest area. This line must enclose at least 0.8 of the area of the leaflets'
- * outline (RIIS_OUTLINE_BOUNDARY).
+ * 1e-60, or if its height over its longest edge is at most 1e-12 of this edge. A skirt leads away from the axis of the
+ * attachment. This axis is the line through the centroid of the attachment along its vector area (docs/theory/skirt.md). The
+ * skirt's vertices and triangles come after the caller's vertices and triangles. Without `attached`, the attachment is the closed
+ * line of open edges that encloses the largest area. This line must enclose at least 0.8 of the area of the leaflets' outline
+ * (RIIS_OUTLINE_BOUNDARY).
  * Errors: RIIS_LIMIT_EXCEEDED for too many triangles. RIIS_INVALID_SURFACE naming the face or vertex and its value, or saying
  * why an attachment is not found. RIIS_INVALID_ARGUMENT for a length of the skirt out of range. */
 RIIS_API riis_status riis_surface_create_from_arrays(const riis_surface_arrays *arrays,
@@ -170,22 +169,23 @@ RIIS_API void riis_surface_destroy(riis_surface **surface);
 typedef struct riis_surface_info {
   int64_t n_vertices;        /* as riis_triangles.n_vertices */
   int64_t n_triangles;       /* triangles that answer queries */
-  int64_t n_zero_area;       /* triangles skipped because they have no area */
+  int64_t n_zero_area;       /* triangles that were skipped because they have no area */
   double half_thickness;     /* mesh units */
   double area;               /* of all triangles, mesh units squared */
   double lower[3], upper[3]; /* bounds of the triangles, mesh units */
-  double seconds_triangles;  /* wall time of the last call that made or updated the surface: for checks and triangles */
-  double seconds_scene;      /* wall time of the same call for groups of triangles, sampling and minimisation. Embree's tree is
+  double seconds_triangles;  /* wall time for checks and triangles, in the last call that made or updated the surface */
+  double seconds_scene;      /* wall time for groups of triangles, sampling and minimisation, in the same call. Embree's tree is
                                 not included, because the first query that needs the tree builds it */
   double error_bound;        /* the largest possible error of a distance: the difference between the distances to the triangles
                                 and to the smooth valve. At most tolerance * half_thickness. 0 for a surface from arrays */
   int64_t largest_leaflet_id; /* of the triangles */
   double offset;             /* of the band, in half thicknesses */
-  double contact_depth;      /* leaflets whose triangles cross deeper than this do more than touch (docs/theory/crossings.md) */
+  double contact_depth;      /* if triangles of leaflets cross deeper than this depth, the leaflets do more than touch
+                                (docs/theory/crossings.md) */
   int32_t skirt_leaflet_id;  /* the leaflet_id of the skirt; -1: no skirt */
   int32_t housing_leaflet_id; /* bileaflet: RIIS_LEAFLET_HOUSING; -1 for other surfaces */
 } riis_surface_info;
-/* Gives the size of the surface, and the time that it took to make it. */
+/* Gives the size of the surface, and how long the last call took to make or update it. */
 RIIS_API riis_status riis_surface_get_info(const riis_surface *surface, riis_surface_info *info,
                                            int64_t struct_size);
 
@@ -200,15 +200,15 @@ typedef struct riis_triangles {
   const int64_t *vertex_id;   /* (3, n_triangles): their vertices */
   const int64_t *triangle_id; /* (n_triangles), ascending: the id that queries report; 0, 1, 2, ... for a valve */
   const int32_t *leaflet_id;  /* (n_triangles): RIIS_LEAFLET_*, or the caller's from patches and arrays */
-  const int32_t *patch_id;    /* (n_triangles). From arrays: 0, skirt: 1. Patches of the caller have their numbers from 0. A valve
-                                 of n cusps has 4 * leaflet, plus 0 for the bottom, 1 for the top, 2 and 3 for their mirror
-                                 images, plus 4 * n in a fused part. The anterior mitral leaflet has 0 for the triangle at the
-                                 posteromedial commissure, 1 for the side, 2 for the middle, and 3, 4, 5 for the mirror images of
-                                 2, 1, 0. The posterior mitral leaflet has 6 for a side scallop, 7 for half of the middle scallop,
-                                 and 8 and 9 for the mirror images of 7 and 6. A bileaflet valve has 2 * leaflet, plus 0 or 1 for
-                                 the half, and 4 to 7 for the quarters of the ring. A skirt has the id of the patch that it
-                                 continues, plus the number of patch ids without the skirt: 10 for mitral, 12 for three cusps
-                                 without a fused commissure */
+  const int32_t *patch_id;    /* (n_triangles). A surface from arrays has 0, and 1 for its skirt. Patches of the caller have their
+                                 numbers from 0. A valve of n cusps has 4 * leaflet, plus 0 for the bottom, 1 for the top, 2 and 3
+                                 for their mirror images, plus 4 * n in a fused part. The anterior mitral leaflet has 0 for the
+                                 triangle at the posteromedial commissure, 1 for the side, 2 for the middle, and 3, 4, 5 for the
+                                 mirror images of 2, 1, 0. The posterior mitral leaflet has 6 for a side scallop, 7 for half of
+                                 the middle scallop, and 8 and 9 for the mirror images of 7 and 6. A bileaflet valve has 2 *
+                                 leaflet, plus 0 or 1 for the half, and 4 to 7 for the quarters of the ring. A skirt has the id of
+                                 the patch that it continues, plus the number of patch ids without the skirt: 10 for mitral, 12
+                                 for three cusps without a fused commissure */
 } riis_triangles;
 /* Gives the triangles of the surface, until its next update or its destruction. */
 RIIS_API riis_status riis_surface_get_triangles(const riis_surface *surface, riis_triangles *triangles,
@@ -236,14 +236,15 @@ RIIS_API riis_status riis_surface_get_attachment(const riis_surface *surface, ri
 
 /* ---- Motion: surfaces with velocities, from two states of a valve or from frames ----------------------- */
 
-/* Replaces the surface's content by a valve, and gives every vertex a velocity. The triangles are those that riis_surface_update
- * makes, to the last bit. For a valve at rest, also pass the valve as valve_before.
+/* Replaces the surface's content by a valve, and gives every vertex a velocity. The triangles are bitwise the same as those of
+ * riis_surface_update. For a valve at rest, also pass the valve as valve_before.
  *   `valve_before`: the earlier state, of the same kind. Valves from patches must have the same curves and sides.
- *   `dt`: the time from valve_before to valve, 1e-30 to 1e30, or -1e30 to -1e-30 if time runs back.
- *   `options_before`: scale, rotation and translation of the earlier state; other fields are ignored. NULL: as now.
+ *   `dt`: the time from valve_before to valve, 1e-30 to 1e30, or -1e30 to -1e-30 if time runs backwards.
+ *   `options_before`: scale, rotation and translation of the earlier state; other fields are ignored. NULL: those of the new
+ *     state.
  * The velocity of a vertex is its displacement divided by dt. The displacement starts at the point of the earlier state with the
  * same patch, u and v (docs/theory/velocity.md). A warp does not change u and v, so vertices on the wall have the wall's velocity
- * (docs/theory/warp.md). As a mean over the step, the velocity is accurate to second order in the middle of the step, and to
+ * (docs/theory/warp.md). The velocity is a mean over the step. It is accurate to second order in the middle of the step, and to
  * first order at its ends.
  * Errors: as riis_surface_update. RIIS_INVALID_PARAMETER for a valve_before of another kind or other patches, or
  * with parameters that do not fit together. */
@@ -267,9 +268,9 @@ typedef struct riis_keyframe_arrays {
   int64_t n_vertices;    /* of each frame, as in riis_surface_arrays */
   const double *time;    /* (n_keys), strictly ascending, magnitude at most 1e30 */
   const void *xyz;       /* (3, n_vertices, n_keys): the vertices, frame after frame; magnitude at most 1e60 */
-  double period;         /* > 0: the motion repeats. All keys lie within a period of the first key. If the last
-                            key is one period after the first, it must have the same frame. 0, the default: the
-                            surface rests before the first key and after the last */
+  double period;         /* a number above 0: the motion repeats with this period. All keys lie within a period of the first key.
+                            If the last key is one period after the first key, both keys must have the same frame. 0, the default:
+                            the surface rests before the first key and after the last key */
   int32_t interpolation; /* RIIS_INTERPOLATION_*, of each coordinate. Default RIIS_INTERPOLATION_LINEAR */
   int32_t real_bits;     /* of xyz */
 } riis_keyframe_arrays;
@@ -285,7 +286,8 @@ RIIS_API riis_status riis_keyframes_create(const riis_surface_arrays *arrays,
 RIIS_API void riis_keyframes_destroy(riis_keyframes **keyframes);
 /* Makes a surface from the frames around a time, with velocities.
  *   `time`: finite, magnitude at most 1e30.
- *   `dt`: the velocity is the mean from time - dt to time, or for dt == 0 the derivative of the interpolation at that time.
+ *   `dt`: the velocity is the mean from time - dt to time. With dt 0, the velocity is the derivative of the interpolation at that
+ *     time.
  * Errors: as riis_surface_create_from_arrays. */
 RIIS_API riis_status riis_surface_create_from_keyframes(const riis_keyframes *keyframes, double time, double dt,
                                                         const riis_surface_options *options,

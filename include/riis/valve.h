@@ -40,30 +40,30 @@ RIIS_API void riis_valve_destroy(riis_valve **valve);
  * Two parameters change the whole valve:
  * - "opening", 0 to 1, moves the valve from its closed to its open state. One set of parameters describes both states. The
  *   default is 1 (open) for the mitral valve, and 0 for other valves. The aortic valve at opening 0 is the paper's closed state,
- *   which leaves a hole. A valve from patches has only opening 0 until riis_valve_set_open_state. To move a valve, set "opening"
- *   and call riis_surface_update.
+ *   which leaves a hole. A valve from patches has only opening 0 until riis_valve_set_open_state gives it an open state. To move
+ *   a valve, set "opening" and call riis_surface_update.
  * - "skirt_length" gives any valve except "bileaflet" a skirt. The skirt is a strip that leads outwards from the attachment and
  *   closes the gap to the wall (docs/theory/skirt.md). The length is 0 (the default), or 1e-4 to 10 times
  *   the mean distance of the attachment from its axis. The skirt_length of an open state is ignored.
  * Errors: RIIS_INVALID_PARAMETER naming the parameter and the value. */
 RIIS_API riis_status riis_valve_set(riis_valve *valve, const char *name, int64_t n_values,
                                     const double *values);
-/* Sets a parameter that has one value. Arguments and errors as riis_valve_set. */
+/* Sets a parameter that has one value. Arguments and errors are as in riis_valve_set. */
 RIIS_API riis_status riis_valve_set_scalar(riis_valve *valve, const char *name, double value);
-/* Copies a parameter's values to the caller's array. Arguments as riis_valve_set.
+/* Copies a parameter's values to the caller's array. Arguments are as in riis_valve_set.
  * Errors: RIIS_INVALID_PARAMETER, also for a name that means all cusps. */
 RIIS_API riis_status riis_valve_get(const riis_valve *valve, const char *name, int64_t n_values,
                                     double *values);
 
-/* Sizes by a surgeon's names, and sizes that follow from other sizes (docs/theory/sizes.md). Three names stand for parameters. A
- * kind that lacks such a size refuses the name, and says why. The names are:
+/* Sizes by a surgeon's names, and sizes that follow from other sizes (docs/theory/sizes.md). Three further names stand for
+ * parameters or for twice a parameter. A kind that lacks the size refuses the name, and says why. The names are:
  *   `annulus`: the diameter of the annulus, 2 root_radius (kinds with cusps) or 2 radius (bileaflet).
  *   `stj`: the diameter at the commissures, 2 leaflet_radius_out (aortic, trileaflet) or 2 commissure_radius (coapting, bicuspid,
  *     quadricuspid).
  *   `effective_height`: the height of the free edges above the annulus, leaflet_height (aortic, trileaflet). The other kinds with
  *     cusps have a parameter of this name, for the middle of the edges.
  * Some parameters have a rule: until they are set, they follow from other parameters. Parameters may be set in any order. The
- * call riis_valve_get gives the present values of such parameters. Copies and open states also know which parameters were set. */
+ * call riis_valve_get gives the values that follow from the rule. Copies and open states also know which parameters were set. */
 
 /* Returns a parameter to the value that its rule gives, or to its default if it has no rule.
  *   `name`: as in riis_valve_set.
@@ -83,7 +83,7 @@ RIIS_API riis_status riis_valve_is_set(const riis_valve *valve, const char *name
  * linearly (docs/theory/openings.md). A bileaflet valve interpolates lengths and angles instead. The middle of a coapting cusp's
  * free edge hangs as deep as the edge's length requires. All kinds except aortic and bileaflet take the closed shape from their
  * own parameters, and the open shape from the parameters of `open`.
- * Errors: RIIS_INVALID_PARAMETER for another kind, or other curves, degrees or sides. */
+ * Errors: RIIS_INVALID_PARAMETER if `open` has another kind, or other curves, degrees or sides. */
 RIIS_API riis_status riis_valve_set_open_state(riis_valve *valve, const riis_valve *open);
 
 /* The caller's own valve, such as a prosthesis: Coons patches with four boundary curves each (paper, 3.3).

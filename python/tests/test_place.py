@@ -329,7 +329,7 @@ def test_landmarks_must_be_at_the_nodes(tmp_path):
         placed("mesh", "mm", -1, 1)
     with pytest.raises(riis.InvalidArgumentError, match="in millimetres, they are .*: give the landmarks in millimetres"):
         riis.place({name: points[i] / 10 for i, name in enumerate(NAMES)}, "trileaflet", unit="cm", nodes=nodes)
-    with pytest.raises(riis.InvalidArgumentError, match="more than 1 cm, in any unit"):
+    with pytest.raises(riis.InvalidArgumentError, match="more than 1 cm, whatever the unit"):
         placed("LPS", "mm", 1, 1, at=nodes + 400)
     with pytest.raises(riis.InvalidArgumentError, match=r"nodes: its shape is \(24,\)"):
         placed("LPS", "mm", 1, 1, at=nodes[:, 0])

@@ -48,7 +48,8 @@ TEST(test_texts) {
   RUN_REFUSED(1, "; FEBio Studio converts it: File > Export FE Model..., heart.vtk\n", "mark", "heart.feb");
   RUN_REFUSED(1, "open CASE.nek5000 in ParaView, then File > Save Data..., heart.vtu\n", "mark", "heart.re2");
   scratch_write_text("heart.msh", "<?xml version=\"1.0\"?>\n<mesh type=\"TetGen\"/>\n");
-  RUN_REFUSED(1, "it is a description by SimVascular, whose mesh is beside it: ", "mark", scratch_path("heart.msh"));
+  RUN_REFUSED(1, "it is SimVascular's description of a mesh: give the mesh, which is beside it, ", "mark",
+              scratch_path("heart.msh"));
   scratch_write_text("grid.vtk",
                      "# vtk DataFile Version 3.0\nx\nASCII\nDATASET STRUCTURED_POINTS\nDIMENSIONS 2 2 2\nORIGIN 0 0 0\n"
                      "SPACING 1 1 1\n");

@@ -457,7 +457,7 @@ TEST(test_refusals) {
       {"CELLS 1 6\n5 4 5 6 7 8\nCELL_TYPES 1\n14\n",
        "cell 0 has VTK's type 14, and svMultiPhysics has only tet4, wedge6, hex8, tet10, hex20 and hex27"},
       {"CELLS 2 14\n8 0 1 2 3 4 5 6 7\n4 4 5 6 8\nCELL_TYPES 2\n12\n10\n",
-       "has hex8 and tet4, and svMultiPhysics takes one type of element in a mesh"},
+       "has hex8 and tet4, but svMultiPhysics takes only one type of element in a mesh"},
       {"CELLS 1 4\n3 0 1 2\nCELL_TYPES 1\n5\n", "has no volume cells, so nothing is computed in it"},
       {"CELLS 1 9\n8 4 5 6 7 0 1 2 3\nCELL_TYPES 1\n12\n",
        "volume element 0 is inside out, and svMultiPhysics does not turn hexahedra"},
@@ -508,9 +508,9 @@ TEST(test_warnings) {
   run_program("export", scratch_path("thin"), scratch_path("coarse.vtk"), RAMPS, "--valve", scratch_path("flap.json"),
               "--half-thickness", "0.35", "--largest-edge", "0.1", NULL);
   assert_int_equal(program_exit_code, 0);
-  assert_non_null(strstr(program_err, "svMultiPhysics will drop 0."));
+  assert_non_null(strstr(program_err, "in svMultiPhysics the pressure will drop by 0."));
   const char *needs = strstr(program_err, "a drop of 0.9 needs a half thickness of ");
-  if (!needs) needs = strstr(program_err, "even a half thickness of 0.7 does not drop 0.9");
+  if (!needs) needs = strstr(program_err, "even a half thickness of 0.7 does not give a drop of 0.9");
   assert_non_null(needs);
   run_program("export", scratch_path("metres"), scratch_path("coarse.vtk"), RAMPS, "--valve", scratch_path("flap.json"),
               "--half-thickness", "0.6", "--density", "1060", "--largest-edge", "0.2", NULL);
@@ -518,7 +518,7 @@ TEST(test_warnings) {
   /* A drop above (R/eps) u is not a valid forecast, so no number is printed. */
   assert_non_null(strstr(program_err,
                          "riis: the drop across the closed valve was not found, because the solver's equations have no "
-                         "solution between 0 and 1/0.95 of (R/eps) u; its stabilisation needs a density of "
+                         "solution between 0 and 1/0.95 of (R/eps) u; the solver's stabilisation needs a density of "
                          "about 1 g/cm3\n"));
   assert_non_null(
       strstr(program_out, "expected drop: not found, because the solver's equations have no solution between"));
@@ -598,7 +598,7 @@ TEST(test_without_scipy) {
     free(without);
     if (!strstr(program_out, "expected drop: not computed, because ") || !strstr(program_out, faults[i].reason))
       fail_msg("'%s' is not in:\n%s", faults[i].reason, program_out);
-    snprintf(said, sizeof said, "%s; it needs NumPy and SciPy (Debian: python3-scipy)", faults[i].reason);
+    snprintf(said, sizeof said, "%s; the computation needs NumPy and SciPy (Debian: python3-scipy)", faults[i].reason);
     assert_non_null(strstr(
         program_err, "the drop across the closed valve was not computed, and it is not known whether the leaflets"));
     assert_non_null(strstr(program_err, said));

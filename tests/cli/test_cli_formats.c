@@ -268,7 +268,7 @@ TEST(test_foam) {
   RUN_REFUSED(2, "box/7 takes fields of cells: write --cells", "mark", box, "--output", time);
   RUN_REFUSED(2, "--cells: --picture shows marks of nodes", "mark", box, "--cells", "--picture", "a.png");
   RUN_REFUSED(2, "--cells: --steps marks nodes, not centres", "mark", box, "--cells", "--steps", "3");
-  RUN_REFUSED(1, "box/7: is a time of a case, and the mesh was not read from this case", "mark", scratch_path("in.vtu"),
+  RUN_REFUSED(1, "box/7: is a time of a case, but the mesh was not read from this case", "mark", scratch_path("in.vtu"),
               "--half-thickness", "0.3", "--cells", "--output", time);
   RUN_REFUSED(2, "cell 0 is a vtkTriangle; centres are those of linear volume cells and polyhedra", "mark",
               scratch_path("skin.vtk"), "--cells");

@@ -238,8 +238,8 @@ TEST(test_refused_areas) {
   expect_areas("bad.csv: the area 9 at time 1 is out of reach: from opening 0 to 1 the area goes from 0.0",
                "0,1\n1,9\n");
   scratch_write_text("bad.csv", "0,1\n0.8,1.2\n");
-  REFUSED(1, "table.opening of the last key, a period after the first", "--areas", scratch_path("bad.csv"), "--period",
-          "0.8", "--output", scratch_path("never.csv"));
+  REFUSED(1, "table.opening of the last key, one period after the first key", "--areas", scratch_path("bad.csv"),
+          "--period", "0.8", "--output", scratch_path("never.csv"));
   REFUSED(2, "--output", "--areas", scratch_path("bad.csv"), "--output", scratch_path("bad.csv"));
 }
 

@@ -188,10 +188,10 @@ TEST(test_face_warnings) {
     int n_lines;
   } files[] = {
       {"f 1 2 3\nf 1 3 4\n", "", 0},
-      {"f 1 2 3\nf 4 3 1\n", "1 of 2 triangles is turned over against the neighbours: normals and sides change there",
-       1},
-      {"f 1 2 3\nf 1 3 4\nf 2 3 1\n", "1 triangle is in the file twice: areas count both", 1},
-      {"f 1 2 3\nf 1 3 5\nf 1 5 2\nf 3 2 5\n", "1 piece is closed, as a thick leaflet is: areas count both faces", 1},
+      {"f 1 2 3\nf 4 3 1\n",
+       "1 of 2 triangles is turned over relative to the neighbours: normals and sides change there", 1},
+      {"f 1 2 3\nf 1 3 4\nf 2 3 1\n", "1 triangle is in the file twice, and areas count both copies", 1},
+      {"f 1 2 3\nf 1 3 5\nf 1 5 2\nf 3 2 5\n", "1 piece is closed like a thick leaflet, and areas count both faces", 1},
       {"f 1 2 3\nf 1 3 5\nf 1 5 2\nf 2 3 5\n", "1 of 4 triangles is turned over", 2}};
   for (size_t i = 0; i < sizeof files / sizeof *files; ++i) {
     char text[512];

@@ -120,8 +120,8 @@ TEST(test_bad_data) {
   const char *moved = scratch_path("moved.vtp");
   RUN_REFUSED(1, "missing.pvd: cannot be read: No such file", "surface", "--surface", scratch_path("missing.pvd"),
               "--time", "0", "--output", moved);
-  RUN_REFUSED(1, "sheet.pvd: vertex 0 in the last frame, a period after the first, has the ", "surface", "--surface",
-              scratch_path("sheet.pvd"), "--time", "0", "--period", "1", "--output", moved);
+  RUN_REFUSED(1, "sheet.pvd: vertex 0 in the last frame, one period after the first frame, has the ", "surface",
+              "--surface", scratch_path("sheet.pvd"), "--time", "0", "--period", "1", "--output", moved);
   write_collection("lost.pvd", DATA_SET("0", "a.vtp") DATA_SET("1", "lost.vtp"));
   RUN_REFUSED(1, "lost.vtp: cannot be read: No such file", "surface", "--surface", scratch_path("lost.pvd"), "--time",
               "0", "--output", moved);

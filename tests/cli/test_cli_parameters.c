@@ -306,7 +306,7 @@ TEST(test_parts_in_files) {
   RUN_FINE("params", "--valve", "coapting", "--params", scratch_path("p.json"));
   assert_string_equal(program_out, printed);
   scratch_write_text("p.json", "{\"bump_6\": {\"leaflet\": 1}}");
-  RUN_REFUSED(1, "p.json: bump_6 is not a part of the valve with parameters of its own", "params", "--valve",
+  RUN_REFUSED(1, "p.json: bump_6 is not a part of the valve that has its own parameters", "params", "--valve",
               "coapting", "--params", scratch_path("p.json"));
   RUN_REFUSED(1, "'bump_0.open' is not a parameter of the trileaflet valve: only bicuspid", "params", "--valve",
               "trileaflet", "--set", "bump_0.open=0.5");

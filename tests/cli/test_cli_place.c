@@ -207,7 +207,7 @@ TEST(closed_curve_is_an_annulus) {
   RUN_FINE("place", scratch_path("a.json"), "--valve", "mitral");
   assert_non_null(strstr(program_out, "\nThe landmarks do not determine "));
   assert_non_null(strstr(program_out, "Their values in the table are guesses from the usual proportions of the kind."));
-  assert_non_null(strstr(program_out, "Add landmarks, or give known sizes in cm, as by --set "));
+  assert_non_null(strstr(program_out, "Add landmarks, or give known sizes in cm, for example by --set "));
   /* In an open curve, a label that names no landmark makes a point of the annulus. Other labels keep their meaning. */
   m = snprintf(curve, sizeof curve,
                "{\"markups\": [{\"type\": \"Curve\", \"coordinateSystem\": \"LPS\", \"controlPoints\": [");
@@ -484,8 +484,7 @@ TEST(files_are_refused_by_name) {
   char text[512];
   refuse_text("a.txt", "x", "landmarks must be a .json, .mrk.json, .fcsv or .csv file");
   refuse_text("a.fcsv", "# columns = id,x,y,z,label\n", "states no axes: a line # CoordinateSystem = LPS is missing");
-  refuse_text("a.fcsv", "# CoordinateSystem = IJK\n",
-              "CoordinateSystem is \"IJK\"; it must be LPS, RAS, 0 for RAS or 1");
+  refuse_text("a.fcsv", "# CoordinateSystem = IJK\n", "CoordinateSystem is \"IJK\"; it must be LPS or 1, or RAS or 0");
   refuse_text("a.fcsv", "# CoordinateSystem = 1\n# columns = id,x,y,z\n", "the line # columns names no column label");
   refuse_text("a.fcsv", "# CoordinateSystem = 1\nnadir,1,2\n", "line 2 has 3 of the 4 columns");
   refuse_text("a.fcsv", "# CoordinateSystem = 1\nnadir,1,2,x3\n", "line 2");
@@ -726,7 +725,8 @@ TEST(landmarks_in_one_place_are_met_or_refused) {
   RUN_REFUSED(1, "points.json: \"anterior_horn\" and \"trigone\" are in one place, but on the valve they are ", "place",
               json_of_points(n, labels, annulus), "--valve", "mitral", "--flow", "0,0,-1", "--warp", "exact",
               "--quiet");
-  assert_non_null(strstr(program_err, " mm apart, so no warp meets both: leave one of them out"));
+  assert_non_null(
+      strstr(program_err, " mm apart, so no warp takes the valve to both landmarks: leave one of them out"));
   RUN_FINE("place", json_of_points(n, labels, annulus), "--valve", "mitral", "--flow", "0,0,-1", "--quiet");
 }
 

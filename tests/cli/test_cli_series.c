@@ -436,9 +436,9 @@ TEST(test_files_of_a_hand_made_list_stay) {
   assert_int_equal(remove(scratch_path("mine.pvd")), 0);
   scratch_write_text("hand.pvd", by_hand);
   for (int is_listed = 1; is_listed >= 0; --is_listed) {
-    RUN_REFUSED(1, "and no list of riis names it: remove it, or name another output", "mark", scratch_path("in.vtu"),
-                "--valve", "mitral", "--half-thickness", "0.3", "--cycle", scratch_path("cycle.csv"), "--times",
-                "0,0.1", "--output", scratch_path("hand.pvd"));
+    RUN_REFUSED(1, "but no list that riis wrote names it: remove it, or name another output", "mark",
+                scratch_path("in.vtu"), "--valve", "mitral", "--half-thickness", "0.3", "--cycle",
+                scratch_path("cycle.csv"), "--times", "0,0.1", "--output", scratch_path("hand.pvd"));
     assert_true(scratch_exists("hand/hand_0003.vtu") && scratch_exists("hand/hand_0004.vtu"));
     remove(scratch_path("hand.pvd"));
   }

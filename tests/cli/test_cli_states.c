@@ -483,8 +483,8 @@ TEST(test_skirts_and_files) {
   RUN_REFUSED(1, "the wall is not within --skirt, 0.1", "states", csv, "--valve", "trileaflet", "--skirt", "0.1",
               "--wall", wall);
   write_wall("millimetres.stl", 10);
-  RUN_REFUSED(1, "with its lengths times 0.1 the wall would be: save the wall in the mesh's unit", "states", csv,
-              "--valve", "trileaflet", "--skirt", "2", "--wall", scratch_path("millimetres.stl"));
+  RUN_REFUSED(1, "with its lengths times 0.1 the wall would be within --skirt: save the wall in the mesh's unit",
+              "states", csv, "--valve", "trileaflet", "--skirt", "2", "--wall", scratch_path("millimetres.stl"));
   RUN_REFUSED(1, "none.stl", "states", csv, "--skirt", "1", "--wall", scratch_path("none.stl"));
   RUN_REFUSED(2, "is also the file of --wall", "states", wall, "--valve", "trileaflet", "--skirt", "2", "--wall", wall);
   scratch_write_text("case.json", "{\"valves\": [{\"valve\": \"trileaflet\", \"wall\": \"wall.stl\"}]}");

@@ -50,11 +50,10 @@ TEST(test_missing_options) {
 
 /* svMultiPhysics needs grams and centimetres. */
 TEST(test_units) {
-  REFUSED(
-      2,
-      "--scale: 10 makes lengths in millimetres, and svMultiPhysics needs grams and centimetres: write --unit mm in "
-      "place of --scale, and riis export converts",
-      EXPORT, "--time-step", "0.001", RAMPS, "--scale", "10");
+  REFUSED(2,
+          "--scale: 10 makes lengths in millimetres, and svMultiPhysics needs grams and centimetres: write --unit mm "
+          "in place of --scale; riis export then converts the lengths",
+          EXPORT, "--time-step", "0.001", RAMPS, "--scale", "10");
   REFUSED(2, "--scale: 0.01 makes lengths in metres", EXPORT, "--time-step", "0.001", RAMPS, "--scale", "0.01");
   REFUSED(2, "--resistance: -1 is below 0", "export", FOLDER, "--resistance", "-1", "--time-step", "0.001", RAMPS);
   REFUSED(2, "--resistance: 'kg/m3' is not a unit of a resistance, such as kg/(m s)", "export", FOLDER, "--resistance",
@@ -214,7 +213,7 @@ TEST(test_first_state) {
   expect_start("false");
   scratch_write_text("open.csv", "0,1\n0.3,0\n0.6,0\n0.9,1\n");
   RUN_FINE(EXPORT, "--time-step", "0.1", "--cycle", scratch_path("open.csv"), "--period", "1");
-  assert_non_null(strstr(program_out, "at time 0 of the cycle the valve is open, or nearer to that state"));
+  assert_non_null(strstr(program_out, "at time 0 of the cycle the valve is open, or nearer to this state"));
   expect_start("false");
   RUN_FINE(EXPORT, "--time-step", "0.1", "--cycle", scratch_path("open.csv"), "--period", "1", "--starts", "closed");
   expect_start("true");

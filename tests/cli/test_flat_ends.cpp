@@ -273,7 +273,7 @@ void faults(random_source &random) {
   bad.points.push_back({2, 0, 3});
   bad.corners.push_back({bad.corners[900][0], bad.corners[900][1], static_cast<std::int64_t>(bad.points.size()) - 1});
   write(bad, random);
-  expect_refused({"1 edge has more than two triangles, as the one at ", "with 3: the surface touches itself",
+  expect_refused({"1 edge has more than two triangles, such as the edge at ", "with 3: the surface touches itself",
                   "Repair non Manifold Edges of MeshLab"});
   bad = whole;
   bad.points[400] = bad.points[420];
@@ -300,7 +300,7 @@ void faults(random_source &random) {
     bad.corners.push_back({2 * i, d, c});
   }
   write(bad, random);
-  expect_refused({"the surface has one side only, like a Moebius strip"});
+  expect_refused({"the surface has only one side, like a Moebius strip"});
 
   // The file has vertices that rounding separated, and a triangle without area in a joint.
   bad = whole;
@@ -328,12 +328,13 @@ void unclear_ends(random_source &random) {
   here = "unclear ends";
   for (const int n : {4, 6, 9, 20, 60}) {
     write(ball(n), random, Turned::none, draw_placement(random, 10, 100));
-    expect_refused({"no flat end is clear, but blood needs two"});
+    expect_refused({"no flat end is clear, but the blood needs two ends"});
   }
   // Each side of a box could be an end, so the user must name two.
   write(box(6, {1, 1.2, 3}), random);
-  expect_refused({"no flat end is clear, but blood needs two", "choose flat parts by --inlet=X,Y,Z --outlet=X,Y,Z",
-                  "flat parts are ", "with area 3.6 of 72 triangles"});
+  expect_refused({"no flat end is clear, but the blood needs two ends",
+                  "choose flat parts by --inlet=X,Y,Z --outlet=X,Y,Z", "flat parts are ",
+                  "with area 3.6 of 72 triangles"});
   EndPoints points{Vector3{0.5, 0.6, 0}, {Vector3{0.5, 0.6, 3}}};
   PatientWall wall = read_patient_wall(file(), points);
   expect(wall.ends.size() == 2 && wall.ends[0].name != wall.ends[1].name, "two points choose two sides");
@@ -341,9 +342,9 @@ void unclear_ends(random_source &random) {
     expect_near(end.area, 1.2, 1e-6, "area of the chosen side");
     expect_near(end.centre[2], end.name == "inlet" ? 0 : 3, 1e-6, "place of the chosen side");
   }
-  expect_refused({"--outlet=0.500,0.700,0.000: another point chose the flat part at 0.500,0.600,0.000 before"},
+  expect_refused({"--outlet=0.500,0.700,0.000: another point has already chosen the flat part at 0.500,0.600,0.000"},
                  {Vector3{0.5, 0.6, 0}, {Vector3{0.5, 0.7, 0}}});
-  expect_refused({"0 flat parts are left for the inlet; choose it also, by --inlet=X,Y,Z"},
+  expect_refused({"0 flat parts are left for the inlet; also choose the inlet, by --inlet=X,Y,Z"},
                  {{}, {Vector3{0.5, 0.6, 0}}});
 
   // A vessel with a blind end.
@@ -374,7 +375,7 @@ void unclear_ends(random_source &random) {
       thick.corners.push_back(two);
     }
   write(thick, random);
-  expect_refused({"a flat ring shows that this is a wall with its thickness, so export the surface of the blood"});
+  expect_refused({"a flat ring shows that this wall has a thickness, so export the surface of the blood instead"});
 }
 
 // The wall bulges and has a flat place. A flat place meets the wall at an angle that grows with its size. Below 30 degrees the

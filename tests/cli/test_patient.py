@@ -501,7 +501,7 @@ exec '{shutil.which("gmsh")}' "$@" $longer
         # If a run was cut off, the next run may use the same folder. Files that the program would remove there cannot be inputs.
         (case / "UNFINISHED.txt").write_text("", encoding="utf-8")
         shutil.copy(self.folder / "root.stl", case / "wall.stl")
-        self.refused(1, "its wall.stl is also read, and would be removed: copy it elsewhere", wall="case/wall.stl")
+        self.refused(1, "its wall.stl is also an input, and would be removed: copy it elsewhere", wall="case/wall.stl")
         self.assertTrue((case / "wall.stl").exists())
 
     def test_refused_walls(self):
@@ -517,18 +517,18 @@ exec '{shutil.which("gmsh")}' "$@" $longer
         write_stl(here / "two.stl", self.triangles + far)
         self.refused(1, "two.stl: .*2 pieces", wall="two.stl")
         write_stl(here / "far.stl", far)
-        self.refused(1, r"landmarks.json: the landmarks are \d+ mm from the wall of far.stl on average, and farther with "
-                     "other units and axes.* same patient", wall="far.stl", output="none")
+        self.refused(1, r"landmarks.json: the landmarks are \d+ mm from the wall of far.stl on average, and farther "
+                     "away with other units and axes.* same patient", wall="far.stl", output="none")
         self.refused(1, "they are .* mm from it with --wall-unit mm", "--wall-unit", "m", output="none")
         self.refused(1, "they are .* mm from it with --axes LPS", "--axes", "RAS", output="none")
         # In a wide vessel, the landmarks are near the wall on average, but the skirt does not reach the wall.
         wide = PATIENT.Root()
         wide.annulus, wide.junction, wide.aorta_radius = (17.0, 16.0, 30.0), (17.0, 21.0), 18.0
         write_stl(here / "wide.stl", list(PATIENT.wall_triangles(wide, lambda degrees, z: 0.0)))
-        done = self.refused(1, "wall.stl: the wall is not within --skirt, 2, at .*--skirt '[0-9.]+ mm' accepts it", "--skirt",
+        done = self.refused(1, "wall.stl: the wall is not within --skirt, 2, at .*--skirt '[0-9.]+ mm' is long enough", "--skirt",
                             "2 mm", wall="wide.stl", output="none")
-        self.assertRegex(done.stderr, "landmarks.json: the landmarks are [2-5].* mm from the wall of wide.stl on average, and a "
-                         "person sets them within 1 mm: they may belong to another patient")
+        self.assertRegex(done.stderr, "landmarks.json: the landmarks are [2-5].* mm from the wall of wide.stl on average, but a "
+                         "person usually sets them within 1 mm: they may belong to another patient")
         self.assertTrue((here / "none" / "UNFINISHED.txt").exists())
 
     def test_unclear_axes(self):

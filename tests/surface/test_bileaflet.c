@@ -268,7 +268,8 @@ TEST(the_bound_counts_that_arcs_are_cubics) {
   riis_surface_options options = surface_options();
   options.tolerance = 1e-6;
   options.half_thickness = 2.5e-3;
-  CHECK_REFUSED(RIIS_LIMIT_EXCEEDED, "the valve's curves are right to 1.3|more than half of tolerance * half_thickness",
+  CHECK_REFUSED(RIIS_LIMIT_EXCEEDED,
+                "the valve's curves are accurate to 1.3|more than half of tolerance * half_thickness",
                 riis_surface_create(valve, &options, &surface));
   options.triangulation = RIIS_TRIANGULATION_FIXED;
   CHECK_REFUSED(RIIS_LIMIT_EXCEEDED, "the valve's curves are right to", riis_surface_create(valve, &options, &surface));

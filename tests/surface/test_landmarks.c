@@ -1129,7 +1129,7 @@ TEST(test_refused_annuli) {
   patient mirrored = good;
   add_commissures(&mirrored, ratio, sizes);
   mirrored.flow[2] = 1;
-  check_place_refused("mitral", &mirrored, "landmarks.flow points to the atrium|mirrored",
+  check_place_refused("mitral", &mirrored, "landmarks.flow contradicts the commissures|mirrored",
                       "flow against the commissures");
 #undef REFUSED
   patient ring = empty_patient();

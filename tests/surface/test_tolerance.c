@@ -412,7 +412,7 @@ TEST(a_deviation_of_curves_is_part_of_the_bound) {
       CHECK_NEAR(made.bound_of_patches, exact.bound_of_patches + off, 1e-15);
       assert_true(made.is_within && exact.is_within);
       CHECK_OK(triangulate_deviating(kinds[k], off, 2 * off, is_fixed, &made));
-      CHECK_REFUSED(RIIS_LIMIT_EXCEEDED, "the valve's curves are right to 0.0009765|more than half of tolerance",
+      CHECK_REFUSED(RIIS_LIMIT_EXCEEDED, "the valve's curves are accurate to 0.0009765|more than half of tolerance",
                     triangulate_deviating(kinds[k], off, 1.99 * off, is_fixed, &made));
     }
 }

@@ -327,7 +327,7 @@ static void test_centers(const char *name) {
   for (int64_t i = 0; i < 3 * n; ++i) K[i] = sqrt((double)i) / 3;
   snprintf(path, sizeof path, "%s/1", name);
   expect_refused(riis_vtk_mesh_write(mesh, scratch_path("tet/1")), RIIS_FILE_ERROR,
-                 "tet/1: is a time of a case, and the mesh");
+                 "tet/1: is a time of a case, but the mesh");
   expect_fine(riis_vtk_mesh_set_point_array(mesh, "riis_K", n, 1, K));
   expect_fine(riis_vtk_mesh_set_point_array(mesh, "riis_K_u_surface", n, 3, K));
   expect_fine(riis_vtk_mesh_write(mesh, scratch_path(path)));

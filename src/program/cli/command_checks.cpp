@@ -160,7 +160,7 @@ void check_solver_scale(const ExportOptions &options) {
   if (!unit || *unit == Unit::centimetre) return;
   refuse_usage("--scale: " + shortest(options.surface_options.scale) + " makes lengths in " + words_of(*unit) +
                ", and svMultiPhysics needs grams and centimetres: write --unit " + name_of(*unit) +
-               " in place of --scale, and riis export converts");
+               " in place of --scale; riis export then converts the lengths");
 }
 
 // svMultiPhysics gets numbers in grams, centimetres and seconds. Without --unit, numbers are taken as they are, because they are

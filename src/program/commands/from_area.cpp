@@ -128,8 +128,8 @@ void warn_of_turns(const AreaOptions &options, const riis_area_range &range) {
   const std::string taken = options.solve == "opening" ? "the least opening" : "the value nearest to the present one";
   warn("the " + words_of(options) + " grows in a part of the range and falls in another: it turns at " + options.solve +
        " " + joined_by(places, ", ") +
-       (range.n_turns > static_cast<std::int64_t>(places.size()) ? " and further on" : "") + "; of several solutions " +
-       taken + " was found, and --from and --to lead to the other solutions");
+       (range.n_turns > static_cast<std::int64_t>(places.size()) ? " and further on" : "") +
+       "; if there are several solutions, the command finds " + taken + ", and --from and --to lead to the others");
 }
 
 // With adapted triangles, the area jumps by less than a small share of its value, except for small areas.
@@ -141,7 +141,7 @@ void warn_of_jumps(const Areas &wanted, const Solution &found) {
     if (wanted.areas[i] > 0) most = std::max(most, std::abs(found.reached[i] / wanted.areas[i] - 1));
   if (most > fair_error)
     warn("the relative error of an area is " + shown(most) +
-         ", because the area jumps where triangles change: see --triangulation fixed");
+         ", because the area jumps where the triangles change: see --triangulation fixed");
 }
 
 std::string summary_line(const std::string &label, const std::string &text) {

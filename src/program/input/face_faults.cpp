@@ -132,14 +132,14 @@ void warn_of_faces(const std::string &name, const riis_surface *surface) {
   if (faults.n_turned > 0)
     warn(name + ": " + grouped(faults.n_turned) + " of " + counted(triangles.n_triangles, "triangle") +
          (faults.n_turned == 1 ? " is" : " are") +
-         " turned over against the neighbours: normals and sides change there; ParaView's filter Surface Normals turns "
-         "them back");
+         " turned over relative to the neighbours: normals and sides change there; ParaView's filter Surface Normals "
+         "turns them back");
   if (faults.n_equal > 0)
     warn(name + ": " + counted(faults.n_equal, "triangle") + (faults.n_equal == 1 ? " is" : " are") +
-         " in the file twice: areas count both");
+         " in the file twice, and areas count both copies");
   if (faults.n_closed > 0)
     warn(name + ": " + counted(faults.n_closed, "piece") + (faults.n_closed == 1 ? " is" : " are") +
-         " closed, as a thick leaflet is: areas count both faces");
+         " closed like a thick leaflet, and areas count both faces");
 }
 
 OpenLine longest_open_line(const riis_surface *surface, double most) {

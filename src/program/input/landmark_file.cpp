@@ -325,7 +325,7 @@ Axes fcsv_axes(const std::string &path, const std::string &value) {
     refuse_file(path, "states no axes: a line # CoordinateSystem = LPS is missing" + std::string(why_axes));
   if (value == "LPS" || value == "1") return Axes::LPS;
   if (value == "RAS" || value == "0") return Axes::RAS;
-  refuse_file(path, "CoordinateSystem is " + quoted(value) + "; it must be LPS, RAS, 0 for RAS or 1 for LPS");
+  refuse_file(path, "CoordinateSystem is " + quoted(value) + "; it must be LPS or 1, or RAS or 0");
 }
 
 // Reads an .fcsv file, which earlier versions of 3D Slicer wrote. Its lengths are in mm. An .fcsv file gives its axes as a name

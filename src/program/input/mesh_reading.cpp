@@ -146,7 +146,7 @@ MeshFile read_by_child(const std::string &path) {
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
     refuse_data(path + ": is damaged: its reader ended with status " + std::to_string(WEXITSTATUS(status)));
   if (answer.status == RIIS_OUT_OF_MEMORY)
-    refuse_data(answer.text + "; its reader may take 2 GB and a thousand times the size of its files");
+    refuse_data(answer.text + "; the reader of a file gets 2 GB plus a thousand times the size of the file");
   if (answer.status != RIIS_OK)
     throw Refusal{
         exit_bad_data,

@@ -67,7 +67,7 @@ Settings settings_of(const std::string &path, const riis_valve *valve, const Jso
       add(path, valve, name, value, settings);
       continue;
     }
-    if (!is_part(valve, name)) refuse_file(path, name + " is not a part of the valve with parameters of its own");
+    if (!is_part(valve, name)) refuse_file(path, name + " is not a part of the valve that has its own parameters");
     for (const auto &[inner, inner_value] : value.items()) add(path, valve, name + "." + inner, inner_value, settings);
   }
   return settings;

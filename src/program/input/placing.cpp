@@ -114,7 +114,7 @@ void pair_landmarks(Placed &placed, bool is_exact) {
       };
       refuse_data(landmarks.path + ": " + quoted(landmarks.names[k]) + " and " + quoted(landmarks.names[i]) + " are " +
                   words(is_one_target, in_patient) + ", but on the valve they are " + words(is_one_source, on_valve) +
-                  ", so no warp meets both: leave one of them out");
+                  ", so no warp takes the valve to both landmarks: leave one of them out");
     }
     if (is_repeated) continue;
     const auto at = static_cast<std::ptrdiff_t>(3 * i);
@@ -150,13 +150,14 @@ Warp unfolded_warp(const Placed &placed, riis_valve *valve, double noise, Reader
 std::string cure_of_folds(const Placed &placed, const riis_valve *valve, Reader reader) {
   const std::string smoothed = option_text(reader, "warp", "smoothed"),
                     look = "look for a landmark that is not at its place";
-  if (!(placed.noise > 0)) return "; the landmarks' noise is 0: with their noise stated, " + smoothed + " bends less";
+  if (!(placed.noise > 0))
+    return "; the landmarks' noise is 0: if the file states their noise, " + smoothed + " bends less";
   try {
     unfolded_warp(placed, create<Valve>(riis_valve_copy, valve), placed.noise, reader);
   } catch (const Refusal &) {
     return "; " + smoothed + " folds too: " + look;
   }
-  return "; " + smoothed + " does not fold, and passes the landmarks within about their noise; otherwise " + look;
+  return "; " + smoothed + " does not fold, and passes the landmarks within about their noise, but first " + look;
 }
 
 }  // namespace
@@ -168,7 +169,7 @@ void adapt(LandmarkFile &landmarks, const PlaceRequest &request) {
     if (request.axes != "LPS" && request.axes != "RAS")
       refuse_usage(axes + " is " + quoted(request.axes) + "; it must be LPS or RAS");
     if (landmarks.axes == Axes::mesh)
-      refuse_usage(axes + ": " + landmarks.path + " states the axes mesh, so its turn into other axes is not known");
+      refuse_usage(axes + ": " + landmarks.path + " states the axes mesh, so it cannot be turned into other axes");
     landmarks.convert(request.axes == "LPS" ? Axes::LPS : Axes::RAS);
   }
   if (request.noise) landmarks.noise = *request.noise;
@@ -305,7 +306,7 @@ void check_at_nodes(const LandmarkFile &landmarks, std::int64_t n_nodes, const d
       text += joined_by(advice, " and ");
       refuse_data(text);
     }
-  refuse_data(text + ", which is more than 1 cm, in any unit and with the axes LPS and RAS");
+  refuse_data(text + ", which is more than 1 cm, whatever the unit and the axes (LPS or RAS)");
 }
 
 // ---- Outputs ----
@@ -470,7 +471,7 @@ std::string place_report(const Placed &placed, Reader reader) {
                     ".\nTheir values in the table are guesses from the usual proportions of the kind. Each guess may "
                     "move the valve by more than a\nfifteenth of its radius. Add landmarks" +
                     (reader == Reader::program
-                         ? ", or give known sizes in cm, as by --set " + undetermined.front() + "=VALUE"
+                         ? ", or give known sizes in cm, for example by --set " + undetermined.front() + "=VALUE"
                          : ", or give known sizes") +
                     ".\n";
   return text;

@@ -397,7 +397,8 @@ std::string hint_for_msh(const std::string &path, const std::string &refusal) {
   if (!has_text(refusal, "is not a mesh of gmsh")) return "";
   if (first_bytes_of(path, 4) == "$NOD") return by_gmsh(path, "vtk");  // version 1
   if (first_bytes_of(path, 1) == "<")
-    return "; it is a description by SimVascular, whose mesh is beside it: " + with_ending(path, "vtu");
+    return "; it is SimVascular's description of a mesh: give the mesh, which is beside it, " +
+           with_ending(path, "vtu");
   return by_meshio(path, "vtu");
 }
 

@@ -62,8 +62,9 @@ std::string hint_of_change(const ValveOptions &options, const SurfaceFile &file,
     if (!reaches(make_wall(options, file, change))) continue;
     if (!change.is_turned)
       return std::string("; with its lengths times ") + change.factor +
-             " the wall would be: save the wall in the mesh's unit";
-    return "; after half a turn about z the wall would be, so one of valve and wall is in LPS and the other in RAS: " +
+             " the wall would be within --skirt: save the wall in the mesh's unit";
+    return "; after half a turn about z the wall would be within --skirt, so one of valve and wall is in LPS and the "
+           "other in RAS: " +
            axes_advice(options);
   }
   return "";

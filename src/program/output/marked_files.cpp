@@ -132,7 +132,7 @@ void SeriesFiles::find_earlier(const std::vector<std::string> &parts, bool has_p
       removed.insert(in_list);
     } else if (has_my_form) {
       refuse_data(path + " would be taken for a step of " + pvd_ +
-                  ", and no list of riis names it: remove it, or name another output");
+                  ", but no list that riis wrote names it: remove it, or name another output");
     }
   }
   if (!removed.empty()) check_other_lists(pvd_, removed);

@@ -426,7 +426,7 @@ int take(const std::string &output, const std::string &lock) {
     close(file);
     if (error == EINTR) continue;
     if (error == EWOULDBLOCK) refuse_lock(output, "another run of riis is writing it, and holds " + lock);
-    warn(output + ": it cannot be locked, so other runs may write it meanwhile: " + system_text(error));
+    warn(output + ": it cannot be locked, so other runs may write it at the same time: " + system_text(error));
     unlink(lock.c_str());
     return -1;
   }

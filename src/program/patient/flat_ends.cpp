@@ -137,7 +137,7 @@ class EndChoice {
       if (!is_end && found == nullptr) refuse_usage(text + ": no flat part of " + path_ + " is there; " + listed());
       if (!is_end) part = *found;
     }
-    if (is_chosen(part)) refuse_usage(text + ": another point chose the flat part at " + place(part) + " before");
+    if (is_chosen(part)) refuse_usage(text + ": another point has already chosen the flat part at " + place(part));
     chosen_.push_back({name, part});
   }
 
@@ -145,18 +145,21 @@ class EndChoice {
     if (!points.inlet && !points.outlets.empty()) {
       const std::size_t n = chosen_.size() - points.outlets.size();
       if (n != 1)
-        refuse(std::to_string(n) + " flat parts are left for the inlet; choose it also, by --inlet=X,Y,Z: " + listed());
+        refuse(std::to_string(n) +
+               " flat parts are left for the inlet; also choose the inlet, by --inlet=X,Y,Z: " + listed());
     }
     if (chosen_.size() < 2) {
       const bool has_ring = std::any_of(parts_.begin(), parts_.end(),
                                         [](const FlatPart &part) { return part.is_sharp() && part.n_rims == 2; });
-      refuse((chosen_.empty() ? std::string("no flat end is clear")
-                              : "only the flat end at " + place(chosen_[0].part) + " is clear") +
-             ", but blood needs two: " +
-             (has_ring ? "a flat ring shows that this is a wall with its thickness, so export the surface of the blood"
-                       : "cut the vessels flat, as by Plane Cut in the Dynamic Modeler of 3D Slicer, or choose flat "
-                         "parts by --inlet=X,Y,Z --outlet=X,Y,Z") +
-             "; " + listed());
+      refuse(
+          (chosen_.empty() ? std::string("no flat end is clear")
+                           : "only the flat end at " + place(chosen_[0].part) + " is clear") +
+          ", but the blood needs two ends: " +
+          (has_ring
+               ? "a flat ring shows that this wall has a thickness, so export the surface of the blood instead"
+               : "cut the vessels flat, for example by Plane Cut in the Dynamic Modeler of 3D Slicer, or choose flat "
+                 "parts by --inlet=X,Y,Z --outlet=X,Y,Z") +
+          "; " + listed());
     }
   }
 
@@ -165,7 +168,7 @@ class EndChoice {
     for (const FlatPart &part : parts_)
       if (part.was_open && !is_chosen(part))
         refuse("the surface has a hole of " + counted(static_cast<std::int64_t>(part.triangles.size()), "edge") +
-               " at " + place(part) + ": close it, as by the filter Close Holes of MeshLab" +
+               " at " + place(part) + ": close it, for example by the filter Close Holes of MeshLab" +
                (part.is_large ? ", or make it an end by --outlet=" + place(part) : ""));
   }
 
@@ -290,7 +293,7 @@ void name_ends(PatientWall &wall, const std::array<double, 3> &centre, const std
     if (!is_in_wall(wall.triangles, centre))
       refuse_data(
           wall.path + ": the valve's centre, " + point_text(centre, wall.size) +
-          ", lies outside the wall; landmarks and wall may have different units or axes, or be of two patients");
+          ", lies outside the wall; landmarks and wall may have different units or axes, or belong to two patients");
     const std::int64_t hit = first_wall_hit(wall.triangles, centre, -1 * unit_vector(flow));
     view(wall.ends)[hit < 0 ? 0 : first_end_from(wall, hit)].name = "inlet";
   }
@@ -443,9 +446,10 @@ WallFrame frame_of_wall(const PatientWall &wall, const LandmarkFile &landmarks, 
         landmarks.path + ": the landmarks are " + mm_text(best.away) + " from the wall of " + wall.path + " on average";
     if (all[0].away <= at_wall)
       refuse_data(text + "; they are " + mm_text(all[0].away) + " from it with " + options_of(all[0], best));
-    refuse_data(
-        text + ", and farther with other units and axes. On their wall they are nearer than " + mm_text(at_wall) +
-        ": are both files of the same patient and the same image? Load both in 3D Slicer, and set the landmarks anew");
+    refuse_data(text + ", and farther away with other units and axes. Landmarks on their own wall are nearer than " +
+                mm_text(at_wall) +
+                ": do both files belong to the same patient and the same image? Load both in 3D Slicer, and set the "
+                "landmarks anew");
   }
   if (allowed.size() > 1 && allowed[1].away <= std::min(at_wall, clearly_farther * best.away))
     refuse_usage(wall.path + ": its " + (allowed[1].unit == best.unit ? "axes are" : "unit is") +

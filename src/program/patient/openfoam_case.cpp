@@ -131,7 +131,8 @@ std::string flows_of(const Ends &ends, bool is_mitral) {
 }  // namespace
 
 void write_openfoam_case(const SolverCase &the) {
-  if (!the.starts_closed) refuse_data("--solver openfoam: the valve's law, switch, starts with a closed valve");
+  if (!the.starts_closed)
+    refuse_data("--solver openfoam: the case moves the valve by the law switch, which starts with a closed valve");
   const Ends ends = ends_of(the, Unit::metre);
   const Pressures pressures = pressures_of(the, ends);
   const std::string placed = (fs::path(the.folder) / "placed.json").string();
@@ -184,9 +185,10 @@ std::string foam_warp_of(const std::string &path, const PlacedFile &file) {
   if (file.warp.is_null()) return "";
   const WarpSource warp(path, "warp", file.warp, file.where, file.factor);
   if (warp.moves() || warp.pairs().size() > 1)
-    refuse_data(path + ": the warp moves, and OpenFOAM's dictionary takes a warp that rests or follows the mesh");
+    refuse_data(path + ": the warp moves, but OpenFOAM's dictionary takes only a warp that rests or follows the mesh");
   if (!warp.is_in_mesh())
-    refuse_data(path + ": the warp's landmarks are in the valve's coordinates, and OpenFOAM takes those of the mesh");
+    refuse_data(
+        path + ": the warp's landmarks are in the valve's coordinates, but OpenFOAM needs the coordinates of the mesh");
   return "warp\n{\n    sources" + foam_points_of(warp.pairs()[0].sources()) + "    targets" +
          foam_points_of(warp.pairs()[0].targets()) + "    noise           " + shortest(warp.noise()) + ";\n}\n";
 }

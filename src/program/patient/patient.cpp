@@ -167,7 +167,7 @@ class PatientRun {
                steps_.seconds() - begin);
     if (frame_.away > doubtful_distance_mm)
       warn(options_.landmarks + ": the landmarks are " + printed("%.3g", frame_.away) + " mm from the wall of " +
-           options_.wall + " on average, and a person sets them within " + shown(usual_distance_mm) +
+           options_.wall + " on average, but a person usually sets them within " + shown(usual_distance_mm) +
            " mm: they may belong to another patient or image. Load both in 3D Slicer");
     steps_.say("folder", options_.folder + ", where lengths are in " + name_of(the_.unit) + ". " + commands_file +
                              " has the command of each next step");
@@ -337,10 +337,10 @@ class PatientRun {
                           "wall.stl", "--output", "logs/trial.vtp"});
       if (trial.is_fine())
         return ". If the wall is right there, --skirt " + option_mm(longest * millimetre_) +
-               " accepts it; otherwise look at the landmarks near there";
+               " is long enough; otherwise look at the landmarks near there";
     }
-    return ". No skirt up to 20 mm reaches this wall at all openings: are the landmarks at their places, and of this "
-           "patient?";
+    return ". No skirt up to 20 mm reaches this wall at all openings: are the landmarks at their places, and do they "
+           "belong to this patient?";
   }
 
   void show_warnings(const StepEnd &end) const {
@@ -521,7 +521,7 @@ class PatientRun {
   // Returns the options that choose the ends on the right sides of the valve.
   std::string cure_of_ends(const ValveSides &sides) const {
     std::string text;
-    if (options_.flow) text = ", by --flow: turn --flow round if it points against the blood; otherwise";
+    if (options_.flow) text = ", according to --flow: reverse --flow if it points against the blood; otherwise";
     if (sides.before.empty() || sides.after.empty())
       return text + (text.empty() ? ": " : " ") + "no flat end is " + (sides.before.empty() ? "before" : "after") +
              " it: cut the vessel flat there";
@@ -599,10 +599,10 @@ class PatientRun {
     if (options_.solver == "fenicsx") write_fenicsx_case(the_);
     steps_.say("case", "for " + options_.solver, steps_.seconds() - begin);
     if (the_.is_mitral)
-      steps_.say(
-          "case",
-          "its ventricle has a rigid wall and cannot fill: the blood that passes the valve leaves at once through "
-          "the outlet, also in diastole, and the outlet has the pressure of the ventricle, not of the aorta");
+      steps_.say("case",
+                 "the ventricle of the case has a rigid wall and cannot fill: blood that passes the valve leaves at "
+                 "once through the outlet, even in diastole. The outlet therefore has the pressure of the ventricle, "
+                 "not of the aorta");
   }
 
   void write_report() {
@@ -642,14 +642,15 @@ class PatientRun {
     const double finer = std::pow(static_cast<double>(the_.n_nodes) / many_nodes, 1 / power_of_nodes);
     if (finer < 1)
       steps_.say("edges", "the mesh of " + grouped(the_.n_nodes) +
-                              " nodes is ready for a run; to compare with a finer mesh, --band-edge " +
+                              " nodes is ready for a run; for a comparison with a finer mesh, --band-edge " +
                               printed("%.2f", finer * band_edge_) + " makes about " + grouped(many_nodes) +
                               " nodes in place of --band-edge " + shown(band_edge_));
     steps_.say("done", "in " + printed("%.0f", steps_.seconds()) + " s. " + options_.folder + " has:");
     const std::pair<std::string, const char *> files[] = {
-        {"mesh.msh", "the mesh for gmsh's readers; mesh.vtu for ParaView, and faces/ with its boundaries"},
+        {"mesh.msh",
+         "the mesh for programs that read gmsh's files; mesh.vtu is for ParaView, and faces/ has its boundaries"},
         {"placed.json", "the valve, for --valve of every command of riis; wall.stl is its wall"},
-        {"closed.vtu", "the marked mesh with the closed valve; open.vtu with the open valve"},
+        {"closed.vtu", "the marked mesh with the closed valve; open.vtu has the open valve"},
         {"closed.png", "pictures of both"},
         {"beat.pvd", "a prescribed beat for ParaView, without a flow; leaflets.pvd has the leaflets"},
         {"beat.mp4", "the prescribed beat as a movie"},
@@ -660,8 +661,7 @@ class PatientRun {
     const std::string path = options_.folder + "/" + options_.solver;
     if (options_.solver != "none")
       steps_.say("beats",
-                 "the valve of the case is moved by the blood, and at other times than in the prescribed beat.pvd and "
-                 "beat.mp4");
+                 "the blood moves the valve of the case, at other times than in the prescribed beat.pvd and beat.mp4");
     if (options_.solver == "openfoam")
       steps_.say("once", "in the top folder of riis: ./run openfoam plugin (docs/patient_openfoam.md)");
     if (options_.solver == "fenicsx")

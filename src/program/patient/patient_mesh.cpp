@@ -367,7 +367,7 @@ class PatientMesher {
 
   std::string cure_of_surface() const {
     return "look for overlapping triangles in " + wall_.path +
-           ", and repair or smooth it, as by Surface Toolbox of 3D Slicer";
+           ", and repair or smooth it, for example by Surface Toolbox of 3D Slicer";
   }
 
   // Tells where the wall intersects itself, or returns "". Most failures of gmsh come from a wall that intersects itself.

@@ -41,7 +41,7 @@ void check_inputs(const fs::path &folder, const std::string &path, const std::ve
     for (const char *const name : own_names) {
       std::error_code error;
       if (fs::equivalent(folder / name, input, error))
-        refuse_folder(path, "its " + std::string(name) + " is also read, and would be removed: copy it elsewhere");
+        refuse_folder(path, "its " + std::string(name) + " is also an input, and would be removed: copy it elsewhere");
     }
 }
 

@@ -29,7 +29,7 @@ constexpr double flat_hole_share = 0.02;
 constexpr double thin_share = 2e-6, short_in_heights = 10;
 constexpr int most_thin_rounds = 20;
 
-constexpr const char *how_to_close = "close it, as by the filter Close Holes of MeshLab";
+constexpr const char *how_to_close = "close it, for example by the filter Close Holes of MeshLab";
 
 // Repairs the surface of a wall in several steps.
 class WallRepair {
@@ -190,7 +190,7 @@ class WallRepair {
       refuse("the surface has " + std::to_string(pieces.size()) + " pieces, the two largest of " + text_of(largest) +
              " and " + text_of(second) + " triangles, but the blood has one outer surface: " +
              (is_inside ? "one lies within the other, as the two faces of a thick wall do, so export the blood alone"
-                        : "keep one piece, as by Islands in the Segment Editor of 3D Slicer"));
+                        : "keep one piece, for example by Islands in the Segment Editor of 3D Slicer"));
     }
     std::int64_t n_left_out = 0;
     for (std::size_t i = 1; i < pieces.size(); ++i) n_left_out += pieces[i].n_triangles;
@@ -215,9 +215,9 @@ class WallRepair {
       }
     });
     if (n_forks == 0) return;
-    refuse(counted(n_forks, "edge") + (n_forks == 1 ? " has" : " have") + " more than two triangles, as the one at " +
-           at(place) + " with " + std::to_string(n_most) +
-           ": the surface touches itself; repair it, as by the filter Repair non Manifold Edges of MeshLab");
+    refuse(counted(n_forks, "edge") + (n_forks == 1 ? " has" : " have") +
+           " more than two triangles, such as the edge at " + at(place) + " with " + std::to_string(n_most) +
+           ": the surface touches itself; repair it, for example by the filter Repair non Manifold Edges of MeshLab");
   }
 
   // Gives all triangles the orientation of the first triangle.
@@ -248,7 +248,8 @@ class WallRepair {
           known = wanted;
           stack.push_back(next.triangle);
         } else if (known != wanted) {
-          refuse("the surface has one side only, like a Moebius strip, as at " + at(made_.triangles.centre_of(here)) +
+          refuse("the surface has only one side, like a Moebius strip, for example at " +
+                 at(made_.triangles.centre_of(here)) +
                  ": it does not enclose the blood; make a new surface from the segmentation");
         }
       }
@@ -458,7 +459,7 @@ class WallRepair {
            counted(static_cast<std::int64_t>(loop.size()), "edge") + " at " + at(centre) +
            (is_flat ? ", whose rim is too wavy to be closed here: "
                     : ", whose rim is off its plane by " + shortest_of(off) + ": ") +
-           how_to_close + "; cut an open end flat, as by Plane Cut in the Dynamic Modeler of 3D Slicer");
+           how_to_close + "; cut an open end flat, for example by Plane Cut in the Dynamic Modeler of 3D Slicer");
   }
 
   // Refuses vertices at which two parts of the surface touch each other.
@@ -487,7 +488,7 @@ class WallRepair {
         "the surface touches itself at " +
         (touching.size() == 1 ? std::string("a vertex, ") : std::to_string(touching.size()) + " vertices, such as ") +
         at(view(made_.triangles.points)[*touching.begin()]) +
-        ": smooth it a little, or repair it, as by the filter Repair non Manifold Vertices of MeshLab");
+        ": smooth it a little, or repair it, for example by the filter Repair non Manifold Vertices of MeshLab");
   }
 
   // Turns the whole surface outwards, and reports the triangles of the file that had another orientation.

@@ -389,14 +389,14 @@ std::string mesh_block(const ExportOptions &options, const std::string &named_fo
   };
   const std::string half_thickness = shortest(leaflets.half_thickness());
   const double edges = leaflets.longest_edge() / leaflets.half_thickness();
-  std::string text = "<!-- riis, " + title_of(options) + " valve\n     opening: " + frames(motion.opening) +
-                     "\n     closing: " + frames(motion.closing) +
-                     "\n     a frame is a time step: Time_step_size must be " + shortest(options.time_step) +
-                     "\n     " + counted(leaflets.n_triangles(), "triangle") + ", the longest edge " +
-                     shown(leaflets.longest_edge()) + ", " + shown(edges) + " half thicknesses" +
-                     "\n     face box widens the box of nodes in which svMultiPhysics looks; Mesh_scale_factor of this "
-                     "block must stay 1" +
-                     "\n     " + text_of_units(options);
+  std::string text =
+      "<!-- riis, " + title_of(options) + " valve\n     opening: " + frames(motion.opening) +
+      "\n     closing: " + frames(motion.closing) + "\n     one frame is one time step: Time_step_size must be " +
+      shortest(options.time_step) + "\n     " + counted(leaflets.n_triangles(), "triangle") + ", the longest edge " +
+      shown(leaflets.longest_edge()) + ", " + shown(edges) + " half thicknesses" +
+      "\n     the face box widens the box of nodes in which svMultiPhysics looks; Mesh_scale_factor of this "
+      "block must stay 1" +
+      "\n     " + text_of_units(options);
   if (edges > fine_edges) {
     text +=
         "\n     svMultiPhysics measures distances to the middles of triangles; for errors below 1 %, export with "
@@ -406,7 +406,7 @@ std::string mesh_block(const ExportOptions &options, const std::string &named_fo
   }
   if (!options.cycle.empty() && options.starts.empty())
     text += std::string("\n     at time 0 of the cycle the valve is ") + (motion.starts_closed ? "closed" : "open") +
-            ", or nearer to that state";
+            ", or nearer to this state";
   for (const std::string &line : forecast.lines) text += "\n     " + line;
   text += " -->\n";
   text += "<Add_URIS_mesh name=\"" + block_name(options) + "\">\n";
@@ -432,7 +432,7 @@ std::string mesh_block(const ExportOptions &options, const std::string &named_fo
 
 UrisExport write_uris(const ExportOptions &options, const std::string &named_folder) {
   if (options.surface_options.offset != 0)
-    refuse_usage("--offset: svMultiPhysics interpolates distances, and has no offset");
+    refuse_usage("--offset: svMultiPhysics interpolates distances, and cannot use an offset");
   check_whole_folder(options.folder, "FOLDER");
   const UrisMotion motion = uris_motion_of(options);
   std::optional<Stage> stage(std::in_place, "making the leaflets of all frames", options.quiet);

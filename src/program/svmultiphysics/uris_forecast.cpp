@@ -63,7 +63,8 @@ class Forecaster {
           "the drop across the closed valve was not computed, and it is not known whether the leaflets separate two "
           "sides of " +
           options_.mesh + ", because " + no_flow.reason +
-          "; it needs NumPy and SciPy (Debian: python3-scipy), and RIIS_PYTHON names the Python that has them");
+          "; the computation needs NumPy and SciPy (Debian: python3-scipy), and RIIS_PYTHON names the Python that has "
+          "them");
     }
     const std::size_t n = motion.opening.size() + motion.closing.size();
     StepProgress progress("reading frames as the solver does", n, options_.quiet);
@@ -180,7 +181,7 @@ class Forecaster {
       warn(
           "the drop across the closed valve was not found, because the solver's equations have no solution between 0 "
           "and 1/" +
-          shown(least_of_sensible) + " of (R/eps) u; its stabilisation needs a density of about 1 g/cm3");
+          shown(least_of_sensible) + " of (R/eps) u; the solver's stabilisation needs a density of about 1 g/cm3");
       return;
     }
     say("expected drop of the closed valve: " + printed("%.4f", expected.drop) + " of (R/eps) u, with eps = " +
@@ -196,14 +197,15 @@ class Forecaster {
       needed = "the half thickness that the mesh needs was not computed, because " + no_flow.reason;
     }
     say("  " + needed);
-    warn("svMultiPhysics will drop " + shown(expected.drop) + " of (R/eps) u across the closed valve; " + needed);
+    warn("in svMultiPhysics the pressure will drop by " + shown(expected.drop) +
+         " of (R/eps) u across the closed valve; " + needed);
   }
 
   // Returns a sentence about how stiff the resistance makes the equations.
   std::string text_of_stiffness() const {
     const double stiffness = options_.resistance * options_.time_step / (options_.density * half_thickness_);
     return "With --resistance " + shown(options_.resistance) + ", R dt/(rho eps) is " + shown(stiffness) +
-           ", but about 1 to 1,000 in flows of blood: look at the unit of --resistance";
+           ", but it is about 1 to 1,000 in flows of blood: look at the unit of --resistance";
   }
 
   // Finds the half thickness in steps of a quarter. The last step is halved twice for a finer result.
@@ -220,9 +222,10 @@ class Forecaster {
       below = above;
       above += 0.25;
       if (above > most_thickness)
-        return are_found ? "even a half thickness of " + in_mesh(most_thickness * half_thickness_) + " does not drop " +
-                               shown(enough) + "; the mesh needs shorter edges, or the export finer triangles"
-                         : "the half thickness that drops " + shown(enough) + " was not found";
+        return are_found ? "even a half thickness of " + in_mesh(most_thickness * half_thickness_) +
+                               " does not give a drop of " + shown(enough) +
+                               "; the mesh needs shorter edges, or the export needs finer triangles"
+                         : "the half thickness for a drop of " + shown(enough) + " was not found";
     } while (!is_enough(above));
     for (int i = 0; i < 2; ++i) {
       const double middle = (below + above) / 2;

@@ -172,7 +172,7 @@ SolverMesh solver_mesh_of(const riis_vtk_mesh *file, const std::string &path, do
                   ", and svMultiPhysics has only " + solver_element_names());
     if (mesh.element && element != mesh.element)
       refuse_data(path + ": has " + mesh.element->name + " and " + element->name +
-                  ", and svMultiPhysics takes one type of element in a mesh");
+                  ", but svMultiPhysics takes only one type of element in a mesh");
     mesh.element = element;
     mesh.nodes.insert(mesh.nodes.end(), nodes.data() + view(offsets)[i], nodes.data() + view(offsets)[i + 1]);
   }

@@ -81,7 +81,7 @@ riis::WantedPoints checked_points(const riis_closest_options &options, const Poi
     const std::int64_t id = ids[k];
     if (id <= last || id >= points.n)
       riis::fail(RIIS_INVALID_ARGUMENT, "options.point_ids: entry ", k, " is ", id,
-                 "; it must be above the entry before, ", last, ", and below points.n_points, ", points.n);
+                 "; it must be above the entry before it, ", last, ", and below points.n_points, ", points.n);
     riis::check_point(points, id, "point", RIIS_INVALID_ARGUMENT);
     listed.bounds.add(points[id]);
     last = id;

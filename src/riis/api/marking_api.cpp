@@ -152,9 +152,9 @@ riis_reaction checked_reaction(const riis_reaction *reaction) {
     riis::fail(RIIS_INVALID_ARGUMENT, "reaction.n_edges is ", whole.n_edges, "; it must be from 0 to 2^40");
   if (!whole.force && !whole.moment && !whole.leaflet_force && !whole.leaflet_moment && !whole.edge_force &&
       !whole.edge_moment)
-    riis::fail(
-        RIIS_INVALID_ARGUMENT,
-        "reaction has no sum to add to, because the fields force, moment and those of leaflets and edges are NULL");
+    riis::fail(RIIS_INVALID_ARGUMENT,
+               "reaction has no sum to add to, because the fields force and moment, and the fields of leaflets and "
+               "edges, are NULL");
   return whole;
 }
 

@@ -52,7 +52,7 @@ void check_precision(const riis_surface_options &options, const char *name, doub
   const double largest = std::max({std::abs(t[0]), std::abs(t[1]), std::abs(t[2])});
   if (largest * std::numeric_limits<double>::epsilon() > 1e-3 * wanted)
     riis::fail(RIIS_INVALID_ARGUMENT, "options.translation moves the valve by ", largest,
-               ", where coordinates round by more than a thousandth of ", name, " * half_thickness, ", wanted);
+               ", where coordinates are rounded by more than a thousandth of ", name, " * half_thickness, ", wanted);
 }
 
 // Returns the request. The request keeps an n_threads of 0, and the surface chooses the number of threads.

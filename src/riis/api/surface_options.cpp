@@ -61,7 +61,8 @@ void check_options(const riis_surface_options &options) {
     fail(RIIS_INVALID_ARGUMENT, "options.offset is ", options.offset, "; it must be above -1 and below 1");
   if (options.offset != 0 && options.measure != RIIS_MEASURE_TRIANGLES)
     fail(RIIS_INVALID_ARGUMENT, "options.offset is ", options.offset, ", but options.measure is ", options.measure,
-         ", which does not tell the sides of a surface apart: it must be RIIS_MEASURE_TRIANGLES, 0, or the offset 0");
+         ", which does not tell the sides of a surface apart: it must be RIIS_MEASURE_TRIANGLES, 0, or the offset must "
+         "be 0");
 }
 
 Placement placement_of(const riis_surface_options &options) {

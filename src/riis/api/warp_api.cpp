@@ -138,8 +138,8 @@ riis_status riis_warp_set_targets_at(riis_warp *warp, const riis_keyframe_arrays
       for (std::int64_t i = 0; i < 3 * n; ++i)
         if (coordinate(0, i) != coordinate(whole.n_keys - 1, i))
           riis::fail(RIIS_INVALID_ARGUMENT, "landmark ", i / 3,
-                     " in the last frame, a period after the first, has the ", "xyz"[i % 3], " ",
-                     coordinate(whole.n_keys - 1, i), "; it must equal that of the first, ", coordinate(0, i));
+                     " in the last frame, one period after the first frame, has the ", "xyz"[i % 3], " ",
+                     coordinate(whole.n_keys - 1, i), "; it must equal that of the first frame, ", coordinate(0, i));
     const riis::KeyTimes::KeysAround around = keys.around(time);
     riis::Vector<Vec3> &places = room_for_targets(*warp);
     for (std::int64_t i = 0; i < n; ++i) {

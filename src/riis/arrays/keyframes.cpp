@@ -43,8 +43,9 @@ Keyframes::Keyframes(const riis_surface_arrays &arrays, const riis_keyframe_arra
   if (keys_.is_closed())
     for (std::int64_t i = 0; i < n; ++i)
       if (xyz[i] != xyz[(frames.n_keys - 1) * n + i])
-        fail(RIIS_INVALID_SURFACE, "vertex ", i / 3, " in the last frame, a period after the first, has the ",
-             view(axes)[i % 3], " ", xyz[(frames.n_keys - 1) * n + i], "; it must equal that of the first, ", xyz[i]);
+        fail(RIIS_INVALID_SURFACE, "vertex ", i / 3, " in the last frame, one period after the first frame, has the ",
+             view(axes)[i % 3], " ", xyz[(frames.n_keys - 1) * n + i], "; it must equal that of the first frame, ",
+             xyz[i]);
   // Checks the faces once, with the vertices of the first frame.
   faces_ = faces_from_arrays(arrays);
   triangles_from_arrays(faces_, first_frame(), {1, no_rotation, {0, 0, 0}}, true, false);

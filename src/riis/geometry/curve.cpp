@@ -89,7 +89,7 @@ class Flattening {
 
   void check(int depth) const {
     if (depth == max_depth)
-      fail(RIIS_LIMIT_EXCEEDED, "a curve needs more than ", 1 << max_depth, " points to be right to ", max_error_,
+      fail(RIIS_LIMIT_EXCEEDED, "a curve needs more than ", 1 << max_depth, " points to be accurate to ", max_error_,
            ": tolerance * half_thickness is too small for it");
   }
 

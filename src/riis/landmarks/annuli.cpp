@@ -162,8 +162,9 @@ Vec3 atrial_side(const Landmarks &landmarks, Vec3 normal, Vec3 forward) {
   const Vec3 by_commissures = side > 0 ? normal : -normal;
   if (landmarks.has_flow() && dot(found, by_commissures) < 0)
     fail(RIIS_INVALID_ARGUMENT,
-         "landmarks.flow points to the atrium, if the commissures are right: seen along the flow with the anterior "
-         "horn above, the posteromedial commissure must be on the right: the landmarks or their names are mirrored");
+         "landmarks.flow contradicts the commissures, which show that it points to the atrium. Seen along the flow "
+         "with the anterior horn above, the posteromedial commissure must be on the right: the landmarks or their "
+         "names are mirrored");
   return by_commissures;
 }
 
@@ -258,7 +259,7 @@ void check_side(const LandmarkModel &fitted, const Landmarks &landmarks) {
   fail(RIIS_INVALID_ARGUMENT,
        "landmarks.flow is needed: without it only the horns of the annulus show the atrium's side, and they are ",
        rounded(landmarks.scale * height, 3), " nearer to the atrium than the sides, with a standard error of ",
-       rounded(landmarks.scale * error, 3), "; this must be ", sure, " errors or more");
+       rounded(landmarks.scale * error, 3), "; the difference must be at least ", sure, " standard errors");
 }
 
 // The distance between the horns that the landmarks show, seen along the annulus' normal.

@@ -42,7 +42,7 @@ KeyTimes::KeyTimes(const char *name, std::int64_t n_keys, const double *time, do
            largest_time, " in magnitude");
     if (i > 0 && !(time[i] > time[i - 1]))
       fail(RIIS_INVALID_ARGUMENT, name, ".time of key ", i, " is ", time[i],
-           "; it must be above the time of the key before, ", time[i - 1]);
+           "; it must be above the time of the key before it, ", time[i - 1]);
     if (period > 0 && time[i] - time[0] > (1 + rounding) * period)
       fail(RIIS_INVALID_ARGUMENT, name, ".time of key ", i, " is ", time[i], ", beyond the period of ", period,
            " that begins with the first key, at ", time[0]);

@@ -36,8 +36,8 @@ ValueAndRate opening_from_table(const riis_opening_table &table, double time) {
       fail(RIIS_INVALID_ARGUMENT, "table.opening of key ", i, " is ", table.opening[i], "; it must be from 0 to 1");
   const double first = table.opening[0], last = table.opening[table.n_keys - 1];
   if (keys.is_closed() && first != last)
-    fail(RIIS_INVALID_ARGUMENT, "table.opening of the last key, a period after the first, is ", last,
-         "; it must equal that of the first, ", first);
+    fail(RIIS_INVALID_ARGUMENT, "table.opening of the last key, one period after the first key, is ", last,
+         "; it must equal that of the first key, ", first);
   const KeyTimes::KeysAround around = keys.around(time);
   std::array<double, 4> openings;
   for (std::size_t k = 0; k < 4; ++k) openings[k] = table.opening[around.key[k]];
@@ -221,7 +221,7 @@ riis_opening_angle_state advance(const riis_opening_angle &law, const riis_openi
   const double n_wanted = std::ceil(step * angle_law.fastest() / largest_step);
   constexpr double max_steps = 1e6;
   if (!(n_wanted <= max_steps))
-    fail(RIIS_LIMIT_EXCEEDED, "time is ", step, " after before.time, ", n_wanted,
+    fail(RIIS_LIMIT_EXCEEDED, "time is ", step, " after before.time, which needs ", n_wanted,
          " steps of the angle's motion; at most ", max_steps,
          " are computed: take shorter steps, or look at the gains' units");
   const auto n = std::max<std::int64_t>(1, static_cast<std::int64_t>(n_wanted));

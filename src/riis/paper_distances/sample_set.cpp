@@ -51,7 +51,7 @@ SampleSet::SampleSet(PlacedPatches patches, double max_error) : PatchDistance(st
   }
   if (!(n <= static_cast<double>(max_samples)))
     fail(RIIS_LIMIT_EXCEEDED, "sampling needs more than ", max_samples, " samples, about ", std::ceil(n),
-         ", to be right to ", max_error, ", which is measure_tolerance * half_thickness");
+         ", to be accurate to ", max_error, ", which is measure_tolerance * half_thickness");
   xyz_.reserve(3 * static_cast<std::size_t>(n));
   add_patches(0, static_cast<std::int32_t>(patches_.patches.size()));
 }

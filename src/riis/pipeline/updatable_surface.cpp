@@ -81,12 +81,12 @@ void UpdatableSurface::update_from_arrays(const riis_surface_arrays &arrays, boo
   }
   if (faces_.leaflet_id.empty())
     fail(RIIS_INVALID_ARGUMENT,
-         "arrays.vertex_ids is NULL, but the surface was not made from arrays last: it has no faces to keep");
+         "arrays.vertex_ids is NULL, but the last call did not make the surface from arrays: it has no faces to keep");
   if (arrays.leaflet_id) fail(RIIS_INVALID_ARGUMENT, "arrays.leaflet_id is given without faces: it must be NULL");
   if (arrays.skirt_length != 0 || arrays.attached || arrays.skirt_lengths)
     fail(RIIS_INVALID_ARGUMENT,
-         "arrays.skirt_length, arrays.attached or arrays.skirt_lengths is given without faces: the skirt stays, and "
-         "they must be 0 and NULL");
+         "arrays.skirt_length, arrays.attached or arrays.skirt_lengths is given without faces: the skirt stays, so "
+         "they must be 0, NULL and NULL");
   replace_by_faces(faces_, arrays, skip_zero_area, request);
 }
 
@@ -139,7 +139,7 @@ bool say(const Valve &valve, const Surface &surface, int n_threads) {
                                    : Message("leaflets ", one, " and ", other, " go through each other");
   log_message(RIIS_LOG_WARNING, who.text(), " at opening ", valve.opening(), ": ", n, n == 1 ? " pair" : " pairs",
               " of triangles, up to ", rounded(view(pairs.depth)[deepest], digits), " deep, at (", at(0), ", ", at(1),
-              ", ", at(2), "); riis_find_crossings lists them, riis check crossings looks at all openings");
+              ", ", at(2), "); riis_find_crossings lists them, and riis check crossings looks at all openings");
   return true;
 }
 

@@ -217,7 +217,7 @@ Vector<double> halved(const Vector<double> &values, const Vector<bool> &is_too_l
 }
 
 [[noreturn]] void fail_for(const Patch &patch, double max_error) {
-  fail(RIIS_INVALID_PARAMETER, "no fixed triangulation of patch ", patch.images.front().patch_id, " is right to ",
+  fail(RIIS_INVALID_PARAMETER, "no fixed triangulation of patch ", patch.images.front().patch_id, " is accurate to ",
        max_error, ", which is tolerance * half_thickness before scaling, at every opening");
 }
 

@@ -209,7 +209,7 @@ void check_precision(const PatchSet &set, double max_error) {
 
 double error_left(const PatchSet &set, double max_error) {
   if (!(set.deviation <= 0.5 * max_error))
-    fail(RIIS_LIMIT_EXCEEDED, "the valve's curves are right to ", set.deviation,
+    fail(RIIS_LIMIT_EXCEEDED, "the valve's curves are accurate to ", set.deviation,
          ", which is more than half of tolerance * half_thickness in the valve's own units, ", max_error);
   return max_error - set.deviation;
 }
@@ -221,7 +221,7 @@ double rows_for(double offset, double max_error) {
 void check_count(double n_triangles, double max_error) {
   if (!(n_triangles <= static_cast<double>(max_triangles)))
     fail(RIIS_LIMIT_EXCEEDED, "the surface needs more than ", max_triangles, " triangles, about ",
-         std::ceil(n_triangles), ", to be right to ", max_error,
+         std::ceil(n_triangles), ", to be accurate to ", max_error,
          ", which is tolerance * half_thickness before scaling");
 }
 

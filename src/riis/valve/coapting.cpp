@@ -352,7 +352,7 @@ void check_cusp(const ValveValues &values, std::size_t k) {
     if (rise >= least_rise && !(would_fold && hangs_lower(cusp, edge_depth(cusp), least_height_of_flat))) continue;
     fail(RIIS_INVALID_PARAMETER, name("a cusp", "cusp ", k, "").c_str(),
          " would fold beside its attachment at opening ", at,
-         ", because its free edge hangs deep beside its height: edge_rise is ", sizes.edge_rise, ", ",
+         ", because its free edge hangs deep compared with its height: edge_rise is ", sizes.edge_rise, ", ",
          name("effective_height", "cusp_", k, ".effective_height").c_str(), " ", sizes.effective_height, ", ",
          name("commissure_height", "commissure_", k, ".height").c_str(), " ", values.of_commissure(k, height),
          "; higher values help");

@@ -133,7 +133,7 @@ const bool has_hdf5 = false;
 
 template <class Number>
 std::vector<Number> read_hdf5(const std::string &path, const std::string &, std::int64_t, bool &) {
-  fail_file(path, "is an HDF5 file, and this riis was built without HDF5; meshio converts its .xdmf to a .vtu");
+  fail_file(path, "is an HDF5 file, but this riis was built without HDF5; meshio converts its .xdmf to a .vtu");
 }
 
 Hdf5Writer::Hdf5Writer(const std::string &path) : path_(path), file_(path) {
