@@ -297,9 +297,12 @@ contains
     character(len=*), intent(in) :: name                    !< The argument's name.
     type(strided_points), intent(out) :: points             !< The location of the points.
     integer(riis_status), intent(out) :: code               !< RIIS_OK or RIIS_INVALID_ARGUMENT.
+    character(len=:), allocatable :: advice                 ! create would borrow the temporary array transpose(xyz)
     if (size(xyz, 1) /= 3) then
+      advice = ''
+      if (size(xyz, 2) == 3) advice = '; a mesh takes (n, 3) by create_copy(transpose(' // name // '))'
       code = refuse('the shape of ' // name // ' is (' // text_of(size(xyz, 1, int64)) // ', ' // &
-        text_of(size(xyz, 2, int64)) // '); it must be (3, n)')
+        text_of(size(xyz, 2, int64)) // '); it must be (3, n)' // advice)
       return
     end if
     code = RIIS_OK

@@ -30,9 +30,11 @@ This page lists the calls of `riis.h` in its order. The lines below a C call mak
 Fortran (`use riis`) and in Fortran 77. Arguments in brackets are optional. A Fortran 77 call with
 `*` has a variant for INTEGER*8, whose name ends in `_64`. With `use riisf` the compiler checks the
 arguments of Fortran 77 calls, and `include 'riisf.h'` adds the constants
-([building.md](building.md)). The comments of the procedures explain the arguments. Calls that
-return the library's own arrays, such as `marked`, take pointers. Calls such as `marked_nodes` fill
-the caller's arrays.
+([building.md](building.md)). The comments of the procedures in `fortran` explain the arguments. For
+Fortran 77, types, shapes and comments stand in `fortran/generated/riis_f77.f90`. Mind arrays of
+INTEGER*8: without `use riisf` no compiler notices an array of INTEGER. Calls that return the
+library's own arrays, such as `marked`, take pointers. Calls such as `marked_nodes` fill the
+caller's arrays.
 """
 WIDTH = 100
 

@@ -134,6 +134,9 @@ contains
     z = 0
     call mesh%create(bad(:2, :), status)
     call check_refused(status, RIIS_INVALID_ARGUMENT, 'the shape of xyz is (2, 4); it must be (3, n)')
+    call mesh%create(transpose(bad), status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, &
+      'the shape of xyz is (4, 3); it must be (3, n); a mesh takes (n, 3) by create_copy(transpose(xyz))')
     call mesh%create(bad(:, 4:1:-1), status)
     call check_refused(status, RIIS_INVALID_ARGUMENT, 'xyz is a section with a stride of -24 bytes')
     call mesh%create(x(:4), y, z(4:1:-1), status)

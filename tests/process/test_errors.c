@@ -167,6 +167,9 @@ TEST(swapped_handles_are_refused) {
   IS_OF_ANOTHER_KIND("surface", riis_surface_get_info(no_surface, NULL, 104));
   IS_OF_ANOTHER_KIND("marks", riis_marks_get_list(no_result, RIIS_LIST_MARKED, NULL, 120));
   IS_OF_ANOTHER_KIND("mesh", riis_mesh_update(no_mesh, 4, xyz, xyz, xyz, 1));
+  uint64_t no_handle[16] = {0}; /* as memory that was a handle once */
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "mesh is no handle, or it was destroyed",
+                riis_mark_nodes(surface, (void *)no_handle, NULL, result));
   riis_surface_destroy(&no_surface);
   assert_true((void *)no_surface == (void *)mesh); /* the handle was not changed */
   riis_marks_destroy(&result);

@@ -41,6 +41,9 @@ enum class HandleKind : std::uint64_t {
   warp = 0x7269697377617270
 };
 
+// Returns whether this is a kind of a handle: its first four letters are "riis". A destroyed handle's memory holds other values.
+constexpr bool is_kind(HandleKind kind) noexcept { return static_cast<std::uint64_t>(kind) >> 32 == 0x72696973; }
+
 // The calls that use a handle now. While a call writes a handle, a call of another thread that uses it fails instead of crashing
 // (riis.h, "Threads"). Calls that only read count themselves without waiting, and order nothing between each other.
 class Uses {
@@ -123,7 +126,9 @@ riis_status guarded_with_handles(Body &&body) noexcept {
 template <class AnyHandle>
 AnyHandle *require_handle(AnyHandle *handle, const char *argument, bool is_counted = true) {
   require(handle, argument);
-  if (handle->kind != AnyHandle::own_kind) fail(RIIS_INVALID_ARGUMENT, argument, " is a handle of another kind");
+  if (handle->kind != AnyHandle::own_kind)
+    fail(RIIS_INVALID_ARGUMENT, argument,
+         is_kind(handle->kind) ? " is a handle of another kind" : " is no handle, or it was destroyed");
   if (is_counted ? !UsesOfCall::add(handle->uses, !std::is_const_v<AnyHandle>) : !handle->uses.is_readable())
     fail(RIIS_UNAVAILABLE, argument,
          " is in use by another thread: while a call writes a handle, no other thread may use it");
