@@ -710,6 +710,7 @@ TEST(test_constants) {
   assert_int_equal(RIIS_VTK_VIEW_VALVE_TOP, 5);
   assert_int_equal(RIIS_VTK_VIEW_VALVE_OBLIQUE, 6);
   assert_int_equal(RIIS_VTK_VIEW_VALVE_THREE, 7);
+  assert_int_equal(RIIS_VTK_VIEW_VALVE_LONG, 8);
   assert_int_equal(RIIS_VTK_CAPTIONS_ALL, 0);
   assert_int_equal(RIIS_VTK_CAPTIONS_SCALE, 1);
   assert_int_equal(RIIS_VTK_CAPTIONS_NONE, 2);

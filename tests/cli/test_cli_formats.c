@@ -309,6 +309,10 @@ TEST(test_foam_flow) {
   write_velocity("volVectorField", list);
   RUN_FINE(FLOW("half.png"));
   assert_false(scratch_is_same("list.png", "half.png"));
+  RUN_REFUSED(1, "box/8: there is no such time of the case; written are ", "mark", scratch_path("box/8"));
+  RUN_REFUSED(2, "is no array of the mesh; for a field of OpenFOAM, name a time in place of the case: ", "mark",
+              scratch_path("box"), "--valve", "aortic", "--half-thickness", "0.3", "--picture", scratch_path("no.png"),
+              "--picture-velocity", "U");
   write_velocity("volScalarField", "uniform 3");
   RUN_REFUSED(1, "box/9/U: has the class volScalarField; a velocity is a volVectorField", FLOW("no.png"));
   write_velocity("volVectorField", "nonuniform List<vector> 2((0 3 4)(0 3 4))");

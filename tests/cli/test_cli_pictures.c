@@ -144,13 +144,13 @@ static void draw_by_c(const riis_surface_options *placement, const char *unit, i
 /* Views by the valve's axes get these axes from --rotate. If --unit is missing, a usual factor from centimetres in the scale
  * shows the unit of the mesh. */
 TEST(test_valve_views) {
-  static const char *const names[4] = {"valve-side", "valve-top", "valve-oblique", "valve-three"};
+  static const char *const names[5] = {"valve-side", "valve-top", "valve-oblique", "valve-three", "valve-long"};
   riis_surface_options placement;
   expect_fine(riis_surface_options_init(&placement, sizeof placement));
   memcpy(placement.rotation_axis, (const double[3]){1, -2, 0.5}, sizeof placement.rotation_axis);
   placement.rotation_angle = 70;
-  for (int i = 0; i < 4; ++i) {
-    static const char *const scales[4] = {"10", "0.01", "1", "3"}, *const units[4] = {"mm", "m", "cm", NULL};
+  for (int i = 0; i < 5; ++i) {
+    static const char *const scales[5] = {"10", "0.01", "1", "3", "1"}, *const units[5] = {"mm", "m", "cm", NULL, "cm"};
     RUN_FINE("surface", "--valve", "mitral", "--opening", "0.5", "--rotate", "1,-2,0.5,70", "--scale", scales[i],
              "--picture", scratch_path("by_program.png"), "--view", names[i]);
     placement.scale = strtod(scales[i], NULL);

@@ -325,7 +325,7 @@ class OpenfoamCase(unittest.TestCase):
         done, words = self.drawn(case, tools)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.assertEqual(words, "mark 0.2 --valve placed.json --skirt 0.006 --wall wall.stl --half-thickness 0.001 --opening 1 "
-                         "--picture flow.png --picture-velocity U --view valve-side".split())
+                         "--picture flow.png --picture-velocity U --view valve-long".split())
         self.assertIn("flow.png shows the speed at 0.2 s", done.stdout)
         self.assertIn(" mark 0.2 --valve placed.json", done.stdout)
         # A time whose row is missing may not be complete.

@@ -55,8 +55,8 @@ inline const std::vector<std::string> distance_names = {"triangles", "sampling",
 
 // The names of the views that pictures and movies accept. A name's position in the list is the value of its constant
 // RIIS_VTK_VIEW_*.
-inline const std::vector<std::string> view_names = {"side",       "top",       "oblique",       "three",
-                                                    "valve-side", "valve-top", "valve-oblique", "valve-three"};
+inline const std::vector<std::string> view_names = {
+    "side", "top", "oblique", "three", "valve-side", "valve-top", "valve-oblique", "valve-three", "valve-long"};
 
 struct Picture {
   std::string path;

@@ -52,8 +52,8 @@ std::optional<Unit> unit_of_mesh(const std::optional<Unit> &given, const std::ve
 void check_view(const std::string &option, std::int32_t view, std::size_t n_valves, const ValveOptions &valve) {
   if (view < RIIS_VTK_VIEW_VALVE_SIDE) return;
   const std::string name = option + " " + view_names[static_cast<std::size_t>(view)];
-  const std::string advice =
-      "; " + view_names[static_cast<std::size_t>(view - RIIS_VTK_VIEW_VALVE_SIDE)] + " looks by the mesh's axes";
+  const std::int32_t by_mesh = view == RIIS_VTK_VIEW_VALVE_LONG ? RIIS_VTK_VIEW_SIDE : view - RIIS_VTK_VIEW_VALVE_SIDE;
+  const std::string advice = "; " + view_names[static_cast<std::size_t>(by_mesh)] + " looks by the mesh's axes";
   if (n_valves > 1)
     refuse_usage(name + ": there are " + std::to_string(n_valves) + " valves, each with axes of its own" + advice);
   if (!valve.surface.empty())

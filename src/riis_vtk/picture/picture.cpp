@@ -97,7 +97,7 @@ riis_vtk_picture_options completed_picture_options(const riis_vtk_picture_option
 
 // Checks a view. In the message, `argument` is the caller's name for the view.
 void check_view(std::int32_t view, const char *argument) {
-  if (view < RIIS_VTK_VIEW_SIDE || view > RIIS_VTK_VIEW_VALVE_THREE) {
+  if (view < RIIS_VTK_VIEW_SIDE || view > RIIS_VTK_VIEW_VALVE_LONG) {
     refuse_argument(argument, " is ", view, ", not a RIIS_VTK_VIEW_*");
   }
 }

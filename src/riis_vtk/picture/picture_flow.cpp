@@ -4,9 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <iterator>
+#include <map>
+#include <vector>
 
 #include <vtkActor.h>
+#include <vtkCell.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkCellDataToPointData.h>
@@ -22,6 +26,7 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
+#include <vtkProbeFilter.h>
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
 #include <vtkTriangle.h>
@@ -45,7 +50,7 @@ constexpr unsigned char viridis[][3] = {{68, 1, 84},    {71, 44, 122}, {59, 81, 
 double rounded_up(double number) {
   if (!(number > 0)) return 1;
   const double power = std::pow(10, std::floor(std::log10(number)));
-  for (const double digit : {1.0, 1.2, 1.6, 2.0, 2.4, 3.0, 4.0, 5.0, 6.0, 8.0})
+  for (const double digit : {1.0, 1.2, 1.4, 1.6, 1.8, 2.0, 2.4, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0})
     if (digit * power >= number * (1 - 1e-9)) return digit * power;
   return 10 * power;
 }
@@ -127,6 +132,26 @@ Vector middle_of(vtkPolyData *surface) {
   return sum;
 }
 
+// Returns the lines of which both ends are inside the grid. A leaflet that reaches into the wall meets no flow there.
+vtkSmartPointer<vtkPolyData> lines_inside(vtkPolyData *lines, vtkUnstructuredGrid *grid) {
+  vtkNew<vtkProbeFilter> probe;
+  probe->SetInputData(lines);
+  probe->SetSourceData(grid);
+  probe->Update();
+  vtkDataArray *const is_inside = probe->GetOutput()->GetPointData()->GetArray(probe->GetValidPointMaskArrayName());
+  const auto kept = vtkSmartPointer<vtkPolyData>::New();
+  kept->SetPoints(lines->GetPoints());
+  vtkNew<vtkCellArray> cells;
+  vtkNew<vtkIdList> ends;
+  for (vtkIdType line = 0; line < lines->GetNumberOfCells(); ++line) {
+    lines->GetCellPoints(line, ends);
+    if (is_inside->GetComponent(ends->GetId(0), 0) != 0 && is_inside->GetComponent(ends->GetId(1), 0) != 0)
+      cells->InsertNextCell(ends);
+  }
+  kept->SetLines(cells);
+  return kept;
+}
+
 // Moves an actor towards the eye, so that it is drawn in front of the plane. Without perspective, the actor looks the same.
 void move_near(vtkActor *actor, const View &view, double length) {
   actor->SetPosition(-length * view.away()[0], -length * view.away()[1], -length * view.away()[2]);
@@ -146,6 +171,9 @@ Flow flow_of(const riis_vtk_mesh &mesh, const std::string &name) {
     flow.time = std::filesystem::path(mesh.foam_time).filename().string();
   }
   vtkDataArray *const found = at_points ? at_points : in_cells;
+  if (!found && !mesh.foam_case.empty())
+    refuse_argument("options->velocity is \"", name, "\", which is no array of the mesh; for a field of OpenFOAM, name ",
+                    "a time in place of the case: ", foam_times_of(mesh.foam_case));
   if (!found) refuse_argument("options->velocity is \"", name, "\", which is no array of the mesh");
   if (found->GetNumberOfComponents() != 3)
     refuse_argument("options->velocity is \"", name, "\", whose number of components is ",
@@ -178,6 +206,22 @@ Colour colour_of_speed(double share) {
     colour[k] = (a + (at - static_cast<double>(below)) * (b - a)) / 255;
   }
   return colour;
+}
+
+double length_in_second_leaflet(vtkPolyData *surface, const View &view) {
+  const vtkSmartPointer<vtkPolyData> lines = cut(surface, view, middle_of(surface));
+  vtkDataArray *const leaflets = lines->GetCellData()->GetArray(leaflet_array);
+  std::map<int, double> length_in;
+  for (vtkIdType line = 0; line < lines->GetNumberOfCells(); ++line) {
+    double a[3], b[3];
+    lines->GetCell(line)->GetPoints()->GetPoint(0, a);
+    lines->GetCell(line)->GetPoints()->GetPoint(1, b);
+    length_in[static_cast<int>(leaflets->GetComponent(line, 0))] += std::sqrt(vtkMath::Distance2BetweenPoints(a, b));
+  }
+  std::vector<double> lengths = {0, 0};
+  for (const auto &[leaflet, length] : length_in) lengths.push_back(length);
+  std::partial_sort(lengths.begin(), lengths.begin() + 2, lengths.end(), std::greater<>());
+  return lengths[1];
 }
 
 FlowPanel::FlowPanel(const Flow &flow, vtkPolyData *wall, const Colour &line)
@@ -233,7 +277,7 @@ void FlowPanel::look(const View &view, const Sight &sight) {
   set_data(plane_, plane);
   const double pixel = sight.shown[1].half() / 250;  // about a line's width
   set_data(wall_, strips(cut(faces_, view, middle_), view, 1.5 * pixel));
-  const vtkSmartPointer<vtkPolyData> leaflets = cut(surface_, view, middle_);
+  const vtkSmartPointer<vtkPolyData> leaflets = lines_inside(cut(surface_, view, middle_), flow_.grid);
   set_data(around_leaflets_, strips(leaflets, view, 4.5 * pixel));
   set_data(leaflets_, strips(leaflets, view, 2.5 * pixel));
   const double step = 0.002 * sight.shown[1].half();

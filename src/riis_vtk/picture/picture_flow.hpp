@@ -33,6 +33,10 @@ Flow flow_of(const riis_vtk_mesh &mesh, const std::string &name);
 // Returns the colour of a speed. `share` is the speed divided by the speed at the upper end of the bar of colours.
 Colour colour_of_speed(double share);
 
+// Cuts the surface by the plane of the view through the middle of the surface. Returns the length of the cut in the leaflet that
+// has the second longest cut, or 0 if the plane cuts fewer than two leaflets.
+double length_in_second_leaflet(vtkPolyData *surface, const View &view);
+
 class FlowPanel {
  public:
   // `wall` has the faces of the mesh's boundary, and `line` is the colour of the wall's line.

@@ -446,11 +446,28 @@ void Scene::show(const riis_surface *surface, const char *title, const Leaks &le
 vtkSmartPointer<vtkImageData> Scene::picture(std::int32_t of, const std::optional<Bounds> &seen) {
   if (of == RIIS_VTK_VIEW_THREE) return three_views(RIIS_VTK_VIEW_SIDE, seen);
   if (of == RIIS_VTK_VIEW_VALVE_THREE) return three_views(RIIS_VTK_VIEW_VALVE_SIDE, seen);
-  const View view(of, axes_);
+  const View view = view_of(of);
   const Sight seen_here = sight(view, seen, layout_);
   std::vector<PanelTexts> texts = texts_for({view});
   if (seen_here.is_cut()) texts.back().key.push_back(dashes_entry(style_.ink));
   return shot(view, seen_here, layout_, texts);
+}
+
+View Scene::view_of(std::int32_t of) {
+  if (of != RIIS_VTK_VIEW_VALVE_LONG) return {of, axes_};
+  if (!long_axes_) {
+    double longest = -1;
+    for (int degrees = 0; degrees < 180; degrees += 15) {
+      const Axes axes = turned_about_z(axes_, degrees);
+      const double length = length_in_second_leaflet(triangles_, {of, axes});
+      // Equal lengths differ in rounding errors, which must not choose the view.
+      if (length > longest * (1 + 1e-6)) {
+        longest = length;
+        long_axes_ = axes;
+      }
+    }
+  }
+  return {of, *long_axes_};
 }
 
 std::vector<PanelTexts> Scene::texts_for(const std::vector<View> &views) {

@@ -159,6 +159,8 @@ class Scene {
   vtkSmartPointer<vtkImageData> picture(std::int32_t of, const std::optional<Bounds> &seen);
 
  private:
+  // Returns the view of the shown surface.
+  View view_of(std::int32_t of);
   // The half height of a panel is never below `least`.
   Sight sight(const View &view, const std::optional<Bounds> &seen, const Layout &layout, double least = 0) const;
   // Draws one view. A transparent picture has a fourth channel for the opacity.
@@ -171,9 +173,10 @@ class Scene {
   vtkSmartPointer<vtkImageData> three_views(std::int32_t first, const std::optional<Bounds> &seen);
 
   Style style_;
-  Axes axes_;         // of the valve
-  Layout layout_;     // of a picture with one view
-  std::string unit_;  // "" if the caller gave none
+  Axes axes_;                      // of the valve
+  std::optional<Axes> long_axes_;  // of RIIS_VTK_VIEW_VALVE_LONG, which is the same in all frames of a movie
+  Layout layout_;                  // of a picture with one view
+  std::string unit_;               // "" if the caller gave none
   std::vector<std::string> leaflet_names_;
   vtkSmartPointer<vtkUnstructuredGrid> grid_;
   vtkSmartPointer<vtkPolyData> triangles_;

@@ -152,7 +152,13 @@ Axes axes_turned(const double axis[3], double degrees) {
   return {turned({1, 0, 0}, about, degrees), turned({0, 1, 0}, about, degrees), turned({0, 0, 1}, about, degrees)};
 }
 
+Axes turned_about_z(const Axes &axes, double degrees) {
+  const auto &[x, y, z] = axes;
+  return {turned(x, z, degrees), turned(y, z, degrees), z};
+}
+
 View::View(std::int32_t view, const Axes &valve) {
+  if (view == RIIS_VTK_VIEW_VALVE_LONG) view = RIIS_VTK_VIEW_VALVE_SIDE;
   const bool is_by_valve = view >= RIIS_VTK_VIEW_VALVE_SIDE;
   if (is_by_valve) view -= RIIS_VTK_VIEW_VALVE_SIDE;
   Vector up = {0, 0, 1}, away = {0.35, 0.55, -1.0};

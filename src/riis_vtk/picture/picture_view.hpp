@@ -38,12 +38,15 @@ using Axes = std::array<Vector, 3>;
 // Returns the mesh's axes after a turn about an axis. The axis may have any length except 0.
 Axes axes_turned(const double axis[3], double degrees);
 
+// Returns the axes after a turn about their own z.
+Axes turned_about_z(const Axes &axes, double degrees);
+
 // A view without perspective, so that lengths in the picture can be compared. right, up and away are perpendicular unit vectors.
 struct View {
   std::array<Vector, 3> axes;
 
   // The value of `view` is a constant RIIS_VTK_VIEW_* for a single view, not the constant for three views. Views along the axes
-  // of the valve need `valve`.
+  // of the valve need `valve`. RIIS_VTK_VIEW_VALVE_LONG looks as RIIS_VTK_VIEW_VALVE_SIDE: the caller turns the axes.
   View(std::int32_t view, const Axes &valve);
   const Vector &right() const { return axes[0]; }
   const Vector &up() const { return axes[1]; }

@@ -267,6 +267,8 @@ vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::string &path, const Ca
     grid = read_exodus(path, caught);
   } else if (ending == "vtm") {
     grid = read_blocks(path, caught);
+  } else if (is_foam_time(path)) {
+    fail_file(path, "there is no such time of the case; written are ", foam_times_of(foam_case_of(path)));
   } else {
     fail_file(path,
               "a mesh must be a .vtu, .vtk, .vti, .vtr, .vts, .vtm, .msh, .xdmf or .exo file, or a case of OpenFOAM");

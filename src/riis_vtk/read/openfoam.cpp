@@ -608,6 +608,23 @@ bool is_foam_time(const std::string &path) {
   return time_of(folder) && is_mesh(parent_of(folder) / "constant" / "polyMesh");
 }
 
+std::string foam_times_of(const std::string &foam_case) {
+  std::map<double, std::string> names;
+  std::error_code error;
+  for (const fs::directory_entry &entry : fs::directory_iterator(foam_case, error))
+    if (const std::optional<double> time = time_of(entry.path())) names[*time] = entry.path().filename().string();
+  std::string text;
+  std::size_t i = 0;
+  for (const auto &[time, name] : names) {
+    if (i < 2 || i + 1 == names.size())
+      text += (text.empty() ? "" : ", ") + name;
+    else if (i == 2)
+      text += ", ...";
+    ++i;
+  }
+  return text;
+}
+
 std::string foam_case_of(const std::string &path) {
   fs::path root = path;
   if (ending_of(path) == "foam" && !fs::is_directory(root)) root = parent_of(root);

@@ -40,6 +40,8 @@ std::string foam_case_of(const std::string &path);
 
 // Returns whether the path is the folder of a time in an OpenFOAM case. The folder need not exist.
 bool is_foam_time(const std::string &path);
+// Returns the written times of a case of OpenFOAM as text, such as "0, 0.02, ..., 0.8".
+std::string foam_times_of(const std::string &foam_case);
 // Reads a field of vectors in the cells, such as U, from the folder of a time.
 vtkSmartPointer<vtkDoubleArray> read_foam_vectors(const std::string &folder, const std::string &name,
                                                   std::int64_t n_cells);

@@ -87,7 +87,7 @@ def picture_words(case):
     time = max(is_open or shown, key=lambda time: float(valve[time][2]))
     return ["mark", written[time], "--valve", "placed.json", "--skirt", "@SKIRT@", "--wall", "wall.stl", "--half-thickness",
             "@HALF_THICKNESS@", "--opening", f"{float(valve[time][0]):.4g}", "--picture", "flow.png", "--picture-velocity", "U",
-            "--view", "valve-side"]
+            "--view", "valve-long"]
 
 
 def main():
