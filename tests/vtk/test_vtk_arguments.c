@@ -180,13 +180,13 @@ TEST(test_leaking_edges) {
 }
 
 TEST(test_many_views) {
-  const int32_t views[2] = {RIIS_VTK_VIEW_TOP, 8};
+  const int32_t views[2] = {RIIS_VTK_VIEW_TOP, 9};
   const char *paths[2] = {scratch_path("a.png"), NULL}, *jpg[1] = {scratch_path("a.jpg")};
   expect_refused(riis_vtk_draw_views(NULL, NULL, NULL, 1, views, paths), RIIS_INVALID_ARGUMENT, "surface is NULL");
   expect_refused(riis_vtk_draw_views(surface, NULL, NULL, -1, views, paths), RIIS_INVALID_ARGUMENT, "n_views is -1");
   expect_refused(riis_vtk_draw_views(surface, NULL, NULL, 1, NULL, paths), RIIS_INVALID_ARGUMENT, "views is NULL");
   expect_refused(riis_vtk_draw_views(surface, NULL, NULL, 1, views, NULL), RIIS_INVALID_ARGUMENT, "paths is NULL");
-  expect_refused(riis_vtk_draw_views(surface, NULL, NULL, 2, views, paths), RIIS_INVALID_ARGUMENT, "views[1] is 8");
+  expect_refused(riis_vtk_draw_views(surface, NULL, NULL, 2, views, paths), RIIS_INVALID_ARGUMENT, "views[1] is 9");
   const int32_t fine[2] = {0, 1};
   expect_refused(riis_vtk_draw_views(surface, NULL, NULL, 2, fine, paths), RIIS_INVALID_ARGUMENT, "paths[1] is NULL");
   expect_refused(riis_vtk_draw_views(surface, NULL, NULL, 1, fine, jpg), RIIS_FILE_ERROR, "must be .png");
@@ -209,7 +209,7 @@ static void expect_bad_picture(const char *part_of_text, int32_t view, int32_t w
 }
 
 TEST(test_picture_options) {
-  expect_bad_picture("view is 8", 8, 800, 800, 0);
+  expect_bad_picture("view is 9", 9, 800, 800, 0);
   expect_bad_picture("view is -1", -1, 800, 800, 0);
   expect_bad_picture("width is 63", RIIS_VTK_VIEW_TOP, 63, 800, 0);
   expect_bad_picture("height is 8193", RIIS_VTK_VIEW_TOP, 800, 8193, 0);
