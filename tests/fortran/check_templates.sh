@@ -54,6 +54,7 @@ copy() {
   rm -rf "$scratch/copy"
   mkdir -p "$scratch/copy/templates" "$scratch/copy/generated"
   cp "$folder/expand_templates.sh" "$scratch/copy"
+  ln -s "$folder/bindings" "$scratch/copy"
   cp "$folder/templates/kinds.fypp" "$scratch/copy/templates"
   for name in riis_meshes riis_frames; do
     cp "$folder/generated/$name.f90" "$scratch/copy/generated"

@@ -1,4 +1,5 @@
 ! SPDX-License-Identifier: Apache-2.0
+! Generated from fortran/templates/riis_laws.fypp by fortran/expand_templates.sh: edit that template, not this file.
 !> Laws of opening: riis_opening_* of riis.h, as a part of module riis.
 !!
 !! The same arguments give the same bits, and nothing is kept between calls. Times, pressures and flows have the solver's units.
@@ -28,41 +29,46 @@ module riis_laws
   !> An opening that follows from the times of opening and closing. Example: every second, a mitral valve begins to open at 0.45 s
   !! and to close at 0.95 s, and both take 0.05 s. The ramps are of fifth degree: neither the rate nor its derivative jumps.
   type :: riis_opening_times
-    real(c_double) :: opening_start = no_value   !< When the valve begins to open. This and the next three components have no
-                                                 !! default.
-    real(c_double) :: opening_duration = no_value !< The duration of opening, > 0.
-    real(c_double) :: closing_start = no_value   !< When it begins to close, at least opening_start + opening_duration.
-    real(c_double) :: closing_duration = no_value !< The duration of closing, > 0.
-    real(c_double) :: closed = 0                 !< The opening when closed, 0 to 1.
-    real(c_double) :: open = 1                   !< The opening when open, 0 to 1.
-    real(c_double) :: period = 0                 !< > 0: the motion repeats, at the earliest when the valve has closed. 0: the
-                                                 !! valve opens once.
+    real(c_double) :: opening_start = no_value              !< The time at which the valve begins to open. Default NaN here and
+                                                            !! in the next three components; NaN is refused.
+    real(c_double) :: opening_duration = no_value           !< How long opening takes, > 0.
+    real(c_double) :: closing_start = no_value              !< The time at which the valve begins to close, at least
+                                                            !! opening_start + opening_duration.
+    real(c_double) :: closing_duration = no_value           !< How long closing takes, > 0.
+    real(c_double) :: closed = 0                            !< closed, open: the openings of the closed and of the open valve, 0
+                                                            !! to 1. Default 0 and 1.
+    real(c_double) :: open = 1                              !< closed, open: the openings of the closed and of the open valve, 0
+                                                            !! to 1. Default 0 and 1.
+    real(c_double) :: period = 0                            !< Above 0, the valve opens and closes once in each period. Default
+                                                            !! 0: only once.
   end type riis_opening_times
 
   !> A valve that opens when the pressure difference exceeds open_above, and closes when the flow falls below close_below.
   !! Example: an aortic valve in SI units has opening_duration 0.04, closing_duration 0.04, open_above 0, close_below 0 (the flow
   !! reverses), filter_time 0.002, dwell_time 0.02.
   type :: riis_opening_switch
-    real(c_double) :: opening_duration = no_value !< The time from closed to open, > 0. This and the next component have no
-                                                  !! default.
-    real(c_double) :: closing_duration = no_value !< The time from open to closed, > 0.
-    real(c_double) :: open_above = 0             !< A pressure difference.
-    real(c_double) :: close_below = 0            !< A flow.
-    real(c_double) :: filter_time = 0         !< Time constant of a first-order filter of both, >= 0. 0: no filter.
-    real(c_double) :: dwell_time = 0          !< The least time between changes of phase, >= 0.
+    real(c_double) :: opening_duration = no_value           !< The time that the valve takes to open, > 0. Default NaN, which is
+                                                            !! refused.
+    real(c_double) :: closing_duration = no_value           !< The time that the valve takes to close, > 0. Default NaN, which is
+                                                            !! refused.
+    real(c_double) :: open_above = 0                        !< Pressure difference. Default 0.
+    real(c_double) :: close_below = 0                       !< Flow. Default 0.
+    real(c_double) :: filter_time = 0                       !< The time constant of the filter of pressure difference and flow,
+                                                            !! >= 0. Default 0: no filter.
+    real(c_double) :: dwell_time = 0                        !< The shortest time between two changes of phase, >= 0. Default 0.
   end type riis_opening_switch
 
   !> The state of a switch. At time 0, the state is a closed valve.
   type :: riis_opening_switch_state
-    real(c_double) :: time = 0                   !< The time of this state.
-    real(c_double) :: opening = 0                !< The opening at that time.
-    real(c_double) :: rate = 0                   !< The derivative of the opening by time.
-    real(c_double) :: progress = 0               !< The fraction of the way from closed to open, 0 to 1. The opening is a smooth
-                                                 !! ramp of it.
-    real(c_double) :: pressure_difference = no_value !< Filtered; NaN: none yet.
-    real(c_double) :: flow = no_value            !< Filtered; NaN: none yet.
-    real(c_double) :: turn_time = no_value       !< The time of the last change of phase; NaN: none yet.
-    integer(int32) :: phase = RIIS_PHASE_CLOSING !< RIIS_PHASE_*.
+    real(c_double) :: time = 0                              !< Of this state.
+    real(c_double) :: opening = 0                           !< opening, rate: at that time.
+    real(c_double) :: rate = 0                              !< opening, rate: at that time.
+    real(c_double) :: progress = 0                          !< How far the valve is on the way to open, 0 to 1; the opening is a
+                                                            !! smooth ramp over it.
+    real(c_double) :: pressure_difference = no_value        !< Filtered; NaN: none yet.
+    real(c_double) :: flow = no_value                       !< Filtered; NaN: none yet.
+    real(c_double) :: turn_time = no_value                  !< Time of the last change of phase; NaN: none yet.
+    integer(int32) :: phase = RIIS_PHASE_CLOSING            !< RIIS_PHASE_*.
   end type riis_opening_switch_state
 
   !> The angle law of T. Korakianitis and Y. Shi, Med. Eng. Phys. 28 (2006), with angles in radians, between stops that absorb all
@@ -73,23 +79,25 @@ module riis_laws
   !! The opening is the angle's fraction of the range from angle_min to angle_max. The paper's values, for mmHg, ml and s:
   !! pressure_gain 5500, flow_gain 2, friction 50, vortex_gain 7 for the aortic and 3.5 for the mitral valve.
   type :: riis_opening_angle
-    real(c_double) :: pressure_gain = no_value   !< K_p, >= 0. This and the next three components have no default.
-    real(c_double) :: flow_gain = no_value       !< K_q, >= 0.
-    real(c_double) :: friction = no_value        !< K_f, >= 0.
-    real(c_double) :: vortex_gain = no_value     !< K_v, >= 0.
-    real(c_double) :: angle_min = 0              !< Degrees, 0 to 90: the closed angle.
-    real(c_double) :: angle_max = 75             !< Degrees, above angle_min, at most 90: the open angle.
+    real(c_double) :: pressure_gain = no_value              !< K_p, >= 0. Default NaN here and in the next three components; NaN
+                                                            !! is refused.
+    real(c_double) :: flow_gain = no_value                  !< K_q, >= 0.
+    real(c_double) :: friction = no_value                   !< K_f, >= 0.
+    real(c_double) :: vortex_gain = no_value                !< K_v, >= 0.
+    real(c_double) :: angle_min = 0                         !< The angle of the closed valve in degrees, 0 to 90. Default 0.
+    real(c_double) :: angle_max = 75                        !< The angle of the open valve in degrees, above angle_min, at most
+                                                            !! 90. Default 75.
   end type riis_opening_angle
 
   !> The state of the angle law. At time 0, the state is a closed valve at rest. The angle 0 in this state means angle_min.
   type :: riis_opening_angle_state
-    real(c_double) :: time = 0                   !< The time of this state.
-    real(c_double) :: opening = 0                !< The opening at that time.
-    real(c_double) :: rate = 0                   !< The derivative of the opening by time.
-    real(c_double) :: angle = 0                  !< Degrees.
-    real(c_double) :: angle_rate = 0             !< Degrees per time.
-    real(c_double) :: pressure_difference = no_value !< At that time; NaN: none yet.
-    real(c_double) :: flow = no_value            !< At that time; NaN: none yet.
+    real(c_double) :: time = 0                              !< Of this state.
+    real(c_double) :: opening = 0                           !< opening, rate: at that time.
+    real(c_double) :: rate = 0                              !< opening, rate: at that time.
+    real(c_double) :: angle = 0                             !< angle, angle_rate: degrees, degrees per time.
+    real(c_double) :: angle_rate = 0                        !< angle, angle_rate: degrees, degrees per time.
+    real(c_double) :: pressure_difference = no_value        !< At that time; NaN: none yet.
+    real(c_double) :: flow = no_value                       !< At that time; NaN: none yet.
   end type riis_opening_angle_state
 
   !> Gives the opening at a time from a table of keys.
@@ -126,8 +134,8 @@ contains
     class(*), intent(in), optional :: interpolation         !< integer, RIIS_INTERPOLATION_*. Default
                                                             !! RIIS_INTERPOLATION_LINEAR.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(c_table) :: table
     integer(riis_status) :: code
+    type(c_table) :: table
     code = check_size(size(key_opening, kind=int64), size(key_time, kind=int64), 'key_opening', 'times of keys')
     if (code == RIIS_OK) code = riis_opening_table_init(table, c_sizeof(table))
     call get_integer(interpolation, 'interpolation', table%interpolation, code)
@@ -148,8 +156,8 @@ contains
     real(c_double), intent(inout) :: opening                !< Unchanged on an error.
     real(c_double), intent(inout), optional :: rate         !< Its derivative by time. Unchanged on an error.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(c_times) :: law
     integer(riis_status) :: code
+    type(c_times) :: law
     code = riis_opening_times_init(law, c_sizeof(law))
     if (code == RIIS_OK) then
       law%opening_start = times%opening_start
@@ -173,9 +181,9 @@ contains
     real(c_double), intent(in) :: pressure_difference       !< Upstream minus downstream, at the given time.
     real(c_double), intent(in) :: flow                      !< Positive downstream, at the given time.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    integer(riis_status) :: code
     type(c_switch) :: made
     type(c_switch_state) :: before, now
-    integer(riis_status) :: code
     code = riis_opening_switch_init(made, c_sizeof(made))
     if (code == RIIS_OK) code = riis_opening_switch_state_init(before, c_sizeof(before))
     if (code == RIIS_OK) then
@@ -196,8 +204,16 @@ contains
       now = before
       code = riis_opening_switch_advance(made, before, time, pressure_difference, flow, now)
     end if
-    if (code == RIIS_OK) state = riis_opening_switch_state(now%time, now%opening, now%rate, now%progress, &
-      now%pressure_difference, now%flow, now%turn_time, now%phase)
+    if (code == RIIS_OK) then
+      state%time = now%time
+      state%opening = now%opening
+      state%rate = now%rate
+      state%progress = now%progress
+      state%pressure_difference = now%pressure_difference
+      state%flow = now%flow
+      state%turn_time = now%turn_time
+      state%phase = now%phase
+    end if
     call finish(code, status)
   end subroutine advance_switch
 
@@ -212,9 +228,9 @@ contains
     real(c_double), intent(in) :: pressure_difference       !< Upstream minus downstream, at the given time.
     real(c_double), intent(in) :: flow                      !< Positive downstream, at the given time.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    integer(riis_status) :: code
     type(c_angle) :: made
     type(c_angle_state) :: before, now
-    integer(riis_status) :: code
     code = riis_opening_angle_init(made, c_sizeof(made))
     if (code == RIIS_OK) code = riis_opening_angle_state_init(before, c_sizeof(before))
     if (code == RIIS_OK) then
@@ -234,8 +250,15 @@ contains
       now = before
       code = riis_opening_angle_advance(made, before, time, pressure_difference, flow, now)
     end if
-    if (code == RIIS_OK) state = riis_opening_angle_state(now%time, now%opening, now%rate, now%angle, now%angle_rate, &
-      now%pressure_difference, now%flow)
+    if (code == RIIS_OK) then
+      state%time = now%time
+      state%opening = now%opening
+      state%rate = now%rate
+      state%angle = now%angle
+      state%angle_rate = now%angle_rate
+      state%pressure_difference = now%pressure_difference
+      state%flow = now%flow
+    end if
     call finish(code, status)
   end subroutine advance_angle
 end module riis_laws

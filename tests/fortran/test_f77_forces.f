@@ -1,9 +1,10 @@
 C     SPDX-License-Identifier: Apache-2.0
-C     Tests the external subroutines for velocities and momentum in
-C     three arrays, as a Fortran 77 code with a halo has them. The bits
-C     must be those that calls with arrays (3, n) give. The triangles of
-C     a surface must have the areas of its leaflets.
-      PROGRAM TF77A
+C     Tests the external subroutines for K, for forces and for loads of
+C     tissue, as a Fortran 77 code with a halo calls them. Three arrays
+C     of components must give the bits of an array (3, n), and parts
+C     must add up to the whole. The triangles of a surface must have the
+C     areas of its leaflets.
+      PROGRAM TF77F
       IMPLICIT NONE
       INCLUDE 'riisf.h'
       INTEGER M, NN
@@ -12,10 +13,9 @@ C     a surface must have the areas of its leaflets.
       DATA VALVE, TWIN, SURF, MESH, RES /5*0/
       DOUBLE PRECISION X(M), VX(0:M+1,0:M+1,0:M+1)
       DOUBLE PRECISION VY(0:M+1,0:M+1,0:M+1), VZ(0:M+1,0:M+1,0:M+1)
-      DOUBLE PRECISION W(0:M+1,0:M+1,0:M+1), AXIS(3), ZERO(3), OPEN(1)
+      DOUBLE PRECISION W(0:M+1,0:M+1,0:M+1)
       COMMON /FLOW/ VX, VY, VZ, W
       INTEGER I, J, K, STAT
-      DATA AXIS /0D0, 0D0, 1D0/, ZERO /3*0D0/, OPEN /0.6D0/
       DO 10 I = 1, M
         X(I) = -1.4D0 + 0.14D0 * (I - 1)
    10 CONTINUE
@@ -29,15 +29,11 @@ C     a surface must have the areas of its leaflets.
    20     CONTINUE
    30   CONTINUE
    40 CONTINUE
-      CALL RIISF_VALVE_CREATE('trileaflet', VALVE, STAT)
-      CALL OK(STAT)
+      CALL VALVEOF('trileaflet', VALVE)
       CALL RIISF_VALVE_COPY(VALVE, TWIN, STAT)
       CALL OK(STAT)
-      CALL RIISF_VALVE_SET(VALVE, 'opening', 1, OPEN, STAT)
-      CALL OK(STAT)
-      CALL RIISF_SURFACE_CREATE(VALVE, 0.3D0, 0.05D0, 1D0, AXIS, 0D0,
-     &  ZERO, SURF, STAT)
-      CALL OK(STAT)
+      CALL SETONE(VALVE, 'opening', 0.6D0)
+      CALL HERE(VALVE, 0.3D0, SURF)
       CALL RIISF_SURFACE_UPDATE_MOVING(SURF, VALVE, TWIN, 0.1D0, STAT)
       CALL OK(STAT)
       CALL RIISF_MESH_CREATE_GRID(M, M, M, X, X, X, 64,
@@ -62,7 +58,7 @@ C     a surface must have the areas of its leaflets.
       CALL RIISF_SURFACE_DESTROY(SURF)
       CALL RIISF_VALVE_DESTROY(TWIN)
       CALL RIISF_VALVE_DESTROY(VALVE)
-      PRINT *, 'all components agree'
+      PRINT *, 'all forces agree'
       END
 
 C     K and K u_surface, of both kinds of counts, in arrays with a halo.
@@ -131,19 +127,21 @@ C     Checks that A is the row C of B, to the bit.
       END
 
 C     The forces on the whole, on leaflets, at edges and at vertices.
+C     Calls for (3, n) and for components take counts of both kinds.
       SUBROUTINE FORCES(RES, SURF, NN)
       INTEGER M, NN, ME, MV
       PARAMETER (M = 21, ME = 400, MV = 20000)
       INTEGER*8 RES, SURF, BIG, NL
-      INTEGER I, L, N, NV, STAT, ID(ME)
+      INTEGER I, J, L, N, NV, STAT, ID(ME), ID2(ME)
       DOUBLE PRECISION VX((M+2)**3), VY((M+2)**3), VZ((M+2)**3)
       DOUBLE PRECISION W((M+2)**3), VEL(3,(M+2)**3), E(3,2,ME)
-      DOUBLE PRECISION F(3,3), WHOLE(3,3), MOM(3,3), FL(3,3,3)
-      DOUBLE PRECISION ML(3,3,3), FE(3,ME,3), MOE(3,ME,3), FV(3,MV,3)
-      DOUBLE PRECISION ABOUT(3), ALL
+      DOUBLE PRECISION E2(3,2,ME), F(3,4), WHOLE(3,5), MOM(3,5)
+      DOUBLE PRECISION FL(3,3,5), ML(3,3,5), FE(3,ME,5), MOE(3,ME,5)
+      DOUBLE PRECISION FV(3,MV,4), ABOUT(3), ZERO(3), S(4), ALL
       COMMON /FLOW/ VX, VY, VZ, W
-      COMMON /FS/ VEL, E, FE, MOE, FV, ID
-      DATA ABOUT /1D0, 2D0, 3D0/, F, WHOLE, MOM, FL, ML /81*0D0/
+      COMMON /FS/ VEL, E, E2, FE, MOE, FV, ID, ID2
+      DATA ABOUT /1D0, 2D0, 3D0/, F, WHOLE, MOM /42*0D0/, ZERO /3*0D0/
+      DATA FL, ML /90*0D0/
       INCLUDE 'riisf.h'
       BIG = NN
       DO 10 I = 1, NN
@@ -151,17 +149,28 @@ C     The forces on the whole, on leaflets, at edges and at vertices.
         VEL(2,I) = VY(I)
         VEL(3,I) = VZ(I)
    10 CONTINUE
+      N = 0
+      CALL RIISF_SURFACE_ATTACHMENT(SURF, 5, N, E, ID, STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'length is 5; edges: ')
+      IF (N .LE. 5 .OR. N .GT. ME) CALL FAILED('the number of edges')
       CALL RIISF_SURFACE_ATTACHMENT(SURF, ME, N, E, ID, STAT)
       CALL OK(STAT)
+      CALL RIISF_SURFACE_ATTACHMENT_64(SURF, INT(ME, 8), NL, E2, ID2,
+     &  STAT)
+      CALL OK(STAT)
+      IF (NL .NE. N) CALL FAILED('as many edges')
+      CALL EQUAL(6 * N, E, 1, 1, E2, 'the same edges')
       CALL RIISF_SURFACE_VERTICES(SURF, MV, NV, FV, STAT)
       CALL OK(STAT)
-      DO 40 L = 1, 3
+      DO 40 L = 1, 5
         DO 20 I = 1, N
           CALL CLEAR(FE(1,I,L))
           CALL CLEAR(MOE(1,I,L))
+          IF (ID(I) .LT. 0 .OR. ID(I) .GT. 2 .OR. ID2(I) .NE. ID(I))
+     &      CALL FAILED('the leaflet of an edge')
    20   CONTINUE
         DO 30 I = 1, NV
-          CALL CLEAR(FV(1,I,L))
+          IF (L .LE. 4) CALL CLEAR(FV(1,I,L))
    30   CONTINUE
    40 CONTINUE
 
@@ -174,11 +183,16 @@ C     The forces on the whole, on leaflets, at edges and at vertices.
       CALL RIISF_ADD_REACTION_COMPONENTS_64(RES, 3D0, RIIS_AUTO,
      &  RIIS_RIM_ROUND, BIG, VX, VY, VZ, W, F(1,3), STAT)
       CALL OK(STAT)
+      CALL RIISF_ADD_REACTION_64(RES, 3D0, RIIS_AUTO, RIIS_RIM_ROUND,
+     &  BIG, VEL, W, F(1,4), STAT)
+      CALL OK(STAT)
       CALL RIISF_ADD_REACTION_COMPONENTS(RES, -3D0, RIIS_AUTO,
      &  RIIS_RIM_ROUND, NN, VX, VY, VZ, W, F(1,2), STAT)
       CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'resistance.R is -3')
-      CALL THRICE(3, F, 'the force')
+      CALL ALIKE(3, F, 'the force')
+      IF (ABS(F(3,1)) .LT. 1D-3) CALL FAILED('a force')
 
+C     The moment about another point is the moment of the force more.
       CALL RIISF_ADD_LEAFLET_REACTION(RES, 3D0, RIIS_AUTO,
      &  RIIS_RIM_ROUND, NN, VEL, W, ABOUT, 3, WHOLE, MOM, FL, ML, STAT)
       CALL OK(STAT)
@@ -190,15 +204,30 @@ C     The forces on the whole, on leaflets, at edges and at vertices.
      &  RIIS_AUTO, RIIS_RIM_ROUND, BIG, VX, VY, VZ, W, ABOUT, 3,
      &  WHOLE(1,3), MOM(1,3), FL(1,1,3), ML(1,1,3), STAT)
       CALL OK(STAT)
+      CALL RIISF_ADD_LEAFLET_REACTION_64(RES, 3D0, RIIS_AUTO,
+     &  RIIS_RIM_ROUND, BIG, VEL, W, ABOUT, 3, WHOLE(1,4), MOM(1,4),
+     &  FL(1,1,4), ML(1,1,4), STAT)
+      CALL OK(STAT)
+      CALL RIISF_ADD_LEAFLET_REACTION(RES, 3D0, RIIS_AUTO,
+     &  RIIS_RIM_ROUND, NN, VEL, W, ZERO, 3, WHOLE(1,5), MOM(1,5),
+     &  FL(1,1,5), ML(1,1,5), STAT)
+      CALL OK(STAT)
+      CALL RIISF_ADD_LEAFLET_REACTION(RES, 3D0, RIIS_AUTO,
+     &  RIIS_RIM_ROUND, NN, VEL, W, ABOUT, 1, WHOLE, MOM, FL, ML, STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'n_leaflets is 1, but')
       CALL RIISF_ADD_LEAFLET_REACTION_COMPONENTS(RES, 3D0, RIIS_AUTO,
      &  RIIS_RIM_ROUND, NN, VX, VY, VZ, W, ABOUT, 1, WHOLE, MOM, FL,
      &  ML, STAT)
       CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'n_leaflets is 1, but')
-      CALL THRICE(3, WHOLE, 'the force with leaflets')
-      CALL THRICE(3, MOM, 'the moment')
-      CALL THRICE(9, FL, 'the force of leaflets')
-      CALL THRICE(9, ML, 'the moment of leaflets')
+      CALL ALIKE(3, WHOLE, 'the force with leaflets')
+      CALL ALIKE(3, MOM, 'the moment')
+      CALL ALIKE(9, FL, 'the force of leaflets')
+      CALL ALIKE(9, ML, 'the moment of leaflets')
+      CALL EQUAL(3, F, 1, 1, WHOLE, 'the same whole')
+      IF (ABS(MOM(3,5) - MOM(3,1) - ABOUT(1) * F(2,1) + ABOUT(2) *
+     &  F(1,1)) .GT. 1D-9 * ABS(F(3,1))) CALL FAILED('another point')
 
+C     With the leaflet -1, each edge serves all leaflets.
       CALL RIISF_ADD_EDGE_REACTION(RES, 3D0, RIIS_AUTO, RIIS_RIM_ROUND,
      &  NN, VEL, W, N, E, ID, FE, MOE, STAT)
       CALL OK(STAT)
@@ -206,16 +235,27 @@ C     The forces on the whole, on leaflets, at edges and at vertices.
      &  RIIS_RIM_ROUND, NN, VX, VY, VZ, W, N, E, ID, FE(1,1,2),
      &  MOE(1,1,2), STAT)
       CALL OK(STAT)
-      NL = N
       CALL RIISF_ADD_EDGE_REACTION_COMPONENTS_64(RES, 3D0, RIIS_AUTO,
      &  RIIS_RIM_ROUND, BIG, VX, VY, VZ, W, NL, E, ID, FE(1,1,3),
      &  MOE(1,1,3), STAT)
       CALL OK(STAT)
+      CALL RIISF_ADD_EDGE_REACTION_64(RES, 3D0, RIIS_AUTO,
+     &  RIIS_RIM_ROUND, BIG, VEL, W, NL, E, ID, FE(1,1,4),
+     &  MOE(1,1,4), STAT)
+      CALL OK(STAT)
+      ID2(1) = -1
+      CALL RIISF_ADD_EDGE_REACTION_64(RES, 3D0, RIIS_AUTO,
+     &  RIIS_RIM_ROUND, BIG, VEL, W, NL, E, ID2, FE(1,1,5),
+     &  MOE(1,1,5), STAT)
+      CALL OK(STAT)
+      CALL RIISF_ADD_EDGE_REACTION(RES, 3D0, RIIS_AUTO, RIIS_RIM_ROUND,
+     &  NN, VEL, W, 0, E, ID, FE, MOE, STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'reaction.n_edges is 0')
       CALL RIISF_ADD_EDGE_REACTION_COMPONENTS(RES, 3D0, RIIS_AUTO,
      &  RIIS_RIM_ROUND, NN, VX, VY, VZ, W, 0, E, ID, FE, MOE, STAT)
       CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'reaction.n_edges is 0')
-      CALL THRICE(3 * ME, FE, 'the force at edges')
-      CALL THRICE(3 * ME, MOE, 'the moment at edges')
+      CALL ALIKE(3 * ME, FE, 'the force at edges')
+      CALL ALIKE(3 * ME, MOE, 'the moment at edges')
 
       CALL RIISF_ADD_VERTEX_REACTION(RES, SURF, 3D0, RIIS_AUTO,
      &  RIIS_RIM_ROUND, NN, VEL, W, NV, FV, STAT)
@@ -229,16 +269,86 @@ C     The forces on the whole, on leaflets, at edges and at vertices.
      &  RIIS_AUTO, RIIS_RIM_ROUND, BIG, VX, VY, VZ, W, NL, FV(1,1,3),
      &  STAT)
       CALL OK(STAT)
+      CALL RIISF_ADD_VERTEX_REACTION_64(RES, SURF, 3D0, RIIS_AUTO,
+     &  RIIS_RIM_ROUND, BIG, VEL, W, NL, FV(1,1,4), STAT)
+      CALL OK(STAT)
+      CALL RIISF_ADD_VERTEX_REACTION(RES, SURF, 3D0, RIIS_AUTO,
+     &  RIIS_RIM_ROUND, NN, VEL, W, 7, FV, STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'n_vertices is 7; the')
       CALL RIISF_ADD_VERTEX_REACTION_COMPONENTS(RES, SURF, 3D0,
      &  RIIS_AUTO, RIIS_RIM_ROUND, NN, VX, VY, VZ, W, 7, FV, STAT)
       CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'n_vertices is 7; the')
-      CALL THRICE(3 * MV, FV, 'the force at vertices')
-      ALL = -F(3,1)
-      DO 50 I = 1, NV
-        ALL = ALL + FV(3,I,1)
-   50 CONTINUE
-      IF (ABS(ALL) .GT. 1D-9 * ABS(F(3,1)) .OR. ABS(F(3,1)) .LT. 1D-3)
-     &  CALL FAILED('the force at vertices is the force')
+      CALL ALIKE(3 * MV, FV, 'the force at vertices')
+
+C     Leaflets, edges and vertices add up to the whole.
+      DO 60 J = 1, 3
+        ALL = ABS(F(J,1)) + ABS(F(3,1))
+        S(1) = FL(J,1,1) + FL(J,2,1) + FL(J,3,1)
+        CALL ADDUP(N, FE(1,1,1), J, S(2))
+        CALL ADDUP(N, FE(1,1,5), J, S(3))
+        CALL ADDUP(NV, FV, J, S(4))
+        DO 50 I = 1, 4
+          IF (ABS(S(I) - F(J,1)) .GT. 1D-9 * ALL) CALL FAILED('parts')
+   50   CONTINUE
+   60 CONTINUE
+      CALL LOADS(N, E, ID, F, FL, ML)
+      END
+
+C     Nodes of tissue, eight beside each edge, get the force FW.
+      SUBROUTINE LOADS(NE, E, ID, FW, FL, ML)
+      INTEGER ME, MT
+      PARAMETER (ME = 400, MT = 8 * ME)
+      INTEGER NE, ID(ME), I, J, NT, STAT
+      DOUBLE PRECISION E(3,2,ME), FW(3), FL(3,3), ML(3,3), ABOUT(3)
+      DOUBLE PRECISION T(3,MT), TW(MT), A(3,MT), A2(3,MT), SUMS(11,3)
+      DOUBLE PRECISION SUMS2(11,3), S, S2
+      COMMON /LS/ T, TW, A, A2
+      DATA ABOUT /1D0, 2D0, 3D0/, SUMS, SUMS2 /66*0D0/
+      INCLUDE 'riisf.h'
+      NT = 8 * NE
+      DO 20 I = 1, NT
+        DO 10 J = 1, 3
+          T(J,I) = E(J,1,1 + (I - 1) / 8) + 0.15D0 * COS(2D0 * J * I)
+   10   CONTINUE
+        CALL CLEAR(A(1,I))
+        CALL CLEAR(A2(1,I))
+        TW(I) = 1D0 + MOD(I, 3)
+   20 CONTINUE
+      CALL RIISF_LOADS_SUMS(0D0, NE, E, ID, NT, T, TW, 3, SUMS, STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'loads.radius is 0; it')
+      CALL RIISF_LOADS_FORCES(0.3D0, NE, E, ID, NT, T, TW, 3, ABOUT,
+     &  FL, ML, SUMS, A, STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'tissue has 0 nodes')
+      CALL RIISF_LOADS_SUMS(0.3D0, NE, E, ID, NT, T, TW, 3, SUMS, STAT)
+      CALL OK(STAT)
+      CALL RIISF_LOADS_FORCES(0.3D0, NE, E, ID, NT, T, TW, 3, ABOUT,
+     &  FL, ML, SUMS, A, STAT)
+      CALL OK(STAT)
+C     Each edge now holds all leaflets.
+      ID(1) = -1
+      CALL RIISF_LOADS_SUMS_64(0.3D0, INT(NE, 8), E, ID, INT(NT, 8), T,
+     &  TW, 3_8, SUMS2, STAT)
+      CALL OK(STAT)
+      CALL RIISF_LOADS_FORCES_64(0.3D0, INT(NE, 8), E, ID, INT(NT, 8),
+     &  T, TW, 3_8, ABOUT, FL, ML, SUMS2, A2, STAT)
+      CALL OK(STAT)
+      IF (SUMS2(1,1) .LE. SUMS(1,1)) CALL FAILED('all edges hold it')
+      DO 30 J = 1, 3
+        CALL ADDUP(NT, A, J, S)
+        CALL ADDUP(NT, A2, J, S2)
+        IF (ABS(S - FW(J)) + ABS(S2 - FW(J)) .GT. 1D-9 * (ABS(FW(J)) +
+     &    ABS(FW(3)))) CALL FAILED('the force on tissue')
+   30 CONTINUE
+      END
+
+C     Returns the sum S of the row J.
+      SUBROUTINE ADDUP(N, A, J, S)
+      INTEGER N, J, I
+      DOUBLE PRECISION A(3,N), S
+      S = 0D0
+      DO 10 I = 1, N
+        S = S + A(J,I)
+   10 CONTINUE
       END
 
       SUBROUTINE CLEAR(F)
@@ -248,14 +358,13 @@ C     The forces on the whole, on leaflets, at edges and at vertices.
       F(3) = 0D0
       END
 
-C     Checks that three arrays are equal, to the bit.
-      SUBROUTINE THRICE(N, A, TEXT)
-      INTEGER N, I
-      DOUBLE PRECISION A(N,3)
+C     Checks that four arrays are equal, to the bit.
+      SUBROUTINE ALIKE(N, A, TEXT)
+      INTEGER N, L
+      DOUBLE PRECISION A(N,4)
       CHARACTER*(*) TEXT
-      DO 10 I = 1, N
-        IF (ABS(A(I,2) - A(I,1)) + ABS(A(I,3) - A(I,1)) .GT. 0D0)
-     &    CALL FAILED(TEXT)
+      DO 10 L = 2, 4
+        CALL EQUAL(N, A(1,L), 1, 1, A, TEXT)
    10 CONTINUE
       END
 

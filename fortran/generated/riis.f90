@@ -1,4 +1,5 @@
 ! SPDX-License-Identifier: Apache-2.0
+! Written by fortran/bindings/generate.py from riis.h and from the files in that folder; run ./run bindings to repeat it.
 !> riis for Fortran: heart valves as resistive immersed implicit surfaces. Types with procedures offer all of riis.h. Callers need
 !! neither iso_c_binding nor TARGET.
 !!
@@ -51,92 +52,49 @@ module riis
   use, intrinsic :: iso_c_binding, only: c_funloc, c_funptr, c_int32_t, c_int64_t, c_null_funptr, c_null_ptr, c_ptr, &
     c_f_procpointer
   use, intrinsic :: iso_fortran_env, only: int32
+  ! The modules below publish what callers use. A constant of riis.h needs no line here.
+  use riis_warping
+  use riis_valves
+  use riis_frames
+  use riis_surfaces
+  use riis_adjacencies
+  use riis_meshes
+  use riis_marking
+  use riis_leaking
+  use riis_crossing
+  use riis_passages
+  use riis_measures
+  use riis_placing
+  use riis_loading
+  use riis_laws
   use riis_c, only: riis_status, riis_surface_info, riis_closest, riis_mark_stats, riis_c_text, &
     riis_c_text_length, riis_last_error, riis_band_sums, riis_passage, riis_leaflet, riis_orifice, riis_coaptation, riis_gap, &
-    riis_first_passage, riis_area_range, riis_cells_across, riis_warp_info, &
+    riis_first_passage, riis_area_range, riis_cells_across, riis_warp_info, riis_placement, &
+    c_set_log => riis_set_log, c_status_name => riis_status_name, c_version_string => riis_version_string, &
     RIIS_OK, RIIS_INVALID_ARGUMENT, RIIS_INVALID_STRUCT_SIZE, RIIS_INVALID_PARAMETER, RIIS_INVALID_SURFACE, &
-    RIIS_INVALID_MESH, RIIS_LIMIT_EXCEEDED, RIIS_OUT_OF_MEMORY, RIIS_FILE_ERROR, RIIS_UNAVAILABLE, RIIS_INTERNAL_ERROR, &
-    RIIS_LOG_INFO, RIIS_LOG_WARNING, RIIS_LEAFLET_RIGHT, RIIS_LEAFLET_LEFT, RIIS_LEAFLET_NON_CORONARY, &
-    RIIS_LEAFLET_ANTERIOR, RIIS_LEAFLET_POSTERIOR, RIIS_LEAFLET_POSITIVE, RIIS_LEAFLET_NEGATIVE, RIIS_LEAFLET_HOUSING, &
-    RIIS_LEAFLET_SKIRT, &
-    RIIS_MEASURE_TRIANGLES, RIIS_MEASURE_SAMPLING, RIIS_MEASURE_MINIMIZATION, &
-    RIIS_SEARCH_AUTO, RIIS_SEARCH_EXHAUSTIVE, RIIS_SEARCH_NEIGHBOR, &
-    RIIS_SEARCH_PAPER, RIIS_SEARCH_CLUSTERS, RIIS_INSTRUCTIONS_AUTO, RIIS_INSTRUCTIONS_BASELINE, &
-    RIIS_INSTRUCTIONS_AVX2, RIIS_INSTRUCTIONS_AVX512, RIIS_AUTO, RIIS_FAR_DISTANCE, &
-    RIIS_FIELD_POINT, RIIS_FIELD_NORMAL, RIIS_FIELD_BARYCENTRIC, RIIS_FIELD_SIDE, RIIS_FIELD_RIM, RIIS_FIELD_UV, &
-    RIIS_FIELD_VELOCITY, RIIS_FIELD_PATCH, RIIS_FIELD_GRADIENT, RIIS_LIST_MARKED, RIIS_LIST_WITHIN_LIMIT, &
-    RIIS_RIM_ROUND, RIIS_RIM_CUT, &
-    RIIS_INTERPOLATION_LINEAR, RIIS_INTERPOLATION_CUBIC, RIIS_PHASE_CLOSING, RIIS_PHASE_OPENING, &
-    RIIS_TRIANGULATION_ADAPTED, RIIS_TRIANGULATION_FIXED, RIIS_PASSAGE_CLOSED, RIIS_PASSAGE_OPEN, RIIS_PASSAGE_NONE, &
+    RIIS_INVALID_MESH, RIIS_LIMIT_EXCEEDED, RIIS_OUT_OF_MEMORY, RIIS_FILE_ERROR, RIIS_UNAVAILABLE, &
+    RIIS_INTERNAL_ERROR, RIIS_LOG_INFO, RIIS_LOG_WARNING, RIIS_LEAFLET_RIGHT, RIIS_LEAFLET_LEFT, &
+    RIIS_LEAFLET_NON_CORONARY, RIIS_LEAFLET_ANTERIOR, RIIS_LEAFLET_POSTERIOR, RIIS_LEAFLET_POSITIVE, &
+    RIIS_LEAFLET_NEGATIVE, RIIS_LEAFLET_HOUSING, RIIS_LEAFLET_SKIRT, RIIS_MEASURE_TRIANGLES, RIIS_MEASURE_SAMPLING, &
+    RIIS_MEASURE_MINIMIZATION, RIIS_TRIANGULATION_ADAPTED, RIIS_TRIANGULATION_FIXED, RIIS_INTERPOLATION_LINEAR, &
+    RIIS_INTERPOLATION_CUBIC, RIIS_SEARCH_AUTO, RIIS_SEARCH_EXHAUSTIVE, RIIS_SEARCH_NEIGHBOR, RIIS_SEARCH_PAPER, &
+    RIIS_SEARCH_CLUSTERS, RIIS_INSTRUCTIONS_AUTO, RIIS_INSTRUCTIONS_BASELINE, RIIS_INSTRUCTIONS_AVX2, &
+    RIIS_INSTRUCTIONS_AVX512, RIIS_FIELD_POINT, RIIS_FIELD_NORMAL, RIIS_FIELD_BARYCENTRIC, RIIS_FIELD_SIDE, &
+    RIIS_FIELD_RIM, RIIS_FIELD_UV, RIIS_FIELD_VELOCITY, RIIS_FIELD_PATCH, RIIS_FIELD_GRADIENT, RIIS_RIM_ROUND, &
+    RIIS_RIM_CUT, RIIS_LIST_MARKED, RIIS_LIST_WITHIN_LIMIT, RIIS_PASSAGE_CLOSED, RIIS_PASSAGE_OPEN, RIIS_PASSAGE_NONE, &
     RIIS_OUTLINE_NONE, RIIS_OUTLINE_DISC, RIIS_OUTLINE_ATTACHMENT, RIIS_OUTLINE_BOUNDARY, RIIS_OUTLINE_WALL, &
-    RIIS_FIRST_PASSAGE_FOUND, RIIS_FIRST_PASSAGE_ALWAYS, &
-    RIIS_FIRST_PASSAGE_NEVER, RIIS_FIRST_PASSAGE_NONE, RIIS_ALL_LEAFLETS, RIIS_AREA_GEOMETRIC, RIIS_AREA_EFFECTIVE, &
-    RIIS_LANDMARK_COMMISSURE, RIIS_LANDMARK_NADIR, RIIS_LANDMARK_COAPTATION, RIIS_LANDMARK_ANNULUS, &
-    RIIS_LANDMARK_ANTERIOR_HORN, RIIS_LANDMARK_POSTERIOR_HORN, RIIS_LANDMARK_TRIGONE, RIIS_LANDMARK_POSTEROMEDIAL, &
-    RIIS_LANDMARK_ANTEROLATERAL, RIIS_LANDMARK_HINGE, RIIS_LANDMARK_ATTACHMENT, RIIS_SIZE_KEPT, RIIS_SIZE_DETERMINED, &
-    RIIS_SIZE_TIED, RIIS_SIZE_UNDETERMINED, riis_placement, &
-    c_set_log => riis_set_log, c_status_name => riis_status_name, &
-    c_version_string => riis_version_string
-  use riis_warping, only: riis_warp
-  use riis_valves, only: riis_valve, riis_parameter_info, riis_valve_patches
-  use riis_frames, only: riis_keyframes
-  use riis_surfaces, only: riis_surface, riis_attachment, riis_triangles
-  use riis_adjacencies, only: riis_adjacency
-  use riis_meshes, only: riis_mesh
-  use riis_marking, only: riis_marks, riis_mark_list, riis_mark_nodes
-  use riis_leaking, only: riis_leaks, riis_leak_list, riis_find_leaks
-  use riis_crossing, only: riis_crossings, riis_crossing_list, riis_find_crossings
-  use riis_passages, only: riis_label_open_regions, riis_find_passage
-  use riis_measures, only: riis_get_n_leaflets, riis_get_leaflet, riis_get_orifice, riis_get_orifice_in_wall, &
-    riis_get_coaptation, riis_get_gap, &
-    riis_set_skirt_to_wall, &
-    riis_get_leak, riis_get_cells_across, &
-    riis_get_swept_volume, riis_find_by_area, riis_find_first_passage
-  use riis_placing, only: riis_place
-  use riis_loading, only: riis_loads_add_sums, riis_loads_add_forces
-  use riis_laws, only: riis_opening_times, riis_opening_switch, riis_opening_switch_state, riis_opening_angle, &
-    riis_opening_angle_state, riis_opening_from_table, riis_opening_from_times, riis_opening_advance
+    RIIS_AREA_GEOMETRIC, RIIS_AREA_EFFECTIVE, RIIS_ALL_LEAFLETS, RIIS_FIRST_PASSAGE_FOUND, RIIS_FIRST_PASSAGE_ALWAYS, &
+    RIIS_FIRST_PASSAGE_NEVER, RIIS_FIRST_PASSAGE_NONE, RIIS_LANDMARK_COMMISSURE, RIIS_LANDMARK_NADIR, &
+    RIIS_LANDMARK_COAPTATION, RIIS_LANDMARK_ANNULUS, RIIS_LANDMARK_ANTERIOR_HORN, RIIS_LANDMARK_POSTERIOR_HORN, &
+    RIIS_LANDMARK_TRIGONE, RIIS_LANDMARK_POSTEROMEDIAL, RIIS_LANDMARK_ANTEROLATERAL, RIIS_LANDMARK_HINGE, &
+    RIIS_LANDMARK_ATTACHMENT, RIIS_SIZE_KEPT, RIIS_SIZE_DETERMINED, RIIS_SIZE_TIED, RIIS_SIZE_UNDETERMINED, &
+    RIIS_PHASE_CLOSING, RIIS_PHASE_OPENING, RIIS_AUTO, RIIS_FAR_DISTANCE
   implicit none
-  private
-  public :: riis_valve, riis_parameter_info, riis_surface, riis_surface_info, riis_closest, riis_mesh, riis_adjacency, &
-    riis_marks, riis_mark_list, riis_mark_nodes, riis_mark_stats, riis_band_sums, riis_find_leaks, riis_leaks, riis_leak_list, &
-    riis_keyframes, riis_label_open_regions, riis_find_passage, riis_passage, riis_find_crossings, riis_crossings, &
-    riis_crossing_list, riis_attachment, riis_triangles, riis_leaflet, riis_orifice, riis_coaptation, riis_gap, &
-    riis_first_passage, riis_area_range, riis_cells_across, riis_warp, riis_warp_info, riis_valve_patches
-  public :: riis_get_n_leaflets, riis_get_leaflet, riis_get_orifice, riis_get_orifice_in_wall, &
-    riis_get_coaptation, riis_get_gap, &
-    riis_set_skirt_to_wall, riis_get_leak, riis_get_cells_across, &
-    riis_get_swept_volume, riis_find_by_area, riis_find_first_passage
-  public :: riis_place, riis_placement, &
-    RIIS_LANDMARK_COMMISSURE, RIIS_LANDMARK_NADIR, RIIS_LANDMARK_COAPTATION, RIIS_LANDMARK_ANNULUS, &
-    RIIS_LANDMARK_ANTERIOR_HORN, RIIS_LANDMARK_POSTERIOR_HORN, RIIS_LANDMARK_TRIGONE, RIIS_LANDMARK_POSTEROMEDIAL, &
-    RIIS_LANDMARK_ANTEROLATERAL, RIIS_LANDMARK_HINGE, RIIS_LANDMARK_ATTACHMENT, RIIS_SIZE_KEPT, RIIS_SIZE_DETERMINED, &
-    RIIS_SIZE_TIED, &
-    RIIS_SIZE_UNDETERMINED
-  public :: riis_loads_add_sums, riis_loads_add_forces
-  public :: riis_opening_times, riis_opening_switch, riis_opening_switch_state, riis_opening_angle, riis_opening_angle_state, &
-    riis_opening_from_table, riis_opening_from_times, riis_opening_advance
-  public :: riis_error_message, riis_status_name, riis_version_string, riis_set_log, riis_log_procedure
-  public :: riis_status, RIIS_OK, RIIS_INVALID_ARGUMENT, RIIS_INVALID_STRUCT_SIZE, RIIS_INVALID_PARAMETER, &
-    RIIS_INVALID_SURFACE, RIIS_INVALID_MESH, RIIS_LIMIT_EXCEEDED, RIIS_OUT_OF_MEMORY, RIIS_FILE_ERROR, RIIS_UNAVAILABLE, &
-    RIIS_INTERNAL_ERROR
-  public :: RIIS_LOG_INFO, RIIS_LOG_WARNING, RIIS_LEAFLET_RIGHT, RIIS_LEAFLET_LEFT, RIIS_LEAFLET_NON_CORONARY, &
-    RIIS_LEAFLET_ANTERIOR, RIIS_LEAFLET_POSTERIOR, RIIS_LEAFLET_POSITIVE, RIIS_LEAFLET_NEGATIVE, RIIS_LEAFLET_HOUSING, &
-    RIIS_LEAFLET_SKIRT, &
-    RIIS_MEASURE_TRIANGLES, RIIS_MEASURE_SAMPLING, RIIS_MEASURE_MINIMIZATION, &
-    RIIS_SEARCH_AUTO, RIIS_SEARCH_EXHAUSTIVE, RIIS_SEARCH_NEIGHBOR, &
-    RIIS_SEARCH_PAPER, RIIS_SEARCH_CLUSTERS, RIIS_INSTRUCTIONS_AUTO, RIIS_INSTRUCTIONS_BASELINE, &
-    RIIS_INSTRUCTIONS_AVX2, RIIS_INSTRUCTIONS_AVX512, RIIS_AUTO, RIIS_FAR_DISTANCE
-  public :: RIIS_FIELD_POINT, RIIS_FIELD_NORMAL, RIIS_FIELD_BARYCENTRIC, RIIS_FIELD_SIDE, RIIS_FIELD_RIM, RIIS_FIELD_UV, &
-    RIIS_FIELD_VELOCITY, RIIS_FIELD_PATCH, RIIS_FIELD_GRADIENT, RIIS_LIST_MARKED, RIIS_LIST_WITHIN_LIMIT, &
-    RIIS_RIM_ROUND, RIIS_RIM_CUT, &
-    RIIS_INTERPOLATION_LINEAR, RIIS_INTERPOLATION_CUBIC, RIIS_PHASE_CLOSING, RIIS_PHASE_OPENING, &
-    RIIS_TRIANGULATION_ADAPTED, RIIS_TRIANGULATION_FIXED, RIIS_PASSAGE_CLOSED, RIIS_PASSAGE_OPEN, RIIS_PASSAGE_NONE, &
-    RIIS_OUTLINE_NONE, RIIS_OUTLINE_DISC, RIIS_OUTLINE_ATTACHMENT, RIIS_OUTLINE_BOUNDARY, RIIS_OUTLINE_WALL, &
-    RIIS_FIRST_PASSAGE_FOUND, RIIS_FIRST_PASSAGE_ALWAYS, &
-    RIIS_FIRST_PASSAGE_NEVER, RIIS_FIRST_PASSAGE_NONE, RIIS_ALL_LEAFLETS, RIIS_AREA_GEOMETRIC, RIIS_AREA_EFFECTIVE
+  private :: c_funloc, c_funptr, c_int32_t, c_int64_t, c_null_funptr, c_null_ptr, c_ptr, c_f_procpointer, int32, riis_c_text, &
+    riis_c_text_length, riis_last_error, c_set_log, c_status_name, c_version_string, error_length, name_length, &
+    version_length, status_name, version_string, set_log, pass_message
 
-  integer, parameter, public :: riis_id = c_int64_t         !< The kind of node, triangle and vertex ids. It is for codes in
+  integer, parameter :: riis_id = c_int64_t         !< The kind of node, triangle and vertex ids. It is for codes in
                                                             !! Fortran 2003, which has no int64.
 
   !> Returns the name of a status.
