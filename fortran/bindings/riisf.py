@@ -45,7 +45,6 @@ class Subroutine:
         self.writer = writer
         self.name = entry.name + ("_64" if kind == "int64" else "")
         self.functions = [writer.functions.get(name) or self.refuse(f"riis.h has no {name}") for name in entry.functions]
-        self.arguments = list(entry.arguments) or [Argument("handle", "", "", "", "May be 0.")]
         self.structs = {}  # for each argument of a function that is a struct: its type, and whether the function only reads it
         self.nested = {}  # for each field of these that points to a struct: its type and the field's path
         self.values = {}  # the places of the other arguments
@@ -56,6 +55,9 @@ class Subroutine:
                 elif argument.name != "struct_size":
                     self.values.setdefault(argument.name, Place(argument.name, argument.type, "",
                                                                 self.words_of(function.name, argument.name), ""))
+        self.arguments = entry.arguments or [
+            Argument(name, "(*)" * any(word == "borrowed" or word.startswith("(") for word in place.words), "", "", "")
+            for name, place in self.values.items()]
         for struct in [struct for struct, const in self.structs.values() if const]:
             for field in self.fields(struct):
                 if field.type.base in writer.structs:
@@ -460,7 +462,7 @@ class Subroutine:
         """Returns the statements of a subroutine. Some C functions return no status."""
         result, function = self.functions[0].result, self.functions[0]
         if result.base == "void":
-            self.declare(self.arguments[0], "integer(int64)", "inout")
+            self.declare(Argument("handle", "", "", "", "May be 0."), "integer(int64)", "inout")
             self.locals.append("type(c_ptr) :: c_handle")
             return ["c_handle = c_handle_of(handle)", f"call {function.name}(c_handle)", "handle = handle_of(c_handle)"]
         for argument in self.arguments:
