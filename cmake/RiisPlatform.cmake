@@ -25,8 +25,7 @@ function(riis_export_own_names target)
   set_target_properties(${target} PROPERTIES LINK_DEPENDS ${list})
 endfunction()
 
-# Keeps a library in memory after dlclose. On Darwin no option of the linker does that, and src/riis/parallel/stay_loaded.hpp
-# does.
+# Keeps a library in memory after dlclose. On Darwin no option of the linker does that, and src/riis/parallel/threads.cpp does.
 function(riis_stay_loaded target)
   if(NOT APPLE)
     target_link_options(${target} PRIVATE LINKER:-z,nodelete)

@@ -13,6 +13,6 @@ fi
 for template in "$here"/templates/riis_*.fypp; do
   source=$folder/$(basename "$template" .fypp).f90
   # People read the generated files, so --no-folding keeps the templates' line breaks. A file is replaced only when complete.
-  fypp --no-folding "$template" "$source.part"
+  PYTHONDONTWRITEBYTECODE=1 fypp --no-folding -M "$here/bindings" -m structs "$template" "$source.part"
   mv "$source.part" "$source"
 done

@@ -40,8 +40,7 @@ WIDTH = 100
 
 
 def read(root, path):
-    with open(os.path.join(root, path), encoding="utf-8") as file:
-        return file.read()
+    return generate.read(os.path.join(root, path))
 
 
 def statements(text):
@@ -105,7 +104,7 @@ class Fortran:
                 self.bound[f"{type_}%{match[1]}"] = [match[2]]
             elif type_ and (match := re.match(r"generic :: (\w+) => (\w.*)", line)):
                 self.bound[f"{type_}%{match[1]}"] = re.findall(r"\w+", match[2])
-            elif file == "riis.f90" and line.startswith("public ::"):
+            elif file != "riisf.f90" and line.startswith("public ::"):
                 self.public |= set(re.findall(r"\briis_\w+", line))
 
     def forms(self, name):

@@ -46,16 +46,15 @@ def natural(name):
     return [int(part) if part.isdigit() else part for part in re.split(r"([0-9]+)", name)]
 
 
-def wrapped(first, rest, pieces):
-    """Returns lines of Fortran, broken between pieces. Lines after the first begin with `rest`."""
-    lines, line = [], first + pieces[0]
-    for i, piece in enumerate(pieces[1:], 1):
-        if len(line) + 1 + len(piece) + (2 if i < len(pieces) - 1 else 0) > WIDTH:
-            lines.append(line + " &")
-            line = rest + piece
-        else:
-            line += " " + piece
-    return lines + [line]
+def folded(line, indent, further="    "):
+    """Returns a statement, broken after commas, operators and parentheses outside texts where it is too long."""
+    lines, rest = [], indent + line
+    while len(rest) > WIDTH:
+        ends = [match.end() for match in re.finditer("(?<![(]c), |// |[)] ", rest) if match.end() < WIDTH]
+        cut = max(end for end in ends if rest.count("'", 0, end) % 2 == 0)
+        lines.append(rest[:cut].rstrip() + " &")
+        rest = indent + further + rest[cut:]
+    return [*lines, rest]
 
 
 def listed(indent, entries):
@@ -147,6 +146,11 @@ class Bindings:
                 suffix = "_c_double" if constant.type == "double" else ""
                 lines.append(f"  {self.number(constant.type)}, parameter :: {constant.name} = {constant.value}{suffix}")
         return lines
+
+    def names_of_constants(self):
+        """Returns the names of the constants that module riis publishes, as the end of a USE statement."""
+        kept = [constant for block in [*self.header.enums, self.header.macros] for constant in self.kept(block, "riis_c.f90")]
+        return folded(", ".join(constant.name for constant in self.kept(kept, "riis.f90")), "    ", "")
 
     def fixed_form_constants(self):
         """Returns the constants for fixed form, which has 72 columns. If options change the default kinds, a real constant
@@ -329,15 +333,11 @@ class Bindings:
         if result in names:
             self.refuse(function.line, f"{function.name}: no argument can have the name of the result, {result}")
         what = "function" if result else "subroutine"
-        pieces = [f"{what} {function.name}(" + ("" if names else ")")]
-        pieces += [name + ("," if i < len(names) - 1 else ")") for i, name in enumerate(names)]
-        pieces[:2] = ["".join(pieces[:2])]
-        pieces += [f"result({result})"] * bool(result) + [f"bind(c, name='{function.name}')"]
+        head = f"{what} {function.name}({', '.join(names)}) " + f"result({result}) " * bool(result)
         body = self.declarations(function.arguments, declared) + ([f"{type_} :: {result}"] if result else [])
         kinds = {kind for line in body for kind in re.findall(r"[(=](c_\w+|riis_\w+)\)", line.split(" :: ")[0])}
-        kinds = [f"{kind}{',' if i < len(kinds) - 1 else ''}" for i, kind in enumerate(sorted(kinds, key=natural))]
-        lines = self.comment_of(function, entry, declared) + wrapped("    ", "        ", pieces)
-        lines += wrapped("      import :: ", "        ", kinds) if kinds else []
+        lines = self.comment_of(function, entry, declared) + folded(f"{head}bind(c, name='{function.name}')", "    ")
+        lines += folded("import :: " + ", ".join(sorted(kinds, key=natural)), "      ", "  ") if kinds else []
         return [*lines, "      implicit none", *("      " + line for line in body), f"    end {what} {function.name}"]
 
     def functions(self):

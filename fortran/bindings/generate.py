@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Writes riis_c.f90, riis_f77.f90, riisf.f90 and riisf.h in fortran/generated, from riis.h, bindings.table and riisf.table.
+"""Writes riis_c.f90, riis.f90, riis_f77.f90, riisf.f90 and riisf.h in fortran/generated, from riis.h, bindings.table and
+riisf.table.
 
     python3 generate.py                writes the files
     python3 generate.py --check        writes nothing; fails and shows the difference if a file is out of date
@@ -22,7 +23,7 @@ TABLE = "fortran/bindings/bindings.table"
 SUBROUTINES = "fortran/bindings/riisf.table"
 # The generated files, with the longest line that the language or the project allows. Each has a template in fortran/bindings.
 WIDTHS = {"fortran/generated/riis_c.f90": 130, "fortran/generated/riisf.h": 72, "fortran/generated/riis_f77.f90": 130,
-          "fortran/generated/riisf.f90": 130}
+          "fortran/generated/riisf.f90": 130, "fortran/generated/riis.f90": 130}
 
 
 def template_of(path):
@@ -53,11 +54,12 @@ def generate(root):
     bindings = Bindings(header, table)
     parts = {"constants": bindings.constants(), "structs": bindings.structs(), "callbacks": bindings.callbacks(),
              "functions": bindings.functions()}
-    fixed = {"constants": bindings.fixed_form_constants()}
+    fixed, names = {"constants": bindings.fixed_form_constants()}, {"constants": bindings.names_of_constants()}
     bindings.finish()
     subroutines, interfaces = Writer(header, table, Subroutines(os.path.join(root, SUBROUTINES), SUBROUTINES)).write()
     files, problems = {}, []
-    for (path, width), part in zip(WIDTHS.items(), (parts, fixed, {"subroutines": subroutines}, {"interfaces": interfaces})):
+    filled = parts, fixed, {"subroutines": subroutines}, {"interfaces": interfaces}, names
+    for (path, width), part in zip(WIDTHS.items(), filled):
         template = template_of(path)
         with open(os.path.join(root, template), encoding="utf-8") as file:
             files[path] = fill(file.read(), template, part)

@@ -64,6 +64,14 @@ def text_of(comment):
     return " ".join(re.sub(r"^\s*\*", "", line).strip() for line in comment[2:-2].splitlines()).strip()
 
 
+def plain(text):
+    """Returns a text of riis.h as sentences for callers in Fortran, without those about C's pointers."""
+    text = re.sub(r"; [^.;]*\bNULL\b[^.;]*[.] ", ". ", text)
+    sentences = [sentence for sentence in re.split("(?<=[.;]) ", text) if not re.search(r"\bNULL\b|->|[*]now", sentence)]
+    text = re.sub(r" [*](?=\w)", " ", " ".join(sentences).rstrip(".; ").replace('"', "'"))
+    return text and text[:1].upper() + text[1:] + "."
+
+
 def c_type(words):
     """Returns the type in words such as "const double **", or None."""
     match = re.fullmatch(r"(const )?(\w+) ?(\**)", words.strip())

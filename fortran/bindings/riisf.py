@@ -8,8 +8,8 @@ import textwrap
 from collections import namedtuple
 from functools import lru_cache
 
-from fortran import WIDTH, RULE
-from header import Problem
+from fortran import RULE, folded
+from header import Problem, plain
 from table import Argument
 
 REALS = "real(c_double)"
@@ -32,17 +32,6 @@ def wrapped(text, width):
     return textwrap.wrap(text, width, break_on_hyphens=False)
 
 
-def folded(line, indent):
-    """Returns a statement, broken after commas and operators outside texts where it is too long."""
-    lines, rest = [], indent + line
-    while len(rest) > WIDTH:
-        ends = [match.end() for match in re.finditer(", |// |[)] ", rest) if match.end() < WIDTH]
-        cut = max(end for end in ends if rest.count("'", 0, end) % 2 == 0)
-        lines.append(rest[:cut].rstrip() + " &")
-        rest = indent + "    " + rest[cut:]
-    return [*lines, rest]
-
-
 def if_ok(statements):
     """Returns statements that set the status. Each runs only after success of those before it."""
     return [f"{'if (status == RIIS_OK) ' * (i > 0)}{statement}" for i, statement in enumerate(statements)]
@@ -56,7 +45,6 @@ class Subroutine:
         self.writer = writer
         self.name = entry.name + ("_64" if kind == "int64" else "")
         self.functions = [writer.functions.get(name) or self.refuse(f"riis.h has no {name}") for name in entry.functions]
-        self.arguments = list(entry.arguments) or [Argument("handle", "", "", "", "May be 0.")]
         self.structs = {}  # for each argument of a function that is a struct: its type, and whether the function only reads it
         self.nested = {}  # for each field of these that points to a struct: its type and the field's path
         self.values = {}  # the places of the other arguments
@@ -67,6 +55,9 @@ class Subroutine:
                 elif argument.name != "struct_size":
                     self.values.setdefault(argument.name, Place(argument.name, argument.type, "",
                                                                 self.words_of(function.name, argument.name), ""))
+        self.arguments = entry.arguments or [
+            Argument(name, "(*)" * any(word == "borrowed" or word.startswith("(") for word in place.words), "", "", "")
+            for name, place in self.values.items()]
         for struct in [struct for struct, const in self.structs.values() if const]:
             for field in self.fields(struct):
                 if field.type.base in writer.structs:
@@ -74,7 +65,7 @@ class Subroutine:
                     self.nested[field.name] = (field.type.base, f"{owner}%{field.name}")
         self.declarations, self.locals, self.allocated = [], [], []
         self.used = set()  # the structs that have a variable
-        self.filled = {}  # the fields that arguments fill, and these arguments
+        self.filled = {}  # the fields and arguments of C that arguments fill, and these arguments
         self.set = []  # statements before the calls
         self.passed = dict(entry.fixed)  # for each argument of the functions, what is passed
         self.results, self.copied = [], []  # statements after the calls, and arguments to which arrays are copied
@@ -101,10 +92,10 @@ class Subroutine:
                 return Place(f"{base}%{name}", field.type, field.extent, self.words_of(struct, name), struct)
         return None
 
-    def text_of(self, base, name):
-        """Returns the text that riis.h has for a struct's field."""
+    def line_of(self, base, name):
+        """Returns the line of riis.h that declares a struct's field."""
         struct = (self.nested.get(base) or self.structs[base])[0]
-        return next(line.text for line in self.writer.structs[struct].lines if name in [field.name for field in line.fields])
+        return next(line for line in self.writer.structs[struct].lines if name in [field.name for field in line.fields])
 
     def find(self, argument, target):
         """Returns the place of an argument: the one that the table names, or the one with the argument's name."""
@@ -160,30 +151,42 @@ class Subroutine:
 
     def told(self, text):
         """Returns a text of riis.h as it holds here: with the names of subroutines, and without sentences about C's pointers."""
-        sentences = [sentence for sentence in re.split("(?<=[.;]) ", text) if not re.search(r"\bNULL\b|->|[*]now", sentence)]
-        text = re.sub(r" [*](?=\w)", " ", " ".join(sentences).rstrip(".; ").replace('"', "'"))
-        text = re.sub(r"\briis_\w+", lambda match: self.writer.subroutines.get(match[0], match[0]), text)
-        return text and text[:1].upper() + text[1:] + "."
+        text = re.sub(r"\briis_\w+", lambda match: self.writer.subroutines.get(match[0], match[0]), plain(text))
+        for path, name in self.filled.items():  # a number such as n_points has the name of the argument that gives it
+            text = re.sub(rf"\b{path.rpartition('%')[2]}\b", name, text) if name.startswith("n_") else text
+        return text
 
     def described(self, argument, place):
-        """Returns the text that riis.h has for an argument or a field, as it holds for a caller who passes all arguments."""
-        name, told = place.path.partition("%")[2], {}
+        """Returns the text that riis.h has for an argument or a field, as it holds for a caller who passes all arguments. An
+        argument without a text is an object, or a result, or has the text of the last function above that has its name."""
+        name, base, counted = place.path.partition("%")[2], place.type.base, " Counted from 1." * argument.name.endswith("_num")
         if not name:
-            for function in reversed(self.functions):
-                told.update(function.text.arguments)
-            text = self.told(told.get(place.path, ""))
-            return text and text + " Counted from 1." * argument.name.endswith("_num")
+            above = self.header.functions[:self.header.functions.index(self.functions[0])]
+            own, others = ([function.text.arguments.get(place.path) for function in functions]
+                           for functions in (self.functions, reversed(above)))
+            text = self.told(next(filter(None, own), ""))
+            if not text and base in self.writer.makers:
+                return f"From {self.writer.makers[base]}, for example."
+            if not text and place.type.stars and not place.type.const and not argument.shape:
+                return CREATED
+            if not text and argument.name not in self.writer.table.texts:
+                text = self.told(next(filter(None, others), ""))
+            return text and text + counted
         if argument.name in self.writer.table.texts:
             return ""
-        text = re.sub("Default NaN.*", "", self.text_of(place.path.partition("%")[0], name))
+        line = self.line_of(place.path.partition("%")[0], name)
+        text = re.sub("Default NaN.*", "", line.text)
         text = re.sub(r"Default (\S+?)(:| stands)", r"\1\2", text.replace("0, the default:", "0:"))
         text = self.told(re.sub(r"Default(?= [0-9R])", "Usually", re.sub("[,;] default ", ", usually ", text)))
         if place.type.stars and not place.extent and not text.startswith("("):
             text = f"({', '.join(self.shape_of(place))}): {text[:1].lower()}{text[1:]}"
         if self.entry.counted and place.type.stars:
             count = self.shape_of(place)[-1]
-            return f"{text[:-1].replace(count, 'length')}{', from 1' * argument.name.endswith('_num')}; written up to n."
-        return text + " Counted from 1." * argument.name.endswith("_num")
+            return f"{text[:-1].replace(count, 'length')}{', from 1' * bool(counted)}; written up to n."
+        names = [field.name for field in line.fields]
+        if len(names) > 1 and set(names) <= {other.name for other in self.arguments} and not place.type.stars:
+            text = f"{', '.join(names)}: {text[:1].lower()}{text[1:]}"
+        return text + counted
 
     def take(self, argument):
         """Declares an argument, and notes what becomes of it."""
@@ -230,7 +233,8 @@ class Subroutine:
         """An array whose entries, or whose rows, belong to several fields."""
         base, extent = places[0].path.partition("%")[0], argument.shape.strip("()").split(", ")
         if len(extent) > 1:
-            self.declare(argument, REALS, "in")
+            count = self.filled.get(f"{base}%{self.shape_of(places[0])[-1]}")
+            self.declare(argument, REALS, "in", f"({extent[0]}, {count}): the points, in mesh units.")
             for i, place in enumerate(places, 1):
                 self.set.append(f"{self.path(place.path)} = location_of({argument.name}({i}, 1))")
             self.set.append(f"{self.path(base + '%stride')} = {len(places)}")
@@ -256,7 +260,7 @@ class Subroutine:
         if any(f"{place.path} = " in line for line in self.entry.before):
             return
         if size and size.isdigit():
-            self.set.append(f"{path}({size}) = location_of({name})")
+            self.set.append(f"{path}({size}) = " + (f"location_of({name})" if place.type.stars else name))
         elif size:
             self.set.append(f"{path} = c_loc({self.copy(argument, type_, place, size, writes)})")
         elif place.type.stars and place.extent:
@@ -265,7 +269,7 @@ class Subroutine:
         elif place.type.stars:
             self.set.append(f"{path} = location_of({name})")
         else:
-            self.set.append(f"{path} = {name}")
+            self.set.append(f"{path} = {name}" + " - 1" * name.endswith("_num"))
             if next_state != base:
                 self.results.append(f"{name} = {self.path(place.path.replace(base, next_state, 1))}")
 
@@ -285,6 +289,7 @@ class Subroutine:
         """An argument that is an argument of a C function also."""
         name, base, stars = argument.name, place.type.base, place.type.stars
         key, writes = place.path, stars > 0 and not place.type.const
+        self.filled[key] = name
         if base in self.header.handles:
             create = self.writer.functions.get(f"{base}_create")
             if stars == 2 or writes and create and len(create.arguments) == 1:
@@ -341,7 +346,7 @@ class Subroutine:
         lines = []
         for base in [*self.nested, *self.structs]:
             for field in self.fields((self.nested.get(base) or self.structs[base])[0]) if base in self.used else []:
-                array = re.match(r"of (\w+)", self.text_of(base, field.name))
+                array = re.match(r"of (\w+)", self.line_of(base, field.name).text)
                 given = array and self.filled.get(f"{base}%{array[1]}")
                 if given and field.name in ("id_bits", "offset_bits", "column_bits"):
                     lines.append(f"{self.path(f'{base}%{field.name}')} = storage_size({given})")
@@ -457,7 +462,7 @@ class Subroutine:
         """Returns the statements of a subroutine. Some C functions return no status."""
         result, function = self.functions[0].result, self.functions[0]
         if result.base == "void":
-            self.declare(self.arguments[0], "integer(int64)", "inout")
+            self.declare(Argument("handle", "", "", "", "May be 0."), "integer(int64)", "inout")
             self.locals.append("type(c_ptr) :: c_handle")
             return ["c_handle = c_handle_of(handle)", f"call {function.name}(c_handle)", "handle = handle_of(c_handle)"]
         for argument in self.arguments:
@@ -516,8 +521,13 @@ class Writer:
         self.functions = {function.name: function for function in header.functions}
         self.structs = {struct.name: struct for struct in header.structs}
         self.subroutines = {}  # for each function, the name of the first subroutine that the table has for it
+        self.makers = {}  # for each sort of object, the name of the first subroutine that changes one
         for entry in (entry for _, _, entries in table.sections for entry in entries):
             self.subroutines.setdefault(entry.functions[0], entry.name)
+            function = self.functions.get(entry.functions[0])
+            for base, const, _ in [argument.type for argument in function.arguments] if function else []:
+                if base in header.handles and not const:
+                    self.makers.setdefault(base, entry.name)
         constants = [constant.name for block in [*header.enums, header.macros] for constant in block]
         self.names = sorted({*self.functions, *self.structs, *constants, "riis_status", "riis_c_text"})
 

@@ -165,13 +165,22 @@ class Subroutines:
         elif head == "texts":
             self.texts.update((argument.name, argument.text) for line in lines for argument in self.arguments(place, line))
         elif head.startswith("@"):
-            self.groups[head] = [argument for line in lines for argument in self.arguments(place, line)]
+            self.groups[head] = lines
         else:
             for i in range(max(part.count("/") + 1 for part in re.findall(r"\{(.*?)\}", "".join(block)) or [""])):
-                chosen = [re.sub(r"\{(.*?)\}", lambda match, i=i: match[1].split("/")[i], line) for line in [head, *lines]]
-                self.sections[-1][2].append(self.entry(place, chosen[0], chosen[1:]))
+                self.sections[-1][2].append(self.entry(place, *self.chosen([head, *lines], i)))
 
-    def entry(self, place, head, lines):
+    def chosen(self, lines, i):
+        """Yields the lines with the name i of each {marked/within_limit}, and the lines of groups in place of their names."""
+        for line in lines:
+            line = re.sub(r"\{(.*?)\}", lambda match: match[1].split("/")[i], line)
+            for part in [line] if line[0] in "!>" or "  " in line else re.split(r"(@\w+)(?:, )?", line):
+                if part in self.groups:
+                    yield from self.chosen(self.groups[part], i)
+                elif part:
+                    yield part.rstrip(", ")
+
+    def entry(self, place, head, *lines):
         match = re.fullmatch(r"riisf(_\w+)(, _64)?(?: = (riis_\w+(?:, riis_\w+)*))?", head)
         if not match:
             raise Problem(f"{place}: {head!r} is not understood; 'riisf_name, _64 = riis_name' is")
@@ -193,14 +202,12 @@ class Subroutines:
         return entry
 
     def arguments(self, place, line):
-        """Reads "name  text", or several names in a line; a group stands for its arguments."""
+        """Reads "name  text", or several names in a line."""
         names, _, text = line.partition("  ")
         found = []
         for name in re.findall(r"(?! )(?:[^,(\[]|\([^)]*\)|\[[^\]]*\])+", names):
             match = re.fullmatch(r"(\w+)(\([^)]*\))?(?: = ([^:]+?))?(?: : (.*))?", name)
-            if name in self.groups:
-                found += self.groups[name]
-            elif match:
+            if match:
                 found.append(Argument(match[1], match[2] or "", match[3] or "", match[4] or "", text.strip()))
             else:
                 raise Problem(f"{place}: the argument {name!r} is not understood")

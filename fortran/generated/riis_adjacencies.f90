@@ -61,8 +61,8 @@ contains
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number. Default 1.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(riis_mesh_cells) :: the_cells
     integer(riis_status) :: code
+    type(riis_mesh_cells) :: the_cells
     code = riis_mesh_cells_init(the_cells, c_sizeof(the_cells))
     the_cells%n_cells = size(cells, 2, int64)
     the_cells%nodes_per_cell = size(cells, 1)
@@ -80,8 +80,8 @@ contains
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number. Default 1.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(riis_mesh_cells) :: the_cells
     integer(riis_status) :: code
+    type(riis_mesh_cells) :: the_cells
     code = riis_mesh_cells_init(the_cells, c_sizeof(the_cells))
     the_cells%n_cells = size(cells, 2, int64)
     the_cells%nodes_per_cell = size(cells, 1)
@@ -99,8 +99,8 @@ contains
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number. Default 1.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(riis_mesh_cells) :: the_cells
     integer(riis_status) :: code
+    type(riis_mesh_cells) :: the_cells
     code = riis_mesh_cells_init(the_cells, c_sizeof(the_cells))
     the_cells%n_cells = size(cells, 2, int64)
     the_cells%nodes_per_cell = size(cells, 1)
@@ -118,8 +118,8 @@ contains
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number. Default 1.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(riis_mesh_cells) :: the_cells
     integer(riis_status) :: code
+    type(riis_mesh_cells) :: the_cells
     code = riis_mesh_cells_init(the_cells, c_sizeof(the_cells))
     the_cells%n_cells = size(cells, 2, int64)
     the_cells%nodes_per_cell = size(cells, 1)
@@ -140,8 +140,8 @@ contains
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number. Default 1.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(riis_mesh_cells) :: the_cells
     integer(riis_status) :: code
+    type(riis_mesh_cells) :: the_cells
     integer(int64) :: n
     code = riis_mesh_cells_init(the_cells, c_sizeof(the_cells))
     n = size(offsets, kind=int64)
@@ -168,8 +168,8 @@ contains
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number. Default 1.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(riis_mesh_cells) :: the_cells
     integer(riis_status) :: code
+    type(riis_mesh_cells) :: the_cells
     integer(int64) :: n
     code = riis_mesh_cells_init(the_cells, c_sizeof(the_cells))
     n = size(offsets, kind=int64)
@@ -196,8 +196,8 @@ contains
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number. Default 1.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(riis_mesh_cells) :: the_cells
     integer(riis_status) :: code
+    type(riis_mesh_cells) :: the_cells
     integer(int64) :: n
     code = riis_mesh_cells_init(the_cells, c_sizeof(the_cells))
     n = size(offsets, kind=int64)
@@ -224,8 +224,8 @@ contains
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number. Default 1.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(riis_mesh_cells) :: the_cells
     integer(riis_status) :: code
+    type(riis_mesh_cells) :: the_cells
     integer(int64) :: n
     code = riis_mesh_cells_init(the_cells, c_sizeof(the_cells))
     n = size(offsets, kind=int64)
@@ -277,8 +277,8 @@ contains
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first cell's number. Default 1.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(riis_mesh_faces) :: faces
     integer(riis_status) :: code
+    type(riis_mesh_faces) :: faces
     code = riis_mesh_faces_init(faces, c_sizeof(faces))
     if (code == RIIS_OK .and. size(face_cells, 1) /= 2) &
       code = refuse('the first extent of face_cells is ' // text_of(size(face_cells, 1)) // '; it must be 2')
@@ -302,8 +302,8 @@ contains
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first cell's number. Default 1.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(riis_mesh_faces) :: faces
     integer(riis_status) :: code
+    type(riis_mesh_faces) :: faces
     code = riis_mesh_faces_init(faces, c_sizeof(faces))
     if (code == RIIS_OK .and. size(face_cells, 1) /= 2) &
       code = refuse('the first extent of face_cells is ' // text_of(size(face_cells, 1)) // '; it must be 2')
@@ -327,8 +327,8 @@ contains
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first cell's number. Default 1.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(riis_mesh_faces) :: faces
     integer(riis_status) :: code
+    type(riis_mesh_faces) :: faces
     code = riis_mesh_faces_init(faces, c_sizeof(faces))
     if (code == RIIS_OK .and. size(face_cells, 1) /= 2) &
       code = refuse('the first extent of face_cells is ' // text_of(size(face_cells, 1)) // '; it must be 2')
@@ -352,8 +352,8 @@ contains
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first cell's number. Default 1.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(riis_mesh_faces) :: faces
     integer(riis_status) :: code
+    type(riis_mesh_faces) :: faces
     code = riis_mesh_faces_init(faces, c_sizeof(faces))
     if (code == RIIS_OK .and. size(face_cells, 1) /= 2) &
       code = refuse('the first extent of face_cells is ' // text_of(size(face_cells, 1)) // '; it must be 2')
@@ -377,8 +377,8 @@ contains
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first cell's number. Default 1.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(riis_mesh_faces) :: faces
     integer(riis_status) :: code
+    type(riis_mesh_faces) :: faces
     code = riis_mesh_faces_init(faces, c_sizeof(faces))
     if (code == RIIS_OK) code = check_size(size(neighbor, kind=int64), size(owner, kind=int64), 'neighbor', 'owners')
     faces%n_faces = size(owner, kind=int64)
@@ -400,8 +400,8 @@ contains
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first cell's number. Default 1.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(riis_mesh_faces) :: faces
     integer(riis_status) :: code
+    type(riis_mesh_faces) :: faces
     code = riis_mesh_faces_init(faces, c_sizeof(faces))
     if (code == RIIS_OK) code = check_size(size(neighbor, kind=int64), size(owner, kind=int64), 'neighbor', 'owners')
     faces%n_faces = size(owner, kind=int64)
@@ -423,8 +423,8 @@ contains
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first cell's number. Default 1.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(riis_mesh_faces) :: faces
     integer(riis_status) :: code
+    type(riis_mesh_faces) :: faces
     code = riis_mesh_faces_init(faces, c_sizeof(faces))
     if (code == RIIS_OK) code = check_size(size(neighbor, kind=int64), size(owner, kind=int64), 'neighbor', 'owners')
     faces%n_faces = size(owner, kind=int64)
@@ -446,8 +446,8 @@ contains
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first cell's number. Default 1.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(riis_mesh_faces) :: faces
     integer(riis_status) :: code
+    type(riis_mesh_faces) :: faces
     code = riis_mesh_faces_init(faces, c_sizeof(faces))
     if (code == RIIS_OK) code = check_size(size(neighbor, kind=int64), size(owner, kind=int64), 'neighbor', 'owners')
     faces%n_faces = size(owner, kind=int64)
@@ -495,8 +495,8 @@ contains
     integer(int64), intent(in) :: nk                        !< >= 1.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    integer(int32) :: n_threads_or_0
     integer(riis_status) :: code
+    integer(int32) :: n_threads_or_0
     n_threads_or_0 = 0
     code = check_not_created(this%handle, 'the adjacency')
     call get_integer(n_threads, 'n_threads', n_threads_or_0, code)

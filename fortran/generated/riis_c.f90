@@ -460,7 +460,7 @@ module riis_c
     integer(c_int64_t) :: struct_size
     integer(c_int64_t) :: n_nodes
     real(c_double) :: far_distance
-    type(c_ptr) :: mark        !< integer(c_int8_t), (n_nodes), integer(c_int8_t)
+    type(c_ptr) :: mark        !< integer(c_int8_t), (n_nodes)
     type(c_ptr) :: distance    !< real(c_double), (n_nodes)
     type(c_ptr) :: triangle_id !< integer(c_int64_t), (n_nodes)
     type(c_ptr) :: leaflet_id  !< integer(c_int32_t), (n_nodes)

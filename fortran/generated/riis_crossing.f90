@@ -11,20 +11,22 @@ module riis_crossing
   private
   public :: riis_crossings, riis_crossing_list, riis_find_crossings
 
-  !> Pairs of triangles that cross, from %get_list. The object of the crossings owns the arrays, which count from 1. Lengths are
-  !! in mesh units.
+  !> Pairs of triangles that cross, from %get_list. The object of the crossings owns the arrays, which count from 1. Ids count
+  !! from 0. Lengths are in mesh units.
   type :: riis_crossing_list
-    integer(int64) :: n_pairs = 0                           !< The number of pairs. Without pairs, ids are -1, and all other
-                                                            !! components except seconds are 0.
-    integer(int64), pointer :: triangle_id(:, :) => null()  !< (2, n_pairs), from 0, ascending.
-    real(c_double), pointer :: point(:, :) => null()        !< (3, n_pairs): the middle of the pair's intersection.
+    integer(int64) :: n_pairs = 0                           !< The number of pairs that cross. If this number is 0, ids are -1,
+                                                            !! and all other components except seconds are 0.
+    integer(int64), pointer :: triangle_id(:, :) => null()  !< (2, n_pairs): the two triangles, the lower id first.
+    real(c_double), pointer :: point(:, :) => null()        !< (3, n_pairs): the middle of the segment where the two triangles
+                                                            !! meet.
     real(c_double), pointer :: depth(:) => null()           !< (n_pairs): the penetration depth.
-    real(c_double), pointer :: length(:) => null()          !< (n_pairs): the length of the intersection.
+    real(c_double), pointer :: length(:) => null()          !< (n_pairs): the length of this segment.
     real(c_double) :: total_length = 0                      !< The sum of length.
-    real(c_double) :: deepest_depth = 0                     !< The depth of the deepest pair.
-    real(c_double) :: deepest_point(3) = 0                  !< The middle of the deepest pair's intersection.
-    integer(int64) :: deepest_triangle_id(2) = -1           !< The deepest pair's triangles, ascending, from 0.
-    integer(int32) :: deepest_leaflet_id(2) = -1            !< The leaflets of these triangles.
+    real(c_double) :: deepest_depth = 0                     !< The depth of the deepest pair. If several pairs are equally deep,
+                                                            !! the first pair counts.
+    real(c_double) :: deepest_point(3) = 0                  !< The point of the deepest pair.
+    integer(int64) :: deepest_triangle_id(2) = -1           !< The triangles of the deepest pair.
+    integer(int32) :: deepest_leaflet_id(2) = -1            !< The leaflets of the deepest pair's triangles.
     real(c_double) :: seconds = 0                           !< Wall time of riis_find_crossings.
   end type riis_crossing_list
 
@@ -65,9 +67,9 @@ contains
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: 1 per 4096 triangles, at most 1 per
                                                             !! processor.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    integer(riis_status) :: code
     type(riis_crossing_options) :: options
     logical :: was_empty
-    integer(riis_status) :: code
     code = check_created(surface%c_handle(), 'the surface')
     if (code == RIIS_OK) code = riis_crossing_options_init(options, c_sizeof(options))
     if (present(depth)) options%depth = depth
@@ -86,8 +88,8 @@ contains
     class(riis_crossings), intent(in) :: this               !< From riis_find_crossings.
     type(riis_crossing_list), intent(inout) :: list         !< Every component is set.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(c_crossing_list) :: made
     integer(riis_status) :: code
+    type(c_crossing_list) :: made
     list = riis_crossing_list(triangle_id=no_pairs, point=no_points, depth=no_reals, length=no_reals)
     code = check_created(this%handle, 'the object crossings')
     if (code == RIIS_OK) code = riis_crossings_get_list(this%handle, made, c_sizeof(made))

@@ -71,7 +71,7 @@ subroutine riisf_valve_copy(valve, copy, status)
   use riis_support, only: c_handle_of, handle_of
   use riis_c, only: RIIS_OK, riis_status, riis_valve_copy
   implicit none
-  integer(int64), intent(in) :: valve                     !< Must be created.
+  integer(int64), intent(in) :: valve                     !< From riisf_valve_create, for example.
   integer(int64), intent(inout) :: copy                   !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(c_ptr) :: c_handle
@@ -89,12 +89,14 @@ subroutine riisf_valve_set(valve, name, n_values, values, status)
   use riis_support, only: c_handle_of, end_for_c
   use riis_c, only: riis_status, riis_valve_set
   implicit none
-  integer(int64), intent(in) :: valve                     !< Must be created.
-  character(len=*), intent(in) :: name                    !< Such as 'leaflet_angle', 'right.rotation', and for each valve
-                                                          !! 'opening', from 0 to 1.
+  integer(int64), intent(in) :: valve                     !< From riisf_valve_create, for example.
+  character(len=*), intent(in) :: name                    !< Such as 'root_radius'. A name such as 'right.leaflet_angle',
+                                                          !! 'commissure_0.fusion' or 'bump_0.open' sets the parameter of one
+                                                          !! part. The name 'leaflet_angle' alone sets the parameter of all
+                                                          !! parts, or of the whole valve if it has such a parameter.
   integer(int32), intent(in) :: n_values                  !< 3 for rotation, translation (x, y, z), t0_* and t3_* (right, left,
                                                           !! non-coronary cusp); 1 for others.
-  real(c_double), intent(in) :: values(*)                 !< Lengths in the valve's unit, angles in degrees.
+  real(c_double), intent(in) :: values(*)                 !< (n_values), within the parameter's range.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   character(len=len_trim(name) + 1, kind=c_char) :: c_name
   call end_for_c(name, c_name)
@@ -109,10 +111,14 @@ subroutine riisf_valve_get(valve, name, n_values, values, status)
   use riis_support, only: c_handle_of, end_for_c
   use riis_c, only: riis_status, riis_valve_get
   implicit none
-  integer(int64), intent(in) :: valve                     !< Must be created.
-  character(len=*), intent(in) :: name                    !< The parameter, as in riisf_valve_set.
-  integer(int32), intent(in) :: n_values                  !< 1 or 3, as the parameter has.
-  real(c_double), intent(inout) :: values(*)              !< The parameter's values.
+  integer(int64), intent(in) :: valve                     !< From riisf_valve_create, for example.
+  character(len=*), intent(in) :: name                    !< Such as 'root_radius'. A name such as 'right.leaflet_angle',
+                                                          !! 'commissure_0.fusion' or 'bump_0.open' sets the parameter of one
+                                                          !! part. The name 'leaflet_angle' alone sets the parameter of all
+                                                          !! parts, or of the whole valve if it has such a parameter.
+  integer(int32), intent(in) :: n_values                  !< 3 for rotation, translation (x, y, z), t0_* and t3_* (right, left,
+                                                          !! non-coronary cusp); 1 for others.
+  real(c_double), intent(inout) :: values(*)              !< (n_values), within the parameter's range.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   character(len=len_trim(name) + 1, kind=c_char) :: c_name
   call end_for_c(name, c_name)
@@ -127,7 +133,7 @@ subroutine riisf_valve_unset(valve, name, status)
   use riis_support, only: c_handle_of, end_for_c
   use riis_c, only: riis_status, riis_valve_unset
   implicit none
-  integer(int64), intent(in) :: valve                     !< Must be created.
+  integer(int64), intent(in) :: valve                     !< From riisf_valve_create, for example.
   character(len=*), intent(in) :: name                    !< As in riisf_valve_set.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   character(len=len_trim(name) + 1, kind=c_char) :: c_name
@@ -142,7 +148,7 @@ subroutine riisf_valve_is_set(valve, name, is_set, status)
   use riis_support, only: c_handle_of, end_for_c
   use riis_c, only: riis_status, riis_valve_is_set
   implicit none
-  integer(int64), intent(in) :: valve                     !< Must be created.
+  integer(int64), intent(in) :: valve                     !< From riisf_valve_create, for example.
   character(len=*), intent(in) :: name                    !< As in riisf_valve_get.
   integer(int32), intent(inout) :: is_set                 !< 1, or 0 if the parameter has its default or follows its rule.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -158,7 +164,7 @@ subroutine riisf_valve_set_open_state(valve, open, status)
   use riis_support, only: c_handle_of
   use riis_c, only: riis_status, riis_valve_set_open_state
   implicit none
-  integer(int64), intent(in) :: valve                     !< Must be created.
+  integer(int64), intent(in) :: valve                     !< From riisf_valve_create, for example.
   integer(int64), intent(in) :: open                      !< A valve of the same kind, which is copied. The opening, leaflet
                                                           !! ids and open state of `open` are ignored. Two valves from patches
                                                           !! must have the same curves, sides and degrees (degree 1 may stand
@@ -231,8 +237,8 @@ subroutine riisf_surface_update(surface, valve, status)
   use riis_support, only: c_handle_of
   use riis_c, only: riis_status, riis_surface_update
   implicit none
-  integer(int64), intent(in) :: surface                   !< Must be created.
-  integer(int64), intent(in) :: valve                     !< Must be created.
+  integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
+  integer(int64), intent(in) :: valve                     !< From riisf_valve_create, for example.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   status = riis_surface_update(c_handle_of(surface), c_handle_of(valve))
 end subroutine riisf_surface_update
@@ -246,8 +252,8 @@ subroutine riisf_surface_place(surface, valve, half_thickness, tolerance, scale,
   use riis_support, only: c_handle_of
   use riis_c, only: RIIS_OK, riis_status, riis_surface_options, riis_surface_options_init, riis_surface_update
   implicit none
-  integer(int64), intent(in) :: surface                   !< Must be created.
-  integer(int64), intent(in) :: valve                     !< Must be created.
+  integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
+  integer(int64), intent(in) :: valve                     !< From riisf_valve_create, for example.
   real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
                                                           !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
   real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
@@ -282,8 +288,8 @@ subroutine riisf_surface_measure(surface, valve, half_thickness, tolerance, scal
   use riis_support, only: c_handle_of
   use riis_c, only: RIIS_OK, riis_status, riis_surface_options, riis_surface_options_init, riis_surface_update
   implicit none
-  integer(int64), intent(in) :: surface                   !< Must be created.
-  integer(int64), intent(in) :: valve                     !< Must be created.
+  integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
+  integer(int64), intent(in) :: valve                     !< From riisf_valve_create, for example.
   real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
                                                           !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
   real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
@@ -324,8 +330,8 @@ subroutine riisf_surface_triangulate(surface, valve, half_thickness, tolerance, 
   use riis_support, only: c_handle_of
   use riis_c, only: RIIS_OK, riis_status, riis_surface_options, riis_surface_options_init, riis_surface_update
   implicit none
-  integer(int64), intent(in) :: surface                   !< Must be created.
-  integer(int64), intent(in) :: valve                     !< Must be created.
+  integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
+  integer(int64), intent(in) :: valve                     !< From riisf_valve_create, for example.
   real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
                                                           !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
   real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
@@ -363,8 +369,8 @@ subroutine riisf_surface_offset(surface, valve, half_thickness, tolerance, scale
   use riis_support, only: c_handle_of
   use riis_c, only: RIIS_OK, riis_status, riis_surface_options, riis_surface_options_init, riis_surface_update
   implicit none
-  integer(int64), intent(in) :: surface                   !< Must be created.
-  integer(int64), intent(in) :: valve                     !< Must be created.
+  integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
+  integer(int64), intent(in) :: valve                     !< From riisf_valve_create, for example.
   real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
                                                           !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
   real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
@@ -404,8 +410,8 @@ subroutine riisf_surface_update_moving(surface, valve, valve_before, dt, status)
   use riis_support, only: c_handle_of
   use riis_c, only: riis_status, riis_surface_update_moving
   implicit none
-  integer(int64), intent(in) :: surface                   !< Must be created.
-  integer(int64), intent(in) :: valve                     !< Must be created.
+  integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
+  integer(int64), intent(in) :: valve                     !< From riisf_valve_create, for example.
   integer(int64), intent(in) :: valve_before              !< The earlier state, of the same kind. Valves from patches must have
                                                           !! the same curves and sides.
   real(c_double), intent(in) :: dt                        !< The time from valve_before to valve, 1e-30 to 1e30, or -1e30 to
@@ -425,8 +431,8 @@ subroutine riisf_surface_place_moving(surface, valve, valve_before, dt, half_thi
   use riis_support, only: c_handle_of
   use riis_c, only: RIIS_OK, riis_status, riis_surface_options, riis_surface_options_init, riis_surface_update_moving
   implicit none
-  integer(int64), intent(in) :: surface                   !< Must be created.
-  integer(int64), intent(in) :: valve                     !< Must be created.
+  integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
+  integer(int64), intent(in) :: valve                     !< From riisf_valve_create, for example.
   integer(int64), intent(in) :: valve_before              !< The earlier state, of the same kind. Valves from patches must have
                                                           !! the same curves and sides.
   real(c_double), intent(in) :: dt                        !< The time from valve_before to valve, 1e-30 to 1e30, or -1e30 to
@@ -478,9 +484,15 @@ subroutine riisf_surface_add_direction(surface, valve_after, valve_before, dp, s
   use riis_support, only: c_handle_of
   use riis_c, only: riis_status, riis_surface_add_direction
   implicit none
-  integer(int64), intent(in) :: surface                   !< Must be created.
-  integer(int64), intent(in) :: valve_after               !< The valve with the parameter a little larger than in the surface.
-  integer(int64), intent(in) :: valve_before              !< The valve with the parameter a little smaller.
+  integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
+  integer(int64), intent(in) :: valve_after               !< Two copies of the surface's valve. The parameter is a little
+                                                          !! larger in valve_after, and a little smaller in valve_before, than
+                                                          !! in the surface. If only the placement changes, pass the same valve
+                                                          !! twice.
+  integer(int64), intent(in) :: valve_before              !< Two copies of the surface's valve. The parameter is a little
+                                                          !! larger in valve_after, and a little smaller in valve_before, than
+                                                          !! in the surface. If only the placement changes, pass the same valve
+                                                          !! twice.
   real(c_double), intent(in) :: dp                        !< The parameter's difference from valve_before to valve_after, 1e-30
                                                           !! to 1e30 in magnitude.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -498,9 +510,15 @@ subroutine riisf_surface_add_placed(surface, valve_after, valve_before, dp, scal
   use riis_support, only: c_handle_of
   use riis_c, only: RIIS_OK, riis_status, riis_surface_add_direction, riis_surface_options, riis_surface_options_init
   implicit none
-  integer(int64), intent(in) :: surface                   !< Must be created.
-  integer(int64), intent(in) :: valve_after               !< The valve with the parameter a little larger than in the surface.
-  integer(int64), intent(in) :: valve_before              !< The valve with the parameter a little smaller, or the same valve.
+  integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
+  integer(int64), intent(in) :: valve_after               !< Two copies of the surface's valve. The parameter is a little
+                                                          !! larger in valve_after, and a little smaller in valve_before, than
+                                                          !! in the surface. If only the placement changes, pass the same valve
+                                                          !! twice.
+  integer(int64), intent(in) :: valve_before              !< Two copies of the surface's valve. The parameter is a little
+                                                          !! larger in valve_after, and a little smaller in valve_before, than
+                                                          !! in the surface. If only the placement changes, pass the same valve
+                                                          !! twice.
   real(c_double), intent(in) :: dp                        !< The parameter's difference from valve_before to valve_after, 1e-30
                                                           !! to 1e30 in magnitude.
   real(c_double), intent(in) :: scale_after               !< The placement of the later state.
@@ -601,7 +619,7 @@ subroutine riisf_mesh_update(mesh, n_nodes, x, y, z, stride, status)
   use riis_support, only: c_handle_of, location_of
   use riis_c, only: riis_mesh_update, riis_status
   implicit none
-  integer(int64), intent(in) :: mesh                      !< Must be created.
+  integer(int64), intent(in) :: mesh                      !< From riisf_mesh_create, for example.
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(in) :: x(*)                      !< Entry i is x(1 + (i - 1) * stride): X or XYZ(1,1).
   real(c_double), intent(in) :: y(*)                      !< Entry i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
@@ -619,7 +637,7 @@ subroutine riisf_mesh_update_64(mesh, n_nodes, x, y, z, stride, status)
   use riis_support, only: c_handle_of, location_of
   use riis_c, only: riis_mesh_update, riis_status
   implicit none
-  integer(int64), intent(in) :: mesh                      !< Must be created.
+  integer(int64), intent(in) :: mesh                      !< From riisf_mesh_create, for example.
   integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(in) :: x(*)                      !< Entry i is x(1 + (i - 1) * stride): X or XYZ(1,1).
   real(c_double), intent(in) :: y(*)                      !< Entry i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
@@ -699,7 +717,7 @@ subroutine riisf_mesh_update_copy(mesh, n_nodes, x, y, z, stride, real_bits, sta
   use riis_support, only: c_handle_of, location_of
   use riis_c, only: RIIS_OK, riis_mesh_update_copy, riis_points, riis_points_init, riis_status
   implicit none
-  integer(int64), intent(in) :: mesh                      !< Must be created.
+  integer(int64), intent(in) :: mesh                      !< From riisf_mesh_create, for example.
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   type(*), intent(in) :: x(*)                             !< Entry i is x(1 + (i - 1) * stride): X or XYZ(1,1).
   type(*), intent(in) :: y(*)                             !< Entry i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
@@ -726,7 +744,7 @@ subroutine riisf_mesh_update_copy_64(mesh, n_nodes, x, y, z, stride, real_bits, 
   use riis_support, only: c_handle_of, location_of
   use riis_c, only: RIIS_OK, riis_mesh_update_copy, riis_points, riis_points_init, riis_status
   implicit none
-  integer(int64), intent(in) :: mesh                      !< Must be created.
+  integer(int64), intent(in) :: mesh                      !< From riisf_mesh_create, for example.
   integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   type(*), intent(in) :: x(*)                             !< Entry i is x(1 + (i - 1) * stride): X or XYZ(1,1).
   type(*), intent(in) :: y(*)                             !< Entry i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
@@ -757,9 +775,9 @@ subroutine riisf_mesh_create_grid(ni, nj, nk, x, y, z, real_bits, first_num, str
   use riis_support, only: handle_of, location_of
   use riis_c, only: RIIS_OK, riis_grid, riis_grid_init, riis_mesh_create_grid, riis_status
   implicit none
-  integer(int32), intent(in) :: ni                        !< Nodes along each axis, each >= 1.
-  integer(int32), intent(in) :: nj                        !< Nodes along each axis, each >= 1.
-  integer(int32), intent(in) :: nk                        !< Nodes along each axis, each >= 1.
+  integer(int32), intent(in) :: ni                        !< ni, nj, nk: nodes along each axis, each >= 1.
+  integer(int32), intent(in) :: nj                        !< ni, nj, nk: nodes along each axis, each >= 1.
+  integer(int32), intent(in) :: nk                        !< ni, nj, nk: nodes along each axis, each >= 1.
   type(*), intent(in) :: x(*)                             !< (ni), strictly ascending; copied.
   type(*), intent(in) :: y(*)                             !< (nj).
   type(*), intent(in) :: z(*)                             !< (nk).
@@ -783,9 +801,11 @@ subroutine riisf_mesh_create_grid(ni, nj, nk, x, y, z, real_bits, first_num, str
   grid%y = location_of(y)
   grid%z = location_of(z)
   grid%real_bits = real_bits
-  grid%n_nodes = n_nodes
   grid%first = first_num - 1
-  grid%stride = [int(stride_i, int64), int(stride_j, int64), int(stride_k, int64)]
+  grid%stride(1) = stride_i
+  grid%stride(2) = stride_j
+  grid%stride(3) = stride_k
+  grid%n_nodes = n_nodes
   c_handle = c_null_ptr
   status = riis_mesh_create_grid(grid, c_handle)
   if (status /= RIIS_OK) return
@@ -800,9 +820,9 @@ subroutine riisf_mesh_create_grid_64(ni, nj, nk, x, y, z, real_bits, first_num, 
   use riis_support, only: handle_of, location_of
   use riis_c, only: RIIS_OK, riis_grid, riis_grid_init, riis_mesh_create_grid, riis_status
   implicit none
-  integer(int64), intent(in) :: ni                        !< Nodes along each axis, each >= 1.
-  integer(int64), intent(in) :: nj                        !< Nodes along each axis, each >= 1.
-  integer(int64), intent(in) :: nk                        !< Nodes along each axis, each >= 1.
+  integer(int64), intent(in) :: ni                        !< ni, nj, nk: nodes along each axis, each >= 1.
+  integer(int64), intent(in) :: nj                        !< ni, nj, nk: nodes along each axis, each >= 1.
+  integer(int64), intent(in) :: nk                        !< ni, nj, nk: nodes along each axis, each >= 1.
   type(*), intent(in) :: x(*)                             !< (ni), strictly ascending; copied.
   type(*), intent(in) :: y(*)                             !< (nj).
   type(*), intent(in) :: z(*)                             !< (nk).
@@ -826,9 +846,11 @@ subroutine riisf_mesh_create_grid_64(ni, nj, nk, x, y, z, real_bits, first_num, 
   grid%y = location_of(y)
   grid%z = location_of(z)
   grid%real_bits = real_bits
-  grid%n_nodes = n_nodes
   grid%first = first_num - 1
-  grid%stride = [int(stride_i, int64), int(stride_j, int64), int(stride_k, int64)]
+  grid%stride(1) = stride_i
+  grid%stride(2) = stride_j
+  grid%stride(3) = stride_k
+  grid%n_nodes = n_nodes
   c_handle = c_null_ptr
   status = riis_mesh_create_grid(grid, c_handle)
   if (status /= RIIS_OK) return
@@ -844,10 +866,10 @@ subroutine riisf_mesh_update_grid(mesh, ni, nj, nk, x, y, z, real_bits, first_nu
   use riis_support, only: c_handle_of, location_of
   use riis_c, only: RIIS_OK, riis_grid, riis_grid_init, riis_mesh_update_grid, riis_status
   implicit none
-  integer(int64), intent(in) :: mesh                      !< Must be created.
-  integer(int32), intent(in) :: ni                        !< Nodes along each axis, each >= 1.
-  integer(int32), intent(in) :: nj                        !< Nodes along each axis, each >= 1.
-  integer(int32), intent(in) :: nk                        !< Nodes along each axis, each >= 1.
+  integer(int64), intent(in) :: mesh                      !< From riisf_mesh_create, for example.
+  integer(int32), intent(in) :: ni                        !< ni, nj, nk: nodes along each axis, each >= 1.
+  integer(int32), intent(in) :: nj                        !< ni, nj, nk: nodes along each axis, each >= 1.
+  integer(int32), intent(in) :: nk                        !< ni, nj, nk: nodes along each axis, each >= 1.
   type(*), intent(in) :: x(*)                             !< (ni), strictly ascending; copied.
   type(*), intent(in) :: y(*)                             !< (nj).
   type(*), intent(in) :: z(*)                             !< (nk).
@@ -869,9 +891,11 @@ subroutine riisf_mesh_update_grid(mesh, ni, nj, nk, x, y, z, real_bits, first_nu
   grid%y = location_of(y)
   grid%z = location_of(z)
   grid%real_bits = real_bits
-  grid%n_nodes = n_nodes
   grid%first = first_num - 1
-  grid%stride = [int(stride_i, int64), int(stride_j, int64), int(stride_k, int64)]
+  grid%stride(1) = stride_i
+  grid%stride(2) = stride_j
+  grid%stride(3) = stride_k
+  grid%n_nodes = n_nodes
   status = riis_mesh_update_grid(c_handle_of(mesh), grid)
 end subroutine riisf_mesh_update_grid
 
@@ -883,10 +907,10 @@ subroutine riisf_mesh_update_grid_64(mesh, ni, nj, nk, x, y, z, real_bits, first
   use riis_support, only: c_handle_of, location_of
   use riis_c, only: RIIS_OK, riis_grid, riis_grid_init, riis_mesh_update_grid, riis_status
   implicit none
-  integer(int64), intent(in) :: mesh                      !< Must be created.
-  integer(int64), intent(in) :: ni                        !< Nodes along each axis, each >= 1.
-  integer(int64), intent(in) :: nj                        !< Nodes along each axis, each >= 1.
-  integer(int64), intent(in) :: nk                        !< Nodes along each axis, each >= 1.
+  integer(int64), intent(in) :: mesh                      !< From riisf_mesh_create, for example.
+  integer(int64), intent(in) :: ni                        !< ni, nj, nk: nodes along each axis, each >= 1.
+  integer(int64), intent(in) :: nj                        !< ni, nj, nk: nodes along each axis, each >= 1.
+  integer(int64), intent(in) :: nk                        !< ni, nj, nk: nodes along each axis, each >= 1.
   type(*), intent(in) :: x(*)                             !< (ni), strictly ascending; copied.
   type(*), intent(in) :: y(*)                             !< (nj).
   type(*), intent(in) :: z(*)                             !< (nk).
@@ -908,9 +932,11 @@ subroutine riisf_mesh_update_grid_64(mesh, ni, nj, nk, x, y, z, real_bits, first
   grid%y = location_of(y)
   grid%z = location_of(z)
   grid%real_bits = real_bits
-  grid%n_nodes = n_nodes
   grid%first = first_num - 1
-  grid%stride = [int(stride_i, int64), int(stride_j, int64), int(stride_k, int64)]
+  grid%stride(1) = stride_i
+  grid%stride(2) = stride_j
+  grid%stride(3) = stride_k
+  grid%n_nodes = n_nodes
   status = riis_mesh_update_grid(c_handle_of(mesh), grid)
 end subroutine riisf_mesh_update_grid_64
 
@@ -922,7 +948,7 @@ subroutine riisf_mesh_prepare(mesh, n_threads, status)
   use riis_support, only: c_handle_of
   use riis_c, only: riis_mesh_prepare, riis_status
   implicit none
-  integer(int64), intent(in) :: mesh                      !< Must be created.
+  integer(int64), intent(in) :: mesh                      !< From riisf_mesh_create, for example.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   status = riis_mesh_prepare(c_handle_of(mesh), n_threads)
@@ -983,7 +1009,7 @@ subroutine riisf_mesh_set_adjacency(mesh, n_rows, offsets, columns, index_base, 
   use riis_support, only: c_handle_of, location_of
   use riis_c, only: RIIS_OK, riis_csr, riis_csr_init, riis_mesh_set_adjacency, riis_status
   implicit none
-  integer(int64), intent(in) :: mesh                      !< Must be created.
+  integer(int64), intent(in) :: mesh                      !< From riisf_mesh_create, for example.
   integer(int32), intent(in) :: n_rows                    !< The mesh's n_nodes.
   integer(int32), intent(in) :: offsets(*)                !< (n_rows + 1), ascending from the base; a row may be empty.
   integer(int32), intent(in) :: columns(*)                !< (offsets(n_rows + 1) - index_base), borrowed like offsets. If
@@ -1014,7 +1040,7 @@ subroutine riisf_mesh_set_adjacency_64(mesh, n_rows, offsets, columns, index_bas
   use riis_support, only: c_handle_of, location_of
   use riis_c, only: RIIS_OK, riis_csr, riis_csr_init, riis_mesh_set_adjacency, riis_status
   implicit none
-  integer(int64), intent(in) :: mesh                      !< Must be created.
+  integer(int64), intent(in) :: mesh                      !< From riisf_mesh_create, for example.
   integer(int64), intent(in) :: n_rows                    !< The mesh's n_nodes.
   integer(int64), intent(in) :: offsets(*)                !< (n_rows + 1), ascending from the base; a row may be empty.
   integer(int64), intent(in) :: columns(*)                !< (offsets(n_rows + 1) - index_base), borrowed like offsets. If
@@ -1046,7 +1072,7 @@ subroutine riisf_mesh_use_adjacency(mesh, adjacency, status)
   use riis_support, only: c_handle_of
   use riis_c, only: RIIS_OK, riis_adjacency_get_csr, riis_csr, riis_mesh_set_adjacency, riis_status
   implicit none
-  integer(int64), intent(in) :: mesh                      !< Must be created.
+  integer(int64), intent(in) :: mesh                      !< From riisf_mesh_create, for example.
   integer(int64), intent(in) :: adjacency                 !< Must be created. Destroy it after the mesh.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_csr) :: csr
@@ -1060,7 +1086,7 @@ subroutine riisf_mesh_clear_adjacency(mesh, status)
   use riis_support, only: c_handle_of
   use riis_c, only: riis_mesh_set_adjacency, riis_status
   implicit none
-  integer(int64), intent(in) :: mesh                      !< Must be created.
+  integer(int64), intent(in) :: mesh                      !< From riisf_mesh_create, for example.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   status = riis_mesh_set_adjacency(c_handle_of(mesh))
 end subroutine riisf_mesh_clear_adjacency
@@ -1728,7 +1754,7 @@ subroutine riisf_surface_update_arrays(surface, n_vertices, x, y, z, stride, vx,
   use riis_support, only: c_handle_of, location_of
   use riis_c, only: RIIS_OK, riis_status, riis_surface_arrays, riis_surface_arrays_init, riis_surface_update_from_arrays
   implicit none
-  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
   integer(int32), intent(in) :: n_vertices                !< 1 to 2^31 - 1.
   real(c_double), intent(in) :: x(*)                      !< Entry i is x(1 + (i - 1) * stride): X or XYZ(1,1).
   real(c_double), intent(in) :: y(*)                      !< Entry i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
@@ -1743,7 +1769,7 @@ subroutine riisf_surface_update_arrays(surface, n_vertices, x, y, z, stride, vx,
   real(c_double), intent(in) :: vz(*)                     !< (n_vertices) by velocity_stride: velocities of the vertices, in
                                                           !! lengths per unit of time. The placement turns and scales the
                                                           !! velocities.
-  integer(int32), intent(in) :: velocity_stride           !< 1 for separate arrays, 3 for V(3,*), 0 for no velocities.
+  integer(int32), intent(in) :: velocity_stride           !< Of vx, vy and vz. Usually 1.
   integer(int32), intent(in) :: corners_per_face          !< 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3.
                                                           !! Usually 3.
   integer(int32), intent(in) :: n_faces                   !< 1 to 16,777,216 triangles, half as many quads.
@@ -1779,7 +1805,7 @@ subroutine riisf_surface_update_arrays_64(surface, n_vertices, x, y, z, stride, 
   use riis_support, only: c_handle_of, location_of
   use riis_c, only: RIIS_OK, riis_status, riis_surface_arrays, riis_surface_arrays_init, riis_surface_update_from_arrays
   implicit none
-  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
   integer(int64), intent(in) :: n_vertices                !< 1 to 2^31 - 1.
   real(c_double), intent(in) :: x(*)                      !< Entry i is x(1 + (i - 1) * stride): X or XYZ(1,1).
   real(c_double), intent(in) :: y(*)                      !< Entry i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
@@ -1794,7 +1820,7 @@ subroutine riisf_surface_update_arrays_64(surface, n_vertices, x, y, z, stride, 
   real(c_double), intent(in) :: vz(*)                     !< (n_vertices) by velocity_stride: velocities of the vertices, in
                                                           !! lengths per unit of time. The placement turns and scales the
                                                           !! velocities.
-  integer(int64), intent(in) :: velocity_stride           !< 1 for separate arrays, 3 for V(3,*), 0 for no velocities.
+  integer(int64), intent(in) :: velocity_stride           !< Of vx, vy and vz. Usually 1.
   integer(int32), intent(in) :: corners_per_face          !< 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3.
                                                           !! Usually 3.
   integer(int64), intent(in) :: n_faces                   !< 1 to 16,777,216 triangles, half as many quads.
@@ -1936,7 +1962,7 @@ subroutine riisf_surface_from_keyframes(keyframes, time, dt, half_thickness, tol
   use riis_c, only: RIIS_OK, riis_status, riis_surface_create_from_keyframes, riis_surface_options, &
       riis_surface_options_init
   implicit none
-  integer(int64), intent(in) :: keyframes                 !< Must be created.
+  integer(int64), intent(in) :: keyframes                 !< From riisf_keyframes_create, for example.
   real(c_double), intent(in) :: time                      !< Finite, magnitude at most 1e30.
   real(c_double), intent(in) :: dt                        !< The velocity is the mean from time - dt to time. With dt 0, the
                                                           !! velocity is the derivative of the interpolation at that time.
@@ -1980,7 +2006,7 @@ subroutine riisf_surface_offset_keyframes(keyframes, time, dt, half_thickness, t
   use riis_c, only: RIIS_OK, riis_status, riis_surface_create_from_keyframes, riis_surface_options, &
       riis_surface_options_init
   implicit none
-  integer(int64), intent(in) :: keyframes                 !< Must be created.
+  integer(int64), intent(in) :: keyframes                 !< From riisf_keyframes_create, for example.
   real(c_double), intent(in) :: time                      !< Finite, magnitude at most 1e30.
   real(c_double), intent(in) :: dt                        !< The velocity is the mean from time - dt to time. With dt 0, the
                                                           !! velocity is the derivative of the interpolation at that time.
@@ -2027,10 +2053,11 @@ subroutine riisf_surface_update_keyframes(surface, keyframes, time, dt, status)
   use riis_support, only: c_handle_of
   use riis_c, only: riis_status, riis_surface_update_from_keyframes
   implicit none
-  integer(int64), intent(in) :: surface                   !< Must be created.
-  integer(int64), intent(in) :: keyframes                 !< Must be created.
-  real(c_double), intent(in) :: time                      !< Magnitude at most 1e30.
-  real(c_double), intent(in) :: dt                        !< As in riisf_surface_from_keyframes.
+  integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
+  integer(int64), intent(in) :: keyframes                 !< From riisf_keyframes_create, for example.
+  real(c_double), intent(in) :: time                      !< Finite, magnitude at most 1e30.
+  real(c_double), intent(in) :: dt                        !< The velocity is the mean from time - dt to time. With dt 0, the
+                                                          !! velocity is the derivative of the interpolation at that time.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   status = riis_surface_update_from_keyframes(c_handle_of(surface), c_handle_of(keyframes), time, dt)
 end subroutine riisf_surface_update_keyframes
@@ -2060,7 +2087,7 @@ subroutine riisf_surface_vertices(surface, length, n, xyz, status)
   use riis_support, only: c_handle_of, fail, text_of
   use riis_c, only: RIIS_INVALID_ARGUMENT, RIIS_OK, riis_status, riis_surface_get_triangles, riis_triangles
   implicit none
-  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
   integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
                                                           !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
   integer(int32), intent(inout) :: n                      !< The number of vertices, even if an array is too short.
@@ -2088,7 +2115,7 @@ subroutine riisf_surface_vertices_64(surface, length, n, xyz, status)
   use riis_support, only: c_handle_of, fail, text_of
   use riis_c, only: RIIS_INVALID_ARGUMENT, RIIS_OK, riis_status, riis_surface_get_triangles, riis_triangles
   implicit none
-  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
   integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
                                                           !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
   integer(int64), intent(inout) :: n                      !< The number of vertices, even if an array is too short.
@@ -2117,7 +2144,7 @@ subroutine riisf_surface_triangles(surface, length, n, vertex_num, triangle_id, 
   use riis_c, only: RIIS_INVALID_ARGUMENT, RIIS_LIMIT_EXCEEDED, RIIS_OK, riis_status, riis_surface_get_triangles, &
       riis_triangles
   implicit none
-  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
   integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
                                                           !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
   integer(int32), intent(inout) :: n                      !< The number of triangles, even if an array is too short.
@@ -2164,7 +2191,7 @@ subroutine riisf_surface_triangles_64(surface, length, n, vertex_num, triangle_i
   use riis_support, only: c_handle_of, fail, text_of
   use riis_c, only: RIIS_INVALID_ARGUMENT, RIIS_OK, riis_status, riis_surface_get_triangles, riis_triangles
   implicit none
-  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
   integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
                                                           !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
   integer(int64), intent(inout) :: n                      !< The number of triangles, even if an array is too short.
@@ -2206,7 +2233,7 @@ subroutine riisf_surface_vertex_velocities(surface, length, n, velocity, status)
   use riis_support, only: c_handle_of, fail, text_of
   use riis_c, only: RIIS_INVALID_ARGUMENT, RIIS_OK, riis_status, riis_surface_get_triangles, riis_triangles
   implicit none
-  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
   integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
                                                           !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
   integer(int32), intent(inout) :: n                      !< The number of vertices, even if an array is too short.
@@ -2238,7 +2265,7 @@ subroutine riisf_surface_vertex_velocities_64(surface, length, n, velocity, stat
   use riis_support, only: c_handle_of, fail, text_of
   use riis_c, only: RIIS_INVALID_ARGUMENT, RIIS_OK, riis_status, riis_surface_get_triangles, riis_triangles
   implicit none
-  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
   integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
                                                           !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
   integer(int64), intent(inout) :: n                      !< The number of vertices, even if an array is too short.
@@ -2271,7 +2298,7 @@ subroutine riisf_surface_attachment(surface, length, n, edges, leaflet_id, statu
   use riis_support, only: c_handle_of, fail, text_of
   use riis_c, only: RIIS_INVALID_ARGUMENT, RIIS_OK, riis_attachment, riis_status, riis_surface_get_attachment
   implicit none
-  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
   integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
                                                           !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
   integer(int32), intent(inout) :: n                      !< The number of edges, even if an array is too short.
@@ -2303,7 +2330,7 @@ subroutine riisf_surface_attachment_64(surface, length, n, edges, leaflet_id, st
   use riis_support, only: c_handle_of, fail, text_of
   use riis_c, only: RIIS_INVALID_ARGUMENT, RIIS_OK, riis_attachment, riis_status, riis_surface_get_attachment
   implicit none
-  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
   integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
                                                           !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
   integer(int64), intent(inout) :: n                      !< The number of edges, even if an array is too short.
@@ -2336,7 +2363,7 @@ subroutine riisf_surface_direction(surface, direction_num, length, n, rate, area
   use riis_support, only: c_handle_of, fail, text_of
   use riis_c, only: RIIS_INVALID_ARGUMENT, RIIS_OK, riis_direction, riis_status, riis_surface_get_direction
   implicit none
-  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
   integer(int32), intent(in) :: direction_num             !< The direction, from 1. A message counts from 0.
   integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
                                                           !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
@@ -2369,7 +2396,7 @@ subroutine riisf_surface_direction_64(surface, direction_num, length, n, rate, a
   use riis_support, only: c_handle_of, fail, text_of
   use riis_c, only: RIIS_INVALID_ARGUMENT, RIIS_OK, riis_direction, riis_status, riis_surface_get_direction
   implicit none
-  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
   integer(int64), intent(in) :: direction_num             !< The direction, from 1. A message counts from 0.
   integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
                                                           !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
@@ -2405,7 +2432,7 @@ subroutine riisf_closest_points(surface, n_points, x, y, z, stride, distance_lim
   use riis_c, only: RIIS_OK, riis_closest_arrays, riis_closest_arrays_init, riis_closest_options, &
       riis_closest_options_init, riis_closest_points, riis_points, riis_points_init, riis_status
   implicit none
-  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
   integer(int32), intent(in) :: n_points                  !< 0 to 2^40.
   real(c_double), intent(in) :: x(*)                      !< Entry i is x(1 + (i - 1) * stride): X or XYZ(1,1).
   real(c_double), intent(in) :: y(*)                      !< Entry i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
@@ -2454,7 +2481,7 @@ subroutine riisf_closest_points_64(surface, n_points, x, y, z, stride, distance_
   use riis_c, only: RIIS_OK, riis_closest_arrays, riis_closest_arrays_init, riis_closest_options, &
       riis_closest_options_init, riis_closest_points, riis_points, riis_points_init, riis_status
   implicit none
-  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
   integer(int64), intent(in) :: n_points                  !< 0 to 2^40.
   real(c_double), intent(in) :: x(*)                      !< Entry i is x(1 + (i - 1) * stride): X or XYZ(1,1).
   real(c_double), intent(in) :: y(*)                      !< Entry i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
@@ -2504,7 +2531,7 @@ subroutine riisf_closest_points_listed(surface, n_points, x, y, z, stride, n_lis
   use riis_c, only: RIIS_OK, riis_closest_arrays, riis_closest_arrays_init, riis_closest_options, &
       riis_closest_options_init, riis_closest_points, riis_points, riis_points_init, riis_status
   implicit none
-  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
   integer(int32), intent(in) :: n_points                  !< 0 to 2^40.
   real(c_double), intent(in) :: x(*)                      !< Entry i is x(1 + (i - 1) * stride): X or XYZ(1,1).
   real(c_double), intent(in) :: y(*)                      !< Entry i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
@@ -2564,7 +2591,7 @@ subroutine riisf_closest_points_listed_64(surface, n_points, x, y, z, stride, n_
   use riis_c, only: RIIS_OK, riis_closest_arrays, riis_closest_arrays_init, riis_closest_options, &
       riis_closest_options_init, riis_closest_points, riis_points, riis_points_init, riis_status
   implicit none
-  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
   integer(int64), intent(in) :: n_points                  !< 0 to 2^40.
   real(c_double), intent(in) :: x(*)                      !< Entry i is x(1 + (i - 1) * stride): X or XYZ(1,1).
   real(c_double), intent(in) :: y(*)                      !< Entry i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
@@ -2630,8 +2657,8 @@ subroutine riisf_mark_nodes(surface, mesh, distance_limit, search, n_threads, ma
   use riis_c, only: RIIS_OK, riis_mark_nodes, riis_mark_options, riis_mark_options_init, riis_marks_create, &
       riis_marks_destroy, riis_status
   implicit none
-  integer(int64), intent(in) :: surface                   !< Must be created.
-  integer(int64), intent(in) :: mesh                      !< Must be created.
+  integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
+  integer(int64), intent(in) :: mesh                      !< From riisf_mesh_create, for example.
   real(c_double), intent(in) :: distance_limit            !< Nodes get their distance up to this limit; RIIS_AUTO: the half
                                                           !! thickness.
   integer(int32), intent(in) :: search                    !< RIIS_SEARCH_*, usually RIIS_SEARCH_AUTO.
@@ -2661,7 +2688,7 @@ subroutine riisf_marked(marks, length, n, node_num, distance, status)
   use riis_c, only: RIIS_INVALID_ARGUMENT, RIIS_LIMIT_EXCEEDED, RIIS_LIST_MARKED, RIIS_OK, riis_mark_list, &
       riis_marks_get_list, riis_status
   implicit none
-  integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes, for example.
   integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
                                                           !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
   integer(int32), intent(inout) :: n                      !< The number of nodes that are marked, even if an array is too
@@ -2699,7 +2726,7 @@ subroutine riisf_marked_64(marks, length, n, node_num, distance, status)
   use riis_support, only: c_handle_of, fail, text_of
   use riis_c, only: RIIS_INVALID_ARGUMENT, RIIS_LIST_MARKED, RIIS_OK, riis_mark_list, riis_marks_get_list, riis_status
   implicit none
-  integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes, for example.
   integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
                                                           !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
   integer(int64), intent(inout) :: n                      !< The number of nodes that are marked, even if an array is too
@@ -2733,7 +2760,7 @@ subroutine riisf_within_limit(marks, length, n, node_num, distance, status)
   use riis_c, only: RIIS_INVALID_ARGUMENT, RIIS_LIMIT_EXCEEDED, RIIS_LIST_WITHIN_LIMIT, RIIS_OK, riis_mark_list, &
       riis_marks_get_list, riis_status
   implicit none
-  integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes, for example.
   integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
                                                           !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
   integer(int32), intent(inout) :: n                      !< The number of nodes within the distance limit, even if an array is
@@ -2772,7 +2799,7 @@ subroutine riisf_within_limit_64(marks, length, n, node_num, distance, status)
   use riis_c, only: RIIS_INVALID_ARGUMENT, RIIS_LIST_WITHIN_LIMIT, RIIS_OK, riis_mark_list, riis_marks_get_list, &
       riis_status
   implicit none
-  integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes, for example.
   integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
                                                           !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
   integer(int64), intent(inout) :: n                      !< The number of nodes within the distance limit, even if an array is
@@ -2805,7 +2832,7 @@ subroutine riisf_dense_distance(marks, n_nodes, far_distance, distance, status)
   use riis_support, only: c_handle_of, location_of
   use riis_c, only: RIIS_OK, riis_dense_arrays, riis_dense_arrays_init, riis_marks_get_dense, riis_status
   implicit none
-  integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes, for example.
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(in) :: far_distance              !< The number that the array `distance` gets for nodes that are
                                                           !! masked out or beyond the limit: NaN, or any value outside [0,
@@ -2829,7 +2856,7 @@ subroutine riisf_dense_triangle(marks, n_nodes, triangle_id, status)
   use riis_support, only: c_handle_of, location_of
   use riis_c, only: RIIS_OK, riis_dense_arrays, riis_dense_arrays_init, riis_marks_get_dense, riis_status
   implicit none
-  integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes, for example.
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   integer(int64), intent(inout) :: triangle_id(*)         !< (n_nodes): the closest triangle of nodes within the distance
                                                           !! limit, -1 for others.
@@ -2849,7 +2876,7 @@ subroutine riisf_dense_leaflet(marks, n_nodes, leaflet_id, status)
   use riis_support, only: c_handle_of, location_of
   use riis_c, only: RIIS_OK, riis_dense_arrays, riis_dense_arrays_init, riis_marks_get_dense, riis_status
   implicit none
-  integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes, for example.
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   integer(int32), intent(inout) :: leaflet_id(*)          !< (n_nodes): the leaflet of this triangle, -1 for others.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -2868,7 +2895,7 @@ subroutine riisf_dense_mark(marks, n_nodes, mark, status)
   use riis_support, only: c_handle_of, out_of_memory
   use riis_c, only: RIIS_OK, riis_dense_arrays, riis_dense_arrays_init, riis_marks_get_dense, riis_status
   implicit none
-  integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes, for example.
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   integer(int32), intent(inout) :: mark(*)                !< (n_nodes): 1 for marked nodes, 0 for others.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -2914,8 +2941,8 @@ subroutine riisf_mark_with_fields(surface, mesh, distance_limit, search, n_threa
   use riis_c, only: RIIS_OK, riis_mark_nodes, riis_mark_options, riis_mark_options_init, riis_marks_create, &
       riis_marks_destroy, riis_status
   implicit none
-  integer(int64), intent(in) :: surface                   !< Must be created.
-  integer(int64), intent(in) :: mesh                      !< Must be created.
+  integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
+  integer(int64), intent(in) :: mesh                      !< From riisf_mesh_create, for example.
   real(c_double), intent(in) :: distance_limit            !< Nodes get their distance up to this limit; RIIS_AUTO: the half
                                                           !! thickness.
   integer(int32), intent(in) :: search                    !< RIIS_SEARCH_*, usually RIIS_SEARCH_AUTO.
@@ -3417,8 +3444,8 @@ subroutine riisf_mark_with_resistance(surface, mesh, distance_limit, search, n_t
   use riis_c, only: RIIS_OK, riis_mark_nodes, riis_mark_options, riis_mark_options_init, riis_marks_create, &
       riis_marks_destroy, riis_resistance, riis_resistance_init, riis_status
   implicit none
-  integer(int64), intent(in) :: surface                   !< Must be created.
-  integer(int64), intent(in) :: mesh                      !< Must be created.
+  integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
+  integer(int64), intent(in) :: mesh                      !< From riisf_mesh_create, for example.
   real(c_double), intent(in) :: distance_limit            !< Nodes get their distance up to this limit; RIIS_AUTO: the half
                                                           !! thickness.
   integer(int32), intent(in) :: search                    !< RIIS_SEARCH_*, usually RIIS_SEARCH_AUTO.
@@ -3630,7 +3657,7 @@ subroutine riisf_add_resistance(marks, R, half_thickness, rim, n_nodes, K, statu
   use riis_c, only: RIIS_OK, riis_marks_add_resistance, riis_resistance, riis_resistance_arrays, &
       riis_resistance_arrays_init, riis_resistance_init, riis_status
   implicit none
-  integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes, for example.
   real(c_double), intent(in) :: R                         !< The resistance, 0 or 1e-300 to 1e60, in mass / (length time), such
                                                           !! as kg/(m s). A flat closed valve in a flow of velocity u has a
                                                           !! pressure drop of (R / eps) u.
@@ -3661,7 +3688,7 @@ subroutine riisf_add_resistance_64(marks, R, half_thickness, rim, n_nodes, K, st
   use riis_c, only: RIIS_OK, riis_marks_add_resistance, riis_resistance, riis_resistance_arrays, &
       riis_resistance_arrays_init, riis_resistance_init, riis_status
   implicit none
-  integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes, for example.
   real(c_double), intent(in) :: R                         !< The resistance, 0 or 1e-300 to 1e60, in mass / (length time), such
                                                           !! as kg/(m s). A flat closed valve in a flow of velocity u has a
                                                           !! pressure drop of (R / eps) u.
@@ -4674,9 +4701,12 @@ subroutine riisf_band_sums(marks, inner, outer, n_nodes, value, weight, sum_of_v
   use riis_c, only: RIIS_OK, riis_band, riis_band_init, riis_band_sums, riis_marks_get_band_sums, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_SIDE and _RIM.
-  real(c_double), intent(in) :: inner                     !< Mesh units, from 0 to outer.
-  real(c_double), intent(in) :: outer                     !< Mesh units. With the offset o, outer + |o| eps is at most the
-                                                          !! distance limit of the marking.
+  real(c_double), intent(in) :: inner                     !< inner, outer: the band holds the distances d with 0 <= inner <= d
+                                                          !! <= outer. With an offset o and the half thickness eps, outer + |o|
+                                                          !! eps must be at most the marking's distance limit. Usually 0.
+  real(c_double), intent(in) :: outer                     !< inner, outer: the band holds the distances d with 0 <= inner <= d
+                                                          !! <= outer. With an offset o and the half thickness eps, outer + |o|
+                                                          !! eps must be at most the marking's distance limit. Usually 0.
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(in) :: value(*)                  !< (n_nodes), such as the pressure.
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
@@ -4709,9 +4739,12 @@ subroutine riisf_band_sums_64(marks, inner, outer, n_nodes, value, weight, sum_o
   use riis_c, only: RIIS_OK, riis_band, riis_band_init, riis_band_sums, riis_marks_get_band_sums, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_SIDE and _RIM.
-  real(c_double), intent(in) :: inner                     !< Mesh units, from 0 to outer.
-  real(c_double), intent(in) :: outer                     !< Mesh units. With the offset o, outer + |o| eps is at most the
-                                                          !! distance limit of the marking.
+  real(c_double), intent(in) :: inner                     !< inner, outer: the band holds the distances d with 0 <= inner <= d
+                                                          !! <= outer. With an offset o and the half thickness eps, outer + |o|
+                                                          !! eps must be at most the marking's distance limit. Usually 0.
+  real(c_double), intent(in) :: outer                     !< inner, outer: the band holds the distances d with 0 <= inner <= d
+                                                          !! <= outer. With an offset o and the half thickness eps, outer + |o|
+                                                          !! eps must be at most the marking's distance limit. Usually 0.
   integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(in) :: value(*)                  !< (n_nodes), such as the pressure.
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
@@ -4758,9 +4791,9 @@ subroutine riisf_loads_sums(radius, n_edges, edges, edge_leaflet_id, n_nodes, xy
                                                           !! -1, the other entries are not read, and each edge holds all
                                                           !! leaflets.
   integer(int32), intent(in) :: n_nodes                   !< 0 to 2^40.
-  real(c_double), intent(in) :: xyz(3, *)                 !< (3, n_nodes): the nodes of tissue.
-  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), the area or volume around a node, 0 for nodes of other
-                                                          !! ranks.
+  real(c_double), intent(in) :: xyz(3, *)                 !< (3, n_nodes): the points, in mesh units.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), 0 to 1e60: the area or volume around a node, 0 for
+                                                          !! nodes of other ranks.
   integer(int32), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
   real(c_double), intent(inout) :: sums(11, *)            !< (11, n_leaflets): the array to which the sums are added.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -4800,9 +4833,9 @@ subroutine riisf_loads_sums_64(radius, n_edges, edges, edge_leaflet_id, n_nodes,
                                                           !! -1, the other entries are not read, and each edge holds all
                                                           !! leaflets.
   integer(int64), intent(in) :: n_nodes                   !< 0 to 2^40.
-  real(c_double), intent(in) :: xyz(3, *)                 !< (3, n_nodes): the nodes of tissue.
-  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), the area or volume around a node, 0 for nodes of other
-                                                          !! ranks.
+  real(c_double), intent(in) :: xyz(3, *)                 !< (3, n_nodes): the points, in mesh units.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), 0 to 1e60: the area or volume around a node, 0 for
+                                                          !! nodes of other ranks.
   integer(int64), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
   real(c_double), intent(inout) :: sums(11, *)            !< (11, n_leaflets): the array to which the sums are added.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -4847,18 +4880,18 @@ subroutine riisf_loads_forces(radius, n_edges, edges, edge_leaflet_id, n_nodes, 
                                                           !! -1, the other entries are not read, and each edge holds all
                                                           !! leaflets.
   integer(int32), intent(in) :: n_nodes                   !< 0 to 2^40.
-  real(c_double), intent(in) :: xyz(3, *)                 !< (3, n_nodes): the nodes of tissue.
-  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), the area or volume around a node, 0 for nodes of other
-                                                          !! ranks.
+  real(c_double), intent(in) :: xyz(3, *)                 !< (3, n_nodes): the points, in mesh units.
+  real(c_double), intent(in) :: weight(*)                 !< As in riisf_loads_sums.
   integer(int32), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
-  real(c_double), intent(in) :: about(3)                  !< The point of leaflet_moment.
+  real(c_double), intent(in) :: about(3)                  !< The reference point of leaflet_moment; magnitude at most 1e60.
+                                                          !! Usually 0.
   real(c_double), intent(in) :: leaflet_force(3, *)       !< (3, n_leaflets): from riisf_add_leaflet_reaction, the sum over all
                                                           !! ranks.
   real(c_double), intent(in) :: leaflet_moment(3, *)      !< (3, n_leaflets): from riisf_add_leaflet_reaction, the sum over all
                                                           !! ranks.
   real(c_double), intent(in) :: sums(11, *)               !< (11, n_leaflets): the sums of riisf_loads_sums, added up over all
                                                           !! ranks.
-  real(c_double), intent(inout) :: node_force(3, *)       !< (3, n_nodes): forces are added.
+  real(c_double), intent(inout) :: node_force(3, *)       !< (3, n_nodes): the array to which the forces are added.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_loads) :: loads
   type(riis_points) :: nodes
@@ -4900,18 +4933,18 @@ subroutine riisf_loads_forces_64(radius, n_edges, edges, edge_leaflet_id, n_node
                                                           !! -1, the other entries are not read, and each edge holds all
                                                           !! leaflets.
   integer(int64), intent(in) :: n_nodes                   !< 0 to 2^40.
-  real(c_double), intent(in) :: xyz(3, *)                 !< (3, n_nodes): the nodes of tissue.
-  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), the area or volume around a node, 0 for nodes of other
-                                                          !! ranks.
+  real(c_double), intent(in) :: xyz(3, *)                 !< (3, n_nodes): the points, in mesh units.
+  real(c_double), intent(in) :: weight(*)                 !< As in riisf_loads_sums.
   integer(int64), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
-  real(c_double), intent(in) :: about(3)                  !< The point of leaflet_moment.
+  real(c_double), intent(in) :: about(3)                  !< The reference point of leaflet_moment; magnitude at most 1e60.
+                                                          !! Usually 0.
   real(c_double), intent(in) :: leaflet_force(3, *)       !< (3, n_leaflets): from riisf_add_leaflet_reaction, the sum over all
                                                           !! ranks.
   real(c_double), intent(in) :: leaflet_moment(3, *)      !< (3, n_leaflets): from riisf_add_leaflet_reaction, the sum over all
                                                           !! ranks.
   real(c_double), intent(in) :: sums(11, *)               !< (11, n_leaflets): the sums of riisf_loads_sums, added up over all
                                                           !! ranks.
-  real(c_double), intent(inout) :: node_force(3, *)       !< (3, n_nodes): forces are added.
+  real(c_double), intent(inout) :: node_force(3, *)       !< (3, n_nodes): the array to which the forces are added.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_loads) :: loads
   type(riis_points) :: nodes
@@ -4991,7 +5024,7 @@ subroutine riisf_leaking_edges(leaks, length, n, node_num, status)
   use riis_c, only: RIIS_INVALID_ARGUMENT, RIIS_LIMIT_EXCEEDED, RIIS_OK, riis_leak_list, riis_leaks_get_list, &
       riis_status
   implicit none
-  integer(int64), intent(in) :: leaks                     !< From riisf_find_leaks.
+  integer(int64), intent(in) :: leaks                     !< From riisf_find_leaks, for example.
   integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
                                                           !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
   integer(int32), intent(inout) :: n                      !< The number of edges that leak, even if an array is too short.
@@ -5025,7 +5058,7 @@ subroutine riisf_leaking_edges_64(leaks, length, n, node_num, status)
   use riis_support, only: c_handle_of, fail, text_of
   use riis_c, only: RIIS_INVALID_ARGUMENT, RIIS_OK, riis_leak_list, riis_leaks_get_list, riis_status
   implicit none
-  integer(int64), intent(in) :: leaks                     !< From riisf_find_leaks.
+  integer(int64), intent(in) :: leaks                     !< From riisf_find_leaks, for example.
   integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
                                                           !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
   integer(int64), intent(inout) :: n                      !< The number of edges that leak, even if an array is too short.
@@ -5129,7 +5162,7 @@ subroutine riisf_find_passage(surface, mesh, n_from, from_num, n_to, to_num, n_t
   use riis_c, only: RIIS_OK, riis_find_passage, riis_mark_options, riis_mark_options_init, riis_passage, &
       riis_passage_ends, riis_passage_ends_init, riis_status
   implicit none
-  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
   integer(int64), intent(in) :: mesh                      !< Must have an adjacency, and need not have been marked.
   integer(int32), intent(in) :: n_from                    !< At least 1.
   integer(int32), intent(in) :: from_num(n_from)          !< (n_from): the ids of the nodes at which paths begin, in any order.
@@ -5180,7 +5213,7 @@ subroutine riisf_find_passage_64(surface, mesh, n_from, from_num, n_to, to_num, 
   use riis_c, only: RIIS_OK, riis_find_passage, riis_mark_options, riis_mark_options_init, riis_passage, &
       riis_passage_ends, riis_passage_ends_init, riis_status
   implicit none
-  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
   integer(int64), intent(in) :: mesh                      !< Must have an adjacency, and need not have been marked.
   integer(int64), intent(in) :: n_from                    !< At least 1.
   integer(int64), intent(in) :: from_num(n_from)          !< (n_from): the ids of the nodes at which paths begin, in any order.
@@ -5234,7 +5267,7 @@ subroutine riisf_find_crossings(surface, depth, n_threads, crossings, n_pairs, l
   use riis_c, only: RIIS_OK, riis_crossing_list, riis_crossing_options, riis_crossing_options_init, &
       riis_crossings_create, riis_crossings_destroy, riis_crossings_get_list, riis_find_crossings, riis_status
   implicit none
-  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
   real(c_double), intent(in) :: depth                     !< Half thicknesses, 0 to 1, usually 1e-6: pairs up to this depth
                                                           !! count as touching.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
@@ -5289,7 +5322,7 @@ subroutine riisf_crossing_pairs(crossings, length, n, triangle_num, point, depth
   use riis_c, only: RIIS_INVALID_ARGUMENT, RIIS_LIMIT_EXCEEDED, RIIS_OK, riis_crossing_list, riis_crossings_get_list, &
       riis_status
   implicit none
-  integer(int64), intent(in) :: crossings                 !< From riisf_find_crossings.
+  integer(int64), intent(in) :: crossings                 !< From riisf_find_crossings, for example.
   integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
                                                           !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
   integer(int32), intent(inout) :: n                      !< The number of pairs that cross, even if an array is too short.
@@ -5332,7 +5365,7 @@ subroutine riisf_crossing_pairs_64(crossings, length, n, triangle_num, point, de
   use riis_support, only: c_handle_of, fail, text_of
   use riis_c, only: RIIS_INVALID_ARGUMENT, RIIS_OK, riis_crossing_list, riis_crossings_get_list, riis_status
   implicit none
-  integer(int64), intent(in) :: crossings                 !< From riisf_find_crossings.
+  integer(int64), intent(in) :: crossings                 !< From riisf_find_crossings, for example.
   integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
                                                           !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
   integer(int64), intent(inout) :: n                      !< The number of pairs that cross, even if an array is too short.
@@ -5373,7 +5406,7 @@ subroutine riisf_surface_n_leaflets(surface, n_leaflets, status)
   use riis_support, only: c_handle_of
   use riis_c, only: RIIS_OK, riis_status, riis_surface_get_n_leaflets
   implicit none
-  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
   integer(int32), intent(inout) :: n_leaflets             !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   integer(int64) :: c_n_leaflets
@@ -5389,7 +5422,7 @@ subroutine riisf_surface_leaflet(surface, leaflet_num, leaflet_id, area, free_ed
   use riis_support, only: c_handle_of
   use riis_c, only: RIIS_OK, riis_leaflet, riis_status, riis_surface_get_leaflet
   implicit none
-  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
   integer(int32), intent(in) :: leaflet_num               !< 1 to n_leaflets, ascending by leaflet_id.
   integer(int32), intent(inout) :: leaflet_id             !< As in riis_triangles.
   real(c_double), intent(inout) :: area                   !< The area of its triangles.
@@ -5415,7 +5448,7 @@ subroutine riisf_surface_orifice(surface, half_thickness, rim, area, outline_are
   use riis_support, only: c_handle_of
   use riis_c, only: RIIS_OK, riis_orifice, riis_resistance, riis_resistance_init, riis_status, riis_surface_get_orifice
   implicit none
-  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
   real(c_double), intent(in) :: half_thickness            !< eps of the resistance; RIIS_AUTO: the surface's.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_*, usually RIIS_RIM_ROUND.
   real(c_double), intent(inout) :: area                   !< The area of the orifice. Without an outline, all fields but axis
@@ -5458,7 +5491,7 @@ subroutine riisf_surface_orifice_in_wall(surface, wall, half_thickness, rim, are
   use riis_c, only: RIIS_OK, riis_orifice, riis_resistance, riis_resistance_init, riis_status, &
       riis_surface_get_orifice_in_wall
   implicit none
-  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
   integer(int64), intent(in) :: wall                      !< In the frame of the surface. RIIS_INVALID_ARGUMENT if the line
                                                           !! that gives the outline does not surround a centre.
   real(c_double), intent(in) :: half_thickness            !< eps of the resistance; RIIS_AUTO: the surface's.
@@ -5501,7 +5534,7 @@ subroutine riisf_surface_coaptation(surface, reach, leaflet_id, area, edge, stat
   use riis_support, only: c_handle_of
   use riis_c, only: RIIS_OK, riis_coaptation, riis_status, riis_surface_get_coaptation
   implicit none
-  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
   real(c_double), intent(in) :: reach                     !< 1e-50 to 1e50. RIIS_AUTO stands for the surface's half thickness.
   integer(int32), intent(in) :: leaflet_id                !< As in riis_triangles, or RIIS_ALL_LEAFLETS for the sum over all
                                                           !! leaflets. This sum counts each contact twice, once for each
@@ -5526,12 +5559,15 @@ subroutine riisf_surface_gap(surface, wall, least, mean, most, missed, status)
   use riis_support, only: c_handle_of
   use riis_c, only: RIIS_OK, riis_gap, riis_status, riis_surface_get_gap
   implicit none
-  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
   integer(int64), intent(in) :: wall                      !< A surface in the valve's frame, usually by
                                                           !! riisf_surface_from_arrays.
-  real(c_double), intent(inout) :: least                  !< The least gap; negative where the wall is inside.
-  real(c_double), intent(inout) :: mean                   !< The mean along the attachment.
-  real(c_double), intent(inout) :: most                   !< The widest gap.
+  real(c_double), intent(inout) :: least                  !< least, mean, most: the gap at the ends of the edges; the mean is
+                                                          !! weighted by the edges' lengths. 0 if no end has a wall.
+  real(c_double), intent(inout) :: mean                   !< least, mean, most: the gap at the ends of the edges; the mean is
+                                                          !! weighted by the edges' lengths. 0 if no end has a wall.
+  real(c_double), intent(inout) :: most                   !< least, mean, most: the gap at the ends of the edges; the mean is
+                                                          !! weighted by the edges' lengths. 0 if no end has a wall.
   integer(int32), intent(inout) :: missed                 !< The number of ends without a wall in the skirt's direction. Such
                                                           !! an end has no gap, and counts only here and in n_ends.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -5554,7 +5590,7 @@ subroutine riisf_valve_skirt_to_wall(valve, wall, longest, half_thickness, toler
   use riis_support, only: c_handle_of
   use riis_c, only: RIIS_OK, riis_status, riis_surface_options, riis_surface_options_init, riis_valve_set_skirt_to_wall
   implicit none
-  integer(int64), intent(in) :: valve                     !< Must be created.
+  integer(int64), intent(in) :: valve                     !< From riisf_valve_create, for example.
   integer(int64), intent(in) :: wall                      !< As in riisf_surface_gap.
   real(c_double), intent(in) :: longest                   !< The longest acceptable length, mesh units, 1e-50 to 1e50.
   real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
@@ -5592,7 +5628,7 @@ subroutine riisf_surface_leak(surface, R, half_thickness, drop, flow, status)
   use riis_support, only: c_handle_of
   use riis_c, only: RIIS_OK, riis_resistance, riis_resistance_init, riis_status, riis_surface_get_leak
   implicit none
-  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
   real(c_double), intent(in) :: R                         !< 1e-60 to 1e60, mass / (length time): kg/(m s).
   real(c_double), intent(in) :: half_thickness            !< eps of the resistance; RIIS_AUTO: the surface's.
   real(c_double), intent(in) :: drop                      !< Upstream pressure minus downstream pressure, magnitude at most
@@ -5618,9 +5654,12 @@ subroutine riisf_cells_across(marks, mesh, least, mean, most, mean_edge, status)
   implicit none
   integer(int64), intent(in) :: marks                     !< Marks from riisf_mark_nodes.
   integer(int64), intent(in) :: mesh                      !< The mesh of the marking, with an adjacency.
-  real(c_double), intent(inout) :: least                  !< 2 half thicknesses / longest edge; 0 without an edge.
-  real(c_double), intent(inout) :: mean                   !< 2 half thicknesses / mean edge.
-  real(c_double), intent(inout) :: most                   !< 2 half thicknesses / shortest edge.
+  real(c_double), intent(inout) :: least                  !< least, mean, most: 2 * half_thickness over the longest, the mean
+                                                          !! and the shortest length.
+  real(c_double), intent(inout) :: mean                   !< least, mean, most: 2 * half_thickness over the longest, the mean
+                                                          !! and the shortest length.
+  real(c_double), intent(inout) :: most                   !< least, mean, most: 2 * half_thickness over the longest, the mean
+                                                          !! and the shortest length.
   real(c_double), intent(inout) :: mean_edge              !< The mean length of the edges.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_cells_across) :: cells
@@ -5642,7 +5681,7 @@ subroutine riisf_valve_swept_volume(valve, opening_from, opening_to, scale, leaf
   use riis_support, only: c_handle_of
   use riis_c, only: RIIS_OK, riis_status, riis_surface_options, riis_surface_options_init, riis_valve_get_swept_volume
   implicit none
-  integer(int64), intent(in) :: valve                     !< Must be created.
+  integer(int64), intent(in) :: valve                     !< From riisf_valve_create, for example.
   real(c_double), intent(in) :: opening_from              !< 0 to 1. The valve's own opening is ignored.
   real(c_double), intent(in) :: opening_to                !< 0 to 1. The valve's own opening is ignored.
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
@@ -5691,8 +5730,8 @@ subroutine riisf_find_by_area(valve, name, n_areas, areas, half_thickness, toler
   integer(int32), intent(in) :: area_kind                 !< RIIS_AREA_*, usually RIIS_AREA_GEOMETRIC.
   real(c_double), intent(inout) :: values(*)              !< (n_areas): the openings or sizes.
   real(c_double), intent(inout) :: reached(*)             !< (n_areas): the areas at these values.
-  real(c_double), intent(inout) :: least                  !< The least area that can be reached.
-  real(c_double), intent(inout) :: most                   !< The largest area that can be reached.
+  real(c_double), intent(inout) :: least                  !< least, most: the least and the largest area.
+  real(c_double), intent(inout) :: most                   !< least, most: the least and the largest area.
   integer(int32), intent(inout) :: n_turns                !< The number of turns. Without a turn, the area only grows or only
                                                           !! falls.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -5751,8 +5790,8 @@ subroutine riisf_find_by_area_64(valve, name, n_areas, areas, half_thickness, to
   integer(int32), intent(in) :: area_kind                 !< RIIS_AREA_*, usually RIIS_AREA_GEOMETRIC.
   real(c_double), intent(inout) :: values(*)              !< (n_areas): the openings or sizes.
   real(c_double), intent(inout) :: reached(*)             !< (n_areas): the areas at these values.
-  real(c_double), intent(inout) :: least                  !< The least area that can be reached.
-  real(c_double), intent(inout) :: most                   !< The largest area that can be reached.
+  real(c_double), intent(inout) :: least                  !< least, most: the least and the largest area.
+  real(c_double), intent(inout) :: most                   !< least, most: the least and the largest area.
   integer(int64), intent(inout) :: n_turns                !< The number of turns. Without a turn, the area only grows or only
                                                           !! falls.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -5815,7 +5854,8 @@ subroutine riisf_find_first_passage(valve, mesh, n_from, from_num, n_to, to_num,
   real(c_double), intent(in) :: opening_tolerance         !< Tolerance of the opening, 1e-6 to 1. Usually 1e-3.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int32), intent(inout) :: state                  !< RIIS_FIRST_PASSAGE_*.
-  real(c_double), intent(inout) :: opening                !< The opening that was tried and has a passage.
+  real(c_double), intent(inout) :: opening                !< The first opening with a passage; 0 for ALWAYS, 1 for NEVER, 0 for
+                                                          !! NONE.
   real(c_double), intent(inout) :: closed_opening         !< With RIIS_FIRST_PASSAGE_FOUND, the largest opening below `opening`
                                                           !! that was found closed; otherwise the same as `opening`.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -5892,7 +5932,8 @@ subroutine riisf_find_first_passage_64(valve, mesh, n_from, from_num, n_to, to_n
   real(c_double), intent(in) :: opening_tolerance         !< Tolerance of the opening, 1e-6 to 1. Usually 1e-3.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int32), intent(inout) :: state                  !< RIIS_FIRST_PASSAGE_*.
-  real(c_double), intent(inout) :: opening                !< The opening that was tried and has a passage.
+  real(c_double), intent(inout) :: opening                !< The first opening with a passage; 0 for ALWAYS, 1 for NEVER, 0 for
+                                                          !! NONE.
   real(c_double), intent(inout) :: closed_opening         !< With RIIS_FIRST_PASSAGE_FOUND, the largest opening below `opening`
                                                           !! that was found closed; otherwise the same as `opening`.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -5985,10 +6026,10 @@ subroutine riisf_opening_from_times(opening_start, opening_duration, closing_sta
   real(c_double), intent(in) :: closing_start             !< The time at which the valve begins to close, at least
                                                           !! opening_start + opening_duration.
   real(c_double), intent(in) :: closing_duration          !< How long closing takes, > 0.
-  real(c_double), intent(in) :: closed                    !< The openings of the closed and of the open valve, 0 to 1. Usually
-                                                          !! 0 and 1.
-  real(c_double), intent(in) :: open                      !< The openings of the closed and of the open valve, 0 to 1. Usually
-                                                          !! 0 and 1.
+  real(c_double), intent(in) :: closed                    !< closed, open: the openings of the closed and of the open valve, 0
+                                                          !! to 1. Usually 0 and 1.
+  real(c_double), intent(in) :: open                      !< closed, open: the openings of the closed and of the open valve, 0
+                                                          !! to 1. Usually 0 and 1.
   real(c_double), intent(in) :: period                    !< A number above 0: the valve opens and closes once in each period.
                                                           !! 0: only once.
   real(c_double), intent(in) :: time                      !< Magnitude at most 1e30.
@@ -6162,7 +6203,7 @@ subroutine riisf_place(valve, n_landmarks, xyz, role, leaflet_id, scale, noise, 
                                                           !! landmark keep their proportions. Translation, opening and the open
                                                           !! state of riisf_valve_set_open_state stay.
   integer(int32), intent(in) :: n_landmarks               !< 1 to 10,000.
-  real(c_double), intent(in) :: xyz(3, *)                 !< (3, n_landmarks), in mesh units.
+  real(c_double), intent(in) :: xyz(3, *)                 !< (3, n_landmarks): the points, in mesh units.
   integer(int32), intent(in) :: role(*)                   !< (n_landmarks): RIIS_LANDMARK_*.
   integer(int32), intent(in) :: leaflet_id(2, *)          !< (2, n_landmarks): the leaflets of each landmark. A nadir or
                                                           !! attachment point has its cusp and -1, and a commissure has its two
@@ -6174,7 +6215,11 @@ subroutine riisf_place(valve, n_landmarks, xyz, role, leaflet_id, scale, noise, 
                                                           !! or 0.01 for metres. Must be set.
   real(c_double), intent(in) :: noise                     !< The scatter of the landmarks: the standard deviation of each
                                                           !! coordinate, mesh units, >= 0. RIIS_AUTO: 0.03 * scale.
-  real(c_double), intent(in) :: flow(3)                   !< The direction of flow; 0 0 0: not known.
+  real(c_double), intent(in) :: flow(3)                   !< The direction of flow, of any length, usually 0: not known.
+                                                          !! bileaflet: must be set. mitral: needed unless both commissures or
+                                                          !! the horns show the atrium's side. mitral_coapting: needed unless
+                                                          !! the anterior horn and both commissures are given. tricuspid:
+                                                          !! needed unless the leaflets of two commissures are known.
   character(len=*), intent(in) :: held                    !< The names of the parameters whose values do not change, separated
                                                           !! by blanks or commas. '' stands for no name.
   real(c_double), intent(inout) :: rotation_axis(3)       !< Unit vector.
@@ -6271,9 +6316,9 @@ subroutine riisf_warp_set_targets(warp, n_landmarks, xyz, status)
   use riis_support, only: c_handle_of, location_of
   use riis_c, only: RIIS_OK, riis_points, riis_points_init, riis_status, riis_warp_set_targets
   implicit none
-  integer(int64), intent(in) :: warp                      !< Must be created.
+  integer(int64), intent(in) :: warp                      !< From riisf_warp_create, for example.
   integer(int32), intent(in) :: n_landmarks               !< As many as the warp has.
-  real(c_double), intent(in) :: xyz(3, *)                 !< (3, n_landmarks), mesh units.
+  real(c_double), intent(in) :: xyz(3, *)                 !< (3, n_landmarks): the points, in mesh units.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_points) :: targets
   status = riis_points_init(targets, c_sizeof(targets))
@@ -6294,7 +6339,7 @@ subroutine riisf_valve_set_warp(valve, closed, open, status)
   use riis_support, only: c_handle_of
   use riis_c, only: riis_status, riis_valve_set_warp
   implicit none
-  integer(int64), intent(in) :: valve                     !< Must be created.
+  integer(int64), intent(in) :: valve                     !< From riisf_valve_create, for example.
   integer(int64), intent(in) :: closed                    !< The warp at opening 0; 0: the valve loses its warp.
   integer(int64), intent(in) :: open                      !< The warp at opening 1; 0: the same as `closed`.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.

@@ -49,6 +49,7 @@ contains
     class(*), intent(in), optional :: interpolation         !< integer, RIIS_INTERPOLATION_*, for every coordinate. Default
                                                             !! RIIS_INTERPOLATION_LINEAR.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    integer(riis_status) :: code
     real(c_double), intent(in), optional :: skirt_length    !< The length of a skirt before placement, 0 for none. Default 0.
     logical, intent(in), optional :: attached(:)            !< (n_vertices): the vertices of the attachment. Default: with a
                                                             !! skirt, the attachment is chosen in the first frame.
@@ -56,7 +57,6 @@ contains
                                                             !! attached vertices. Default skirt_length.
     type(riis_surface_arrays) :: faces
     integer(int8), allocatable, target :: bytes(:)
-    integer(riis_status) :: code
     code = check_not_created(this%handle, 'keyframes')
     call get_faces(size(xyz, 2, int64), size(vertex_ids, 1), size(vertex_ids, 2, int64), storage_size(vertex_ids), leaflet_id, &
       index_base, faces, code)
@@ -85,6 +85,7 @@ contains
     class(*), intent(in), optional :: interpolation         !< integer, RIIS_INTERPOLATION_*, for every coordinate. Default
                                                             !! RIIS_INTERPOLATION_LINEAR.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    integer(riis_status) :: code
     real(c_double), intent(in), optional :: skirt_length    !< The length of a skirt before placement, 0 for none. Default 0.
     logical, intent(in), optional :: attached(:)            !< (n_vertices): the vertices of the attachment. Default: with a
                                                             !! skirt, the attachment is chosen in the first frame.
@@ -92,7 +93,6 @@ contains
                                                             !! attached vertices. Default skirt_length.
     type(riis_surface_arrays) :: faces
     integer(int8), allocatable, target :: bytes(:)
-    integer(riis_status) :: code
     code = check_not_created(this%handle, 'keyframes')
     call get_faces(size(xyz, 2, int64), size(vertex_ids, 1), size(vertex_ids, 2, int64), storage_size(vertex_ids), leaflet_id, &
       index_base, faces, code)

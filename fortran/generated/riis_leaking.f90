@@ -13,18 +13,22 @@ module riis_leaking
   private
   public :: riis_leaks, riis_leak_list, riis_find_leaks
 
-  !> Edges that leak, from %get_list. The object of the leaks owns the arrays, which count from 1. Lengths are in mesh units.
+  !> Edges that leak, from %get_list. The object of the leaks owns the arrays, which count from 1. Ids count from
+  !! 0: node_id + 1 are columns of xyz. Lengths are in mesh units.
   type :: riis_leak_list
-    integer(int64) :: n_edges = 0                           !< The number of edges. Without edges, node ids are -1, and other
-                                                            !! components except seconds are 0.
-    integer(int64), pointer :: node_id(:, :) => null()      !< (2, n_edges), from 0, ascending: node_id + 1 are columns of xyz.
+    integer(int64) :: n_edges = 0                           !< The number of edges that leak. If this number is 0, node ids are
+                                                            !! -1, and all other components except seconds are 0.
+    integer(int64), pointer :: node_id(:, :) => null()      !< (2, n_edges): the two nodes, the lower id first.
     real(c_double), pointer :: length(:) => null()          !< (n_edges).
-    real(c_double), pointer :: distance(:) => null()        !< (n_edges): the distance of the edge's nearer node.
-    real(c_double) :: half_thickness = 0                    !< The smallest half thickness that would give each edge a marked
+    real(c_double), pointer :: distance(:) => null()        !< (n_edges): the least half thickness at which the edge does not
+                                                            !! leak. Without an offset this is the distance of the edge's nearer
                                                             !! node.
-    integer(int64) :: longest_node_id(2) = -1               !< The longest edge's nodes, ascending, from 0.
-    real(c_double) :: longest_length = 0                    !< The longest edge's length.
-    real(c_double) :: longest_middle(3) = 0                 !< The longest edge's middle.
+    real(c_double) :: half_thickness = 0                    !< The smallest half thickness that gives each edge a marked node,
+                                                            !! for these triangles.
+    integer(int64) :: longest_node_id(2) = -1               !< The nodes of the longest edge, the lower id first. If several
+                                                            !! edges are equally long, the first edge counts.
+    real(c_double) :: longest_length = 0                    !< The length of this edge.
+    real(c_double) :: longest_middle(3) = 0                 !< The middle of this edge.
     real(c_double) :: seconds = 0                           !< Wall time of riis_find_leaks.
   end type riis_leak_list
 
@@ -141,8 +145,8 @@ contains
     class(riis_leaks), intent(in) :: this                   !< From riis_find_leaks.
     type(riis_leak_list), intent(inout) :: list             !< Every component is set.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(c_leak_list) :: made
     integer(riis_status) :: code
+    type(c_leak_list) :: made
     list = riis_leak_list(node_id=no_edges, length=no_reals, distance=no_reals)
     code = check_created(this%handle, 'the object leaks')
     if (code == RIIS_OK) code = riis_leaks_get_list(this%handle, made, c_sizeof(made))

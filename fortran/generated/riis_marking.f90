@@ -13,31 +13,51 @@ module riis_marking
   private
   public :: riis_marks, riis_mark_list, riis_mark_nodes
 
-  !> Pointers to the arrays of a list, from %get_list. The marks own the arrays, which count from 1 and ascend by node. An array
-  !! that was not requested has the size 0.
+  !> Pointers to the arrays of a list, from %get_list. The marks own the arrays, which count from 1 and ascend by node. Ids count
+  !! from 0: node_id + 1 is the column of xyz. An array that was not requested, or that the surface cannot give, has the size 0.
   type :: riis_mark_list
     integer(int64) :: n_nodes = 0                           !< The number of nodes.
-    integer(int64), pointer :: node_id(:) => null()         !< (n_nodes), from 0: node_id + 1 is the column of xyz.
-    real(c_double), pointer :: distance(:) => null()        !< (n_nodes), mesh units.
-    integer(int64), pointer :: triangle_id(:) => null()     !< (n_nodes), from 0: the closest triangle.
-    integer(int32), pointer :: leaflet_id(:) => null()      !< (n_nodes): RIIS_LEAFLET_*, or the caller's.
+    integer(int64), pointer :: node_id(:) => null()         !< (n_nodes).
+    real(c_double), pointer :: distance(:) => null()        !< (n_nodes).
+    integer(int64), pointer :: triangle_id(:) => null()     !< (n_nodes): of the closest triangle, as in riis_closest.
+    integer(int32), pointer :: leaflet_id(:) => null()      !< (n_nodes): of that triangle.
     real(c_double), pointer :: K(:) => null()               !< (n_nodes): K, if the marking had R.
-    real(c_double), pointer :: K_u_surface(:, :) => null()  !< (3, n_nodes): K u_surface, if the marking had R and the surface
-                                                            !! velocities.
+    real(c_double), pointer :: K_u_surface(:, :) => null()  !< (3, n_nodes): K u_surface.
     real(c_double), pointer :: point(:, :) => null()        !< (3, n_nodes): the closest point of the surface.
     real(c_double), pointer :: normal(:, :) => null()       !< (3, n_nodes): the unit normal of its triangle.
-    real(c_double), pointer :: barycentric(:, :) => null()  !< (3, n_nodes): the point's barycentric coordinates.
-    real(c_double), pointer :: uv(:, :) => null()           !< (2, n_nodes): the point's u and v on its patch, in [0, 1].
-    real(c_double), pointer :: velocity(:, :) => null()     !< (3, n_nodes): the surface's velocity at the point.
-    integer(int32), pointer :: side(:) => null()            !< (n_nodes): 1 downstream, -1 upstream, 0 on the surface or level
-                                                            !! with its rim.
-    integer(int32), pointer :: rim(:) => null()             !< (n_nodes): 1 if the point lies on the rim of the surface, else 0.
-    integer(int32), pointer :: patch_id(:) => null()        !< (n_nodes), from 0, as in riis_triangles.
+    real(c_double), pointer :: barycentric(:, :) => null()  !< (3, n_nodes): the point's weights for the triangle's vertices.
+    real(c_double), pointer :: uv(:, :) => null()           !< (2, n_nodes): u and v of the point on its patch, in [0,1]. S_u x
+                                                            !! S_v points along the normal, and on mirrored patches against the
+                                                            !! normal (cusps: patch_id % 4 >= 2; mitral: 3, 4, 5, 8, 9).
+                                                            !! flip_normals reverses both cases.
+    real(c_double), pointer :: velocity(:, :) => null()     !< (3, n_nodes): the velocity of the surface at the closest point,
+                                                            !! from the surface's last update. Several leaflets may be equally
+                                                            !! near (within 1e-6 half thicknesses), or several patches of one
+                                                            !! leaflet (within 1e-9). The velocity is then the mean of the
+                                                            !! velocities at their closest points (docs/theory/marks.md). Other
+                                                            !! components come from the closest triangle.
+    integer(int32), pointer :: side(:) => null()            !< (n_nodes): as riis_closest%side.
+    integer(int32), pointer :: rim(:) => null()             !< (n_nodes): 1 if the closest point lies on the rim of the surface,
+                                                            !! else 0. The rim of a valve consists of the sides that belong to
+                                                            !! only one patch, such as free edges and the annulus. Where the free
+                                                            !! edges of a closed valve coincide, there is no rim. The rim of a
+                                                            !! surface from arrays consists of edges of only one triangle;
+                                                            !! vertices with equal coordinates count as one.
+    integer(int32), pointer :: patch_id(:) => null()        !< (n_nodes): as in riis_triangles.
     real(c_double), pointer :: distance_gradient(:, :) => null() !< (n_directions, n_nodes): the derivative of the distance in
-                                                            !! each direction of the surface.
-    real(c_double), pointer :: K_gradient(:, :) => null()   !< (n_directions, n_nodes): the derivative of K, if the marking had
-                                                            !! R.
-    real(c_double), pointer :: height(:) => null()          !< (n_nodes): the signed distance, if the surface has an offset.
+                                                            !! each direction, which is -n.V. The unit vector n points from
+                                                            !! the closest point to the node. V is the rate of the closest
+                                                            !! point in the triangle triangle_id. On the surface the
+                                                            !! derivative is 0, because the distance has a kink there. The
+                                                            !! distance also has a kink at nodes with several nearest
+                                                            !! places.
+    real(c_double), pointer :: K_gradient(:, :) => null()   !< (n_directions, n_nodes): the derivative of K for constant R and
+                                                            !! half thickness. The derivative is 0 where K is 0. With an offset,
+                                                            !! n at a node on the surface is the surface's normal, and at a rim
+                                                            !! the derivative includes the rotation of the normal.
+    real(c_double), pointer :: height(:) => null()          !< (n_nodes): the signed distance s of riis_surface_create for a
+                                                            !! surface with an offset. At a rim it is n.(x - p), with the normal
+                                                            !! n, the node x and the closest point p.
   end type riis_mark_list
 
   !> The nodes that a marking found, with their distances. It is empty before riis_mark_nodes and after %destroy, which must be
@@ -233,9 +253,9 @@ contains
   function marks_n_marked(this, status) result(n)
     class(riis_marks), intent(in) :: this                   !< From riis_mark_nodes.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    integer(riis_status) :: code
     integer(int64) :: n                                     !< 0 on an error.
     type(c_mark_list) :: list
-    integer(riis_status) :: code
     n = 0
     code = c_list(this, RIIS_LIST_MARKED, list)
     if (code == RIIS_OK) n = list%n_nodes
@@ -246,9 +266,9 @@ contains
   function marks_n_within_limit(this, status) result(n)
     class(riis_marks), intent(in) :: this                   !< From riis_mark_nodes.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    integer(riis_status) :: code
     integer(int64) :: n                                     !< 0 on an error.
     type(c_mark_list) :: list
-    integer(riis_status) :: code
     n = 0
     code = c_list(this, RIIS_LIST_WITHIN_LIMIT, list)
     if (code == RIIS_OK) n = list%n_nodes
@@ -301,8 +321,8 @@ contains
     integer(int64), pointer, intent(out), optional :: triangle_id(:) !< (n), from 0: the closest triangle.
     integer(int32), pointer, intent(out), optional :: leaflet_id(:) !< (n): RIIS_LEAFLET_*, or the caller's.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(c_mark_list) :: list
     integer(riis_status) :: code
+    type(c_mark_list) :: list
     code = c_list(this, RIIS_LIST_MARKED, list)
     call point_to(list, node_id, distance, triangle_id, leaflet_id)
     call finish(code, status)
@@ -316,8 +336,8 @@ contains
     integer(int64), pointer, intent(out), optional :: triangle_id(:) !< (n), from 0: the closest triangle.
     integer(int32), pointer, intent(out), optional :: leaflet_id(:) !< (n): RIIS_LEAFLET_*, or the caller's.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(c_mark_list) :: list
     integer(riis_status) :: code
+    type(c_mark_list) :: list
     code = c_list(this, RIIS_LIST_WITHIN_LIMIT, list)
     call point_to(list, node_id, distance, triangle_id, leaflet_id)
     call finish(code, status)
@@ -333,9 +353,9 @@ contains
     integer(int64), allocatable, intent(inout), optional :: triangle_id(:) !< (n), from 0: the closest triangle.
     integer(int32), allocatable, intent(inout), optional :: leaflet_id(:) !< (n): RIIS_LEAFLET_*, or the caller's.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    integer(riis_status) :: code
     type(c_mark_list) :: list
     integer(int64), pointer :: ids(:)
-    integer(riis_status) :: code
     integer :: stat
     code = c_list(this, RIIS_LIST_MARKED, list)
     call point_to(list, ids)
@@ -366,9 +386,9 @@ contains
     integer(int64), allocatable, intent(inout), optional :: triangle_id(:) !< (n), from 0: the closest triangle.
     integer(int32), allocatable, intent(inout), optional :: leaflet_id(:) !< (n): RIIS_LEAFLET_*, or the caller's.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    integer(riis_status) :: code
     type(c_mark_list) :: list
     integer(int64), pointer :: ids(:)
-    integer(riis_status) :: code
     integer :: stat
     code = c_list(this, RIIS_LIST_MARKED, list)
     call point_to(list, ids)
@@ -395,9 +415,9 @@ contains
     integer(int64), allocatable, intent(inout), optional :: triangle_id(:) !< (n), from 0: the closest triangle.
     integer(int32), allocatable, intent(inout), optional :: leaflet_id(:) !< (n): RIIS_LEAFLET_*, or the caller's.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    integer(riis_status) :: code
     type(c_mark_list) :: list
     integer(int64), pointer :: ids(:)
-    integer(riis_status) :: code
     integer :: stat
     code = c_list(this, RIIS_LIST_WITHIN_LIMIT, list)
     call point_to(list, ids)
@@ -428,9 +448,9 @@ contains
     integer(int64), allocatable, intent(inout), optional :: triangle_id(:) !< (n), from 0: the closest triangle.
     integer(int32), allocatable, intent(inout), optional :: leaflet_id(:) !< (n): RIIS_LEAFLET_*, or the caller's.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    integer(riis_status) :: code
     type(c_mark_list) :: list
     integer(int64), pointer :: ids(:)
-    integer(riis_status) :: code
     integer :: stat
     code = c_list(this, RIIS_LIST_WITHIN_LIMIT, list)
     call point_to(list, ids)
@@ -501,8 +521,8 @@ contains
     real(c_double), intent(in), optional :: far_distance    !< Any value outside [0, distance_limit], including NaN. Default
                                                             !! RIIS_FAR_DISTANCE.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    integer(int64) :: n
     integer(riis_status) :: code
+    integer(int64) :: n
     n = -1
     code = check_created(this%handle, 'the object marks')
     if (present(mark)) n = size(mark, kind=int64)
@@ -544,8 +564,8 @@ contains
     real(c_double), intent(in), optional :: far_distance    !< Any value outside [0, distance_limit], including NaN. Default
                                                             !! RIIS_FAR_DISTANCE.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    integer(int8), allocatable :: bytes(:)
     integer(riis_status) :: code
+    integer(int8), allocatable :: bytes(:)
     integer :: stat
     allocate (bytes(size(mark, kind=int64)), stat=stat)
     code = out_of_memory(stat)
@@ -567,8 +587,8 @@ contains
     real(c_double), intent(in), optional :: far_distance    !< Any value outside [0, distance_limit], including NaN. Default
                                                             !! RIIS_FAR_DISTANCE.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    integer(int8), allocatable :: bytes(:)
     integer(riis_status) :: code
+    integer(int8), allocatable :: bytes(:)
     integer :: stat
     allocate (bytes(size(mark, kind=int64)), stat=stat)
     code = out_of_memory(stat)
@@ -584,39 +604,31 @@ contains
     integer(int32), intent(in) :: which                     !< RIIS_LIST_*.
     type(riis_mark_list), intent(inout) :: list             !< Every component is set.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(c_mark_list) :: made
     integer(riis_status) :: code
+    type(c_mark_list) :: made
     code = c_list(this, which, made)
+    list = riis_mark_list(0, no_int64, no_reals, no_int64, no_int32, no_reals, no_vectors, no_vectors, no_vectors, no_vectors, &
+      no_uv, no_vectors, no_int32, no_int32, no_int32, no_gradients, no_gradients, no_reals)
     list%n_nodes = made%n_nodes
-    call point_to(made, list%node_id, list%distance, list%triangle_id, list%leaflet_id)
-    list%K => no_reals
+    if (c_associated(made%node_id)) call c_f_pointer(made%node_id, list%node_id, [made%n_nodes])
+    if (c_associated(made%distance)) call c_f_pointer(made%distance, list%distance, [made%n_nodes])
+    if (c_associated(made%triangle_id)) call c_f_pointer(made%triangle_id, list%triangle_id, [made%n_nodes])
+    if (c_associated(made%leaflet_id)) call c_f_pointer(made%leaflet_id, list%leaflet_id, [made%n_nodes])
     if (c_associated(made%K)) call c_f_pointer(made%K, list%K, [made%n_nodes])
-    list%height => no_reals
-    if (c_associated(made%height)) call c_f_pointer(made%height, list%height, [made%n_nodes])
-    list%K_u_surface => no_vectors
     if (c_associated(made%K_u_surface)) call c_f_pointer(made%K_u_surface, list%K_u_surface, [3_int64, made%n_nodes])
-    list%point => no_vectors
     if (c_associated(made%point)) call c_f_pointer(made%point, list%point, [3_int64, made%n_nodes])
-    list%normal => no_vectors
     if (c_associated(made%normal)) call c_f_pointer(made%normal, list%normal, [3_int64, made%n_nodes])
-    list%barycentric => no_vectors
     if (c_associated(made%barycentric)) call c_f_pointer(made%barycentric, list%barycentric, [3_int64, made%n_nodes])
-    list%velocity => no_vectors
-    if (c_associated(made%velocity)) call c_f_pointer(made%velocity, list%velocity, [3_int64, made%n_nodes])
-    list%uv => no_uv
     if (c_associated(made%uv)) call c_f_pointer(made%uv, list%uv, [2_int64, made%n_nodes])
-    list%side => no_int32
+    if (c_associated(made%velocity)) call c_f_pointer(made%velocity, list%velocity, [3_int64, made%n_nodes])
     if (c_associated(made%side)) call c_f_pointer(made%side, list%side, [made%n_nodes])
-    list%rim => no_int32
     if (c_associated(made%rim)) call c_f_pointer(made%rim, list%rim, [made%n_nodes])
-    list%patch_id => no_int32
     if (c_associated(made%patch_id)) call c_f_pointer(made%patch_id, list%patch_id, [made%n_nodes])
-    list%distance_gradient => no_gradients
-    if (c_associated(made%distance_gradient)) &
-      call c_f_pointer(made%distance_gradient, list%distance_gradient, [made%n_directions, made%n_nodes])
-    list%K_gradient => no_gradients
-    if (c_associated(made%K_gradient)) &
-      call c_f_pointer(made%K_gradient, list%K_gradient, [made%n_directions, made%n_nodes])
+    if (c_associated(made%distance_gradient)) call c_f_pointer(made%distance_gradient, list%distance_gradient, &
+      [made%n_directions, made%n_nodes])
+    if (c_associated(made%K_gradient)) call c_f_pointer(made%K_gradient, list%K_gradient, [made%n_directions, &
+      made%n_nodes])
+    if (c_associated(made%height)) call c_f_pointer(made%height, list%height, [made%n_nodes])
     call finish(code, status)
   end subroutine marks_get_list
 
@@ -646,9 +658,9 @@ contains
     class(*), intent(in), optional :: rim                   !< integer, RIIS_RIM_*. Default RIIS_RIM_ROUND; RIIS_RIM_CUT needs
                                                             !! RIIS_FIELD_RIM.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    integer(riis_status) :: code
     type(riis_resistance) :: made
     integer(int64) :: n
-    integer(riis_status) :: code
     n = -1
     code = check_created(this%handle, 'the object marks')
     if (present(K)) n = size(K, kind=int64)
@@ -683,9 +695,9 @@ contains
     class(*), intent(in), optional :: rim                   !< integer, RIIS_RIM_*. Default RIIS_RIM_ROUND; RIIS_RIM_CUT needs
                                                             !! RIIS_FIELD_RIM.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    integer(riis_status) :: code
     type(riis_resistance) :: made
     integer(int64) :: n
-    integer(riis_status) :: code
     n = size(K, kind=int64)
     code = check_created(this%handle, 'the object marks')
     call check_components([size(K_u_x, kind=int64), size(K_u_y, kind=int64), size(K_u_z, kind=int64)], n, &
@@ -708,9 +720,9 @@ contains
     class(*), intent(in), optional :: rim                   !< integer, RIIS_RIM_*. Default RIIS_RIM_ROUND; RIIS_RIM_CUT needs
                                                             !! RIIS_FIELD_RIM.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    integer(riis_status) :: code
     type(riis_resistance) :: made
     integer(int64) :: n
-    integer(riis_status) :: code
     n = size(K, kind=int64)
     code = check_created(this%handle, 'the object marks')
     if (.not. (present(K_u_x) .and. present(K_u_y) .and. present(K_u_z))) then
@@ -741,9 +753,9 @@ contains
     class(*), intent(in), optional :: rim                   !< integer, RIIS_RIM_*. Default RIIS_RIM_ROUND; RIIS_RIM_CUT needs
                                                             !! RIIS_FIELD_RIM.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    integer(riis_status) :: code
     type(riis_resistance) :: made
     integer(int64) :: n
-    integer(riis_status) :: code
     n = size(K, kind=int64)
     code = check_created(this%handle, 'the object marks')
     if (.not. (present(K_u_x) .and. present(K_u_y) .and. present(K_u_z))) then
@@ -793,8 +805,8 @@ contains
     integer(int32), intent(in), optional :: edge_leaflet_id(:) !< (n_edges): a node's force goes to the nearest edge of
                                                             !! its leaflet. Default: the nearest edge of all leaflets.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    integer(int64) :: n
     integer(riis_status) :: code
+    integer(int64) :: n
     n = size(weight, kind=int64)
     code = check_created(this%handle, 'the object marks')
     call check_columns(velocity, 3, n, 'velocity', code)
@@ -832,8 +844,8 @@ contains
     integer(int32), intent(in), optional :: edge_leaflet_id(:) !< (n_edges): a node's force goes to the nearest edge of
                                                             !! its leaflet. Default: the nearest edge of all leaflets.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    integer(int64) :: n
     integer(riis_status) :: code
+    integer(int64) :: n
     n = size(weight, kind=int64)
     code = check_created(this%handle, 'the object marks')
     call check_components([size(vx, kind=int64), size(vy, kind=int64), size(vz, kind=int64)], n, ['vx', 'vy', 'vz'], &
@@ -872,8 +884,8 @@ contains
     integer(int32), intent(in), optional :: edge_leaflet_id(:) !< (n_edges): a node's force goes to the nearest edge of
                                                             !! its leaflet. Default: the nearest edge of all leaflets.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    integer(int64) :: n
     integer(riis_status) :: code
+    integer(int64) :: n
     n = size(weight, kind=int64)
     code = check_created(this%handle, 'the object marks')
     call check_components([size(vx, kind=int64), size(vy, kind=int64), size(vz, kind=int64)], n, ['vx', 'vy', 'vz'], &
@@ -912,8 +924,8 @@ contains
     integer(int32), intent(in), optional :: edge_leaflet_id(:) !< (n_edges): a node's force goes to the nearest edge of
                                                             !! its leaflet. Default: the nearest edge of all leaflets.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    integer(int64) :: n
     integer(riis_status) :: code
+    integer(int64) :: n
     n = size(weight, kind=int64)
     code = check_created(this%handle, 'the object marks')
     call check_components([size(vx, kind=int64), size(vy, kind=int64), size(vz, kind=int64)], n, ['vx', 'vy', 'vz'], &
@@ -1038,9 +1050,9 @@ contains
     class(*), intent(in), optional :: rim                   !< integer, RIIS_RIM_*. Default RIIS_RIM_ROUND; RIIS_RIM_CUT needs
                                                             !! RIIS_FIELD_RIM.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    integer(riis_status) :: code
     type(riis_resistance) :: made
     integer(int64) :: n
-    integer(riis_status) :: code
     n = size(weight, kind=int64)
     code = check_created(this%handle, 'the object marks')
     call check_columns(velocity, 3, n, 'velocity', code)
@@ -1069,9 +1081,9 @@ contains
     class(*), intent(in), optional :: rim                   !< integer, RIIS_RIM_*. Default RIIS_RIM_ROUND; RIIS_RIM_CUT needs
                                                             !! RIIS_FIELD_RIM.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    integer(riis_status) :: code
     type(riis_resistance) :: made
     integer(int64) :: n
-    integer(riis_status) :: code
     n = size(weight, kind=int64)
     code = check_created(this%handle, 'the object marks')
     call check_components([size(vx, kind=int64), size(vy, kind=int64), size(vz, kind=int64)], n, ['vx', 'vy', 'vz'], &
@@ -1101,9 +1113,9 @@ contains
     class(*), intent(in), optional :: rim                   !< integer, RIIS_RIM_*. Default RIIS_RIM_ROUND; RIIS_RIM_CUT needs
                                                             !! RIIS_FIELD_RIM.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    integer(riis_status) :: code
     type(riis_resistance) :: made
     integer(int64) :: n
-    integer(riis_status) :: code
     n = size(weight, kind=int64)
     code = check_created(this%handle, 'the object marks')
     call check_components([size(vx, kind=int64), size(vy, kind=int64), size(vz, kind=int64)], n, ['vx', 'vy', 'vz'], &
@@ -1133,9 +1145,9 @@ contains
     class(*), intent(in), optional :: rim                   !< integer, RIIS_RIM_*. Default RIIS_RIM_ROUND; RIIS_RIM_CUT needs
                                                             !! RIIS_FIELD_RIM.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    integer(riis_status) :: code
     type(riis_resistance) :: made
     integer(int64) :: n
-    integer(riis_status) :: code
     n = size(weight, kind=int64)
     code = check_created(this%handle, 'the object marks')
     call check_components([size(vx, kind=int64), size(vy, kind=int64), size(vz, kind=int64)], n, ['vx', 'vy', 'vz'], &
@@ -1168,8 +1180,8 @@ contains
                                                             !! other ranks.
     type(riis_band_sums), intent(inout) :: sums             !< Entry 1 is upstream, 2 downstream. Unchanged on an error.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    integer(int64) :: n
     integer(riis_status) :: code
+    integer(int64) :: n
     n = size(value, kind=int64)
     code = check_created(this%handle, 'the object marks')
     if (code == RIIS_OK) code = check_size(size(weight, kind=int64), n, 'weight', 'values')
@@ -1188,8 +1200,8 @@ contains
                                                             !! other ranks.
     type(riis_band_sums), intent(inout) :: sums             !< Entry 1 is upstream, 2 downstream. Unchanged on an error.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    integer(int64) :: n
     integer(riis_status) :: code
+    integer(int64) :: n
     n = size(value, kind=int64)
     code = check_created(this%handle, 'the object marks')
     if (code == RIIS_OK) code = check_size(size(weight, kind=int64), n, 'weight', 'values')
@@ -1208,8 +1220,8 @@ contains
                                                             !! other ranks.
     type(riis_band_sums), intent(inout) :: sums             !< Entry 1 is upstream, 2 downstream. Unchanged on an error.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    integer(int64) :: n
     integer(riis_status) :: code
+    integer(int64) :: n
     n = size(value, kind=int64)
     code = check_created(this%handle, 'the object marks')
     if (code == RIIS_OK) code = check_size(size(weight, kind=int64), n, 'weight', 'values')

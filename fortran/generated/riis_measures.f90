@@ -64,8 +64,8 @@ contains
     real(c_double), intent(in), optional :: half_thickness  !< eps of the resistance. Default RIIS_AUTO: the surface's.
     class(*), intent(in), optional :: rim                   !< integer, RIIS_RIM_*. Default RIIS_RIM_ROUND.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(riis_resistance) :: made
     integer(riis_status) :: code
+    type(riis_resistance) :: made
     code = check_created(surface%c_handle(), 'the surface')
     call get_resistance(half_thickness=half_thickness, rim=rim, made=made, code=code)
     if (code == RIIS_OK) code = riis_surface_get_orifice(surface%c_handle(), made, orifice, c_sizeof(orifice))
@@ -81,8 +81,8 @@ contains
     real(c_double), intent(in), optional :: half_thickness  !< eps of the resistance. Default RIIS_AUTO: the surface's.
     class(*), intent(in), optional :: rim                   !< integer, RIIS_RIM_*. Default RIIS_RIM_ROUND.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(riis_resistance) :: made
     integer(riis_status) :: code
+    type(riis_resistance) :: made
     code = check_created(surface%c_handle(), 'the surface')
     if (code == RIIS_OK) code = check_created(wall%c_handle(), 'the wall')
     call get_resistance(half_thickness=half_thickness, rim=rim, made=made, code=code)
@@ -99,9 +99,9 @@ contains
     real(c_double), intent(in), optional :: reach           !< Mesh units. Default RIIS_AUTO: the surface's half thickness.
     class(*), intent(in), optional :: leaflet_id            !< integer. Default RIIS_ALL_LEAFLETS: the sum over all leaflets.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    integer(riis_status) :: code
     real(c_double) :: within
     integer(int32) :: id
-    integer(riis_status) :: code
     within = RIIS_AUTO
     if (present(reach)) within = reach
     id = RIIS_ALL_LEAFLETS
@@ -121,8 +121,8 @@ contains
     real(c_double), intent(inout), contiguous, optional :: distance(:, :) !< (2, n_edges): at both ends of the edges of
                                                             !! %get_attachment. RIIS_FAR_DISTANCE without a wall.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(riis_attachment) :: attachment
     integer(riis_status) :: code
+    type(riis_attachment) :: attachment
     code = check_created(surface%c_handle(), 'the surface')
     if (code == RIIS_OK) code = check_created(wall%c_handle(), 'the wall')
     if (code == RIIS_OK .and. present(distance)) then
@@ -148,8 +148,8 @@ contains
     real(c_double), intent(in), optional :: rotation_angle  !< Degrees. Default 0.
     real(c_double), intent(in), optional :: translation(3)  !< Mesh units. Default 0.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(riis_surface_options) :: options
     integer(riis_status) :: code
+    type(riis_surface_options) :: options
     code = check_created(valve%c_handle(), 'the valve')
     if (code == RIIS_OK) code = check_created(wall%c_handle(), 'the wall')
     if (code == RIIS_OK) code = riis_surface_options_init(options, c_sizeof(options))
@@ -170,8 +170,8 @@ contains
     real(c_double), intent(inout) :: flow                   !< Unchanged on an error.
     real(c_double), intent(in), optional :: half_thickness  !< eps of the resistance. Default RIIS_AUTO: the surface's.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(riis_resistance) :: made
     integer(riis_status) :: code
+    type(riis_resistance) :: made
     code = check_created(surface%c_handle(), 'the surface')
     call get_resistance(R, half_thickness, made=made, code=code)
     if (code == RIIS_OK) code = riis_surface_get_leak(surface%c_handle(), made, drop, flow)
@@ -206,9 +206,9 @@ contains
     logical, intent(in), optional :: flip_normals           !< .true. changes the sign. Default .false.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    integer(riis_status) :: code
     type(riis_surface_options) :: options
     integer(int32) :: id
-    integer(riis_status) :: code
     id = RIIS_ALL_LEAFLETS
     code = check_created(valve%c_handle(), 'the valve')
     if (code == RIIS_OK) code = riis_surface_options_init(options, c_sizeof(options))
@@ -248,10 +248,10 @@ contains
     class(*), intent(in), optional :: n_samples             !< integer, 2 to 100001. Default 33.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    integer(riis_status) :: code
     type(riis_surface_options), target :: surface
     type(riis_resistance), target :: model
     type(riis_area_search) :: search
-    integer(riis_status) :: code
     code = check_created(valve%c_handle(), 'the valve')
     if (code == RIIS_OK) code = riis_surface_options_init(surface, c_sizeof(surface))
     if (code == RIIS_OK) code = riis_area_search_init(search, c_sizeof(search))
@@ -319,8 +319,8 @@ contains
                                                             !! all nodes.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(riis_surface_options), target :: surface
     integer(riis_status) :: code
+    type(riis_surface_options), target :: surface
     code = riis_surface_options_init(surface, c_sizeof(surface))
     if (present(half_thickness)) surface%half_thickness = half_thickness
     if (present(tolerance)) surface%tolerance = tolerance
@@ -352,8 +352,8 @@ contains
                                                             !! all nodes.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(riis_surface_options), target :: surface
     integer(riis_status) :: code
+    type(riis_surface_options), target :: surface
     code = riis_surface_options_init(surface, c_sizeof(surface))
     if (present(half_thickness)) surface%half_thickness = half_thickness
     if (present(tolerance)) surface%tolerance = tolerance

@@ -87,8 +87,8 @@ contains
     class(riis_mesh), intent(inout) :: this                 !< Must be empty.
     real(c_double), intent(in), target :: xyz(:, :)         !< (3, n_nodes), any positive stride; finite; borrowed.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(strided_points) :: points
     integer(riis_status) :: code
+    type(strided_points) :: points
     call points_of(xyz, 'xyz', points, code)
     call create_mesh(this, points, code)
     call finish(code, status)
@@ -101,8 +101,8 @@ contains
     real(c_double), intent(in), target :: y(:)              !< (n_nodes), any positive stride; finite; borrowed.
     real(c_double), intent(in), target :: z(:)              !< (n_nodes), any positive stride; finite; borrowed.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(strided_points) :: points
     integer(riis_status) :: code
+    type(strided_points) :: points
     call points_of(x, y, z, points, code)
     call create_mesh(this, points, code)
     call finish(code, status)
@@ -146,8 +146,8 @@ contains
     class(riis_mesh), intent(inout) :: this                 !< Must be created.
     real(c_double), intent(in), target :: xyz(:, :)         !< (3, n_nodes), any positive stride; finite; borrowed.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(strided_points) :: points
     integer(riis_status) :: code
+    type(strided_points) :: points
     call points_of(xyz, 'xyz', points, code)
     call update_mesh(this, points, code)
     call finish(code, status)
@@ -160,8 +160,8 @@ contains
     real(c_double), intent(in), target :: y(:)              !< (n_nodes), any positive stride; finite; borrowed.
     real(c_double), intent(in), target :: z(:)              !< (n_nodes), any positive stride; finite; borrowed.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(strided_points) :: points
     integer(riis_status) :: code
+    type(strided_points) :: points
     call points_of(x, y, z, points, code)
     call update_mesh(this, points, code)
     call finish(code, status)
@@ -204,8 +204,8 @@ contains
     class(riis_mesh), intent(inout) :: this                 !< Must be empty.
     real(real32), intent(in), contiguous, target :: xyz(:, :) !< (3, n_nodes), finite.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(riis_points) :: nodes
     integer(riis_status) :: code
+    type(riis_points) :: nodes
     code = riis_points_init(nodes, c_sizeof(nodes))
     if (code == RIIS_OK .and. size(xyz, 1) /= 3) &
       code = refuse('the first extent of xyz is ' // text_of(size(xyz, 1)) // '; it must be 3')
@@ -228,8 +228,8 @@ contains
     class(riis_mesh), intent(inout) :: this                 !< Must be empty.
     real(real64), intent(in), contiguous, target :: xyz(:, :) !< (3, n_nodes), finite.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(riis_points) :: nodes
     integer(riis_status) :: code
+    type(riis_points) :: nodes
     code = riis_points_init(nodes, c_sizeof(nodes))
     if (code == RIIS_OK .and. size(xyz, 1) /= 3) &
       code = refuse('the first extent of xyz is ' // text_of(size(xyz, 1)) // '; it must be 3')
@@ -254,8 +254,8 @@ contains
     real(real32), intent(in), contiguous, target :: y(:) !< (n_nodes), finite.
     real(real32), intent(in), contiguous, target :: z(:) !< (n_nodes), finite.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(riis_points) :: nodes
     integer(riis_status) :: code
+    type(riis_points) :: nodes
     code = riis_points_init(nodes, c_sizeof(nodes))
     nodes%n_points = size(x, kind=int64)
     nodes%real_bits = storage_size(x)
@@ -279,8 +279,8 @@ contains
     real(real64), intent(in), contiguous, target :: y(:) !< (n_nodes), finite.
     real(real64), intent(in), contiguous, target :: z(:) !< (n_nodes), finite.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(riis_points) :: nodes
     integer(riis_status) :: code
+    type(riis_points) :: nodes
     code = riis_points_init(nodes, c_sizeof(nodes))
     nodes%n_points = size(x, kind=int64)
     nodes%real_bits = storage_size(x)
@@ -302,8 +302,8 @@ contains
     class(riis_mesh), intent(inout) :: this                 !< Must be created.
     real(real32), intent(in), contiguous, target :: xyz(:, :) !< (3, n_nodes), finite.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(riis_points) :: nodes
     integer(riis_status) :: code
+    type(riis_points) :: nodes
     code = riis_points_init(nodes, c_sizeof(nodes))
     if (code == RIIS_OK .and. size(xyz, 1) /= 3) &
       code = refuse('the first extent of xyz is ' // text_of(size(xyz, 1)) // '; it must be 3')
@@ -326,8 +326,8 @@ contains
     class(riis_mesh), intent(inout) :: this                 !< Must be created.
     real(real64), intent(in), contiguous, target :: xyz(:, :) !< (3, n_nodes), finite.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(riis_points) :: nodes
     integer(riis_status) :: code
+    type(riis_points) :: nodes
     code = riis_points_init(nodes, c_sizeof(nodes))
     if (code == RIIS_OK .and. size(xyz, 1) /= 3) &
       code = refuse('the first extent of xyz is ' // text_of(size(xyz, 1)) // '; it must be 3')
@@ -352,8 +352,8 @@ contains
     real(real32), intent(in), contiguous, target :: y(:) !< (n_nodes), finite.
     real(real32), intent(in), contiguous, target :: z(:) !< (n_nodes), finite.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(riis_points) :: nodes
     integer(riis_status) :: code
+    type(riis_points) :: nodes
     code = riis_points_init(nodes, c_sizeof(nodes))
     nodes%n_points = size(x, kind=int64)
     nodes%real_bits = storage_size(x)
@@ -377,8 +377,8 @@ contains
     real(real64), intent(in), contiguous, target :: y(:) !< (n_nodes), finite.
     real(real64), intent(in), contiguous, target :: z(:) !< (n_nodes), finite.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(riis_points) :: nodes
     integer(riis_status) :: code
+    type(riis_points) :: nodes
     code = riis_points_init(nodes, c_sizeof(nodes))
     nodes%n_points = size(x, kind=int64)
     nodes%real_bits = storage_size(x)
@@ -411,8 +411,8 @@ contains
                                                             !! size(x), size(x) * size(y).
     class(*), intent(in), optional :: n_nodes               !< integer: the length of the caller's arrays. Default: the least.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(riis_grid) :: grid
     integer(riis_status) :: code
+    type(riis_grid) :: grid
     code = riis_grid_init(grid, c_sizeof(grid))
     grid%ni = size(x, kind=int64)
     grid%nj = size(y, kind=int64)
@@ -441,8 +441,8 @@ contains
                                                             !! size(x), size(x) * size(y).
     class(*), intent(in), optional :: n_nodes               !< integer: the length of the caller's arrays. Default: the least.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(riis_grid) :: grid
     integer(riis_status) :: code
+    type(riis_grid) :: grid
     code = riis_grid_init(grid, c_sizeof(grid))
     grid%ni = size(x, kind=int64)
     grid%nj = size(y, kind=int64)
@@ -471,8 +471,8 @@ contains
                                                             !! size(x), size(x) * size(y).
     class(*), intent(in), optional :: n_nodes               !< integer: the length of the caller's arrays. Default: the least.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(riis_grid) :: grid
     integer(riis_status) :: code
+    type(riis_grid) :: grid
     code = riis_grid_init(grid, c_sizeof(grid))
     grid%ni = size(x, kind=int64)
     grid%nj = size(y, kind=int64)
@@ -501,8 +501,8 @@ contains
                                                             !! size(x), size(x) * size(y).
     class(*), intent(in), optional :: n_nodes               !< integer: the length of the caller's arrays. Default: the least.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(riis_grid) :: grid
     integer(riis_status) :: code
+    type(riis_grid) :: grid
     code = riis_grid_init(grid, c_sizeof(grid))
     grid%ni = size(x, kind=int64)
     grid%nj = size(y, kind=int64)
@@ -629,9 +629,9 @@ contains
     class(*), intent(in), optional :: n_all                 !< integer: n_nodes plus the ghost nodes, which columns may name and
                                                             !! which are ignored. Default: n_nodes.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    integer(riis_status) :: code
     type(riis_csr) :: csr
     integer(int64) :: n_offsets, n_columns
-    integer(riis_status) :: code
     n_offsets = size(offsets, kind=int64)
     n_columns = size(columns, kind=int64)
     code = check_rows(this, n_offsets, is_contiguous(offsets), n_columns, is_contiguous(columns))
@@ -657,9 +657,9 @@ contains
     class(*), intent(in), optional :: n_all                 !< integer: n_nodes plus the ghost nodes, which columns may name and
                                                             !! which are ignored. Default: n_nodes.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    integer(riis_status) :: code
     type(riis_csr) :: csr
     integer(int64) :: n_offsets, n_columns
-    integer(riis_status) :: code
     n_offsets = size(offsets, kind=int64)
     n_columns = size(columns, kind=int64)
     code = check_rows(this, n_offsets, is_contiguous(offsets), n_columns, is_contiguous(columns))
@@ -685,9 +685,9 @@ contains
     class(*), intent(in), optional :: n_all                 !< integer: n_nodes plus the ghost nodes, which columns may name and
                                                             !! which are ignored. Default: n_nodes.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    integer(riis_status) :: code
     type(riis_csr) :: csr
     integer(int64) :: n_offsets, n_columns
-    integer(riis_status) :: code
     n_offsets = size(offsets, kind=int64)
     n_columns = size(columns, kind=int64)
     code = check_rows(this, n_offsets, is_contiguous(offsets), n_columns, is_contiguous(columns))
@@ -713,9 +713,9 @@ contains
     class(*), intent(in), optional :: n_all                 !< integer: n_nodes plus the ghost nodes, which columns may name and
                                                             !! which are ignored. Default: n_nodes.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    integer(riis_status) :: code
     type(riis_csr) :: csr
     integer(int64) :: n_offsets, n_columns
-    integer(riis_status) :: code
     n_offsets = size(offsets, kind=int64)
     n_columns = size(columns, kind=int64)
     code = check_rows(this, n_offsets, is_contiguous(offsets), n_columns, is_contiguous(columns))
@@ -772,8 +772,8 @@ contains
     class(riis_mesh), intent(inout) :: this                 !< Must be created.
     class(riis_adjacency), intent(in) :: adjacency          !< Must be created. Destroy it after the mesh.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(riis_csr) :: csr
     integer(riis_status) :: code
+    type(riis_csr) :: csr
     code = check_created(this%handle, 'the mesh')
     if (code == RIIS_OK) code = check_created(adjacency%c_handle(), 'adjacency')
     if (code == RIIS_OK) code = riis_adjacency_get_csr(adjacency%c_handle(), csr, c_sizeof(csr))
@@ -797,8 +797,8 @@ contains
     class(riis_mesh), intent(inout) :: this                 !< Must be created.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    integer(int32) :: threads
     integer(riis_status) :: code
+    integer(int32) :: threads
     threads = 0
     code = check_created(this%handle, 'the mesh')
     call get_integer(n_threads, 'n_threads', threads, code)

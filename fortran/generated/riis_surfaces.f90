@@ -13,25 +13,39 @@ module riis_surfaces
   public :: riis_surface, riis_triangles, riis_attachment
 
   !> Pointers to the triangles of a surface, after placement, from %get_triangles. The surface owns the arrays, which count from
-  !! 1.
+  !! 1. Ids count from 0: vertex_id + 1 are columns of xyz. An array that the surface lacks has the size 0.
   type :: riis_triangles
     real(c_double), pointer :: xyz(:, :) => null()          !< (3, n_vertices): the vertices.
-    real(c_double), pointer :: uv(:, :) => null()           !< (2, n_vertices): the vertices' u and v on patches, in [0, 1]; (2,
-                                                            !! 0) for a surface from arrays.
-    real(c_double), pointer :: velocity(:, :) => null()     !< (3, n_vertices): the vertices' velocities; (3, 0) unless the last
-                                                            !! update gave velocities.
-    integer(int64), pointer :: vertex_id(:, :) => null()    !< (3, n_triangles), from 0: vertex_id + 1 is the column of xyz.
-    integer(int64), pointer :: triangle_id(:) => null()     !< (n_triangles), ascending, from 0: the ids that queries report.
-    integer(int32), pointer :: leaflet_id(:) => null()      !< (n_triangles): RIIS_LEAFLET_*, or the caller's.
-    integer(int32), pointer :: patch_id(:) => null()        !< (n_triangles), from 0, as in riis.h.
+    real(c_double), pointer :: uv(:, :) => null()           !< (2, n_vertices): each vertex's u and v on its patch, in [0,1].
+    real(c_double), pointer :: velocity(:, :) => null()     !< (3, n_vertices): each vertex's velocity. Where closed cusps meet,
+                                                            !! each vertex has the velocity of its own cusp.
+    integer(int64), pointer :: vertex_id(:, :) => null()    !< (3, n_triangles): their vertices.
+    integer(int64), pointer :: triangle_id(:) => null()     !< (n_triangles), ascending: the id that queries report; 0, 1, 2, ...
+                                                            !! for a valve.
+    integer(int32), pointer :: leaflet_id(:) => null()      !< (n_triangles): RIIS_LEAFLET_*, or the caller's from patches and
+                                                            !! arrays.
+    integer(int32), pointer :: patch_id(:) => null()        !< (n_triangles). A surface from arrays has 0, and 1 for its skirt.
+                                                            !! Patches of the caller have their numbers from 0. A valve of n
+                                                            !! cusps has 4 * leaflet, plus 0 for the bottom, 1 for the top, 2 and
+                                                            !! 3 for their mirror images, plus 4 * n in a fused part. The
+                                                            !! anterior mitral leaflet has 0 for the triangle at the
+                                                            !! posteromedial commissure, 1 for the side, 2 for the middle, and 3,
+                                                            !! 4, 5 for the mirror images of 2, 1, 0. The posterior mitral
+                                                            !! leaflet has 6 for a side scallop, 7 for half of the middle
+                                                            !! scallop, and 8 and 9 for the mirror images of 7 and 6. A bileaflet
+                                                            !! valve has 2 * leaflet, plus 0 or 1 for the half, and 4 to 7 for
+                                                            !! the quarters of the ring. A skirt has the id of the patch that it
+                                                            !! continues, plus the number of patch ids without the skirt: 10 for
+                                                            !! mitral, 12 for three cusps without a fused commissure.
   end type riis_triangles
 
-  !> Pointers to the attachment of a valve's surface, by %get_attachment. The surface owns the arrays, which count from 1.
+  !> Pointers to the attachment of a valve's surface, by %get_attachment. The surface owns the arrays, which count from 1. Ids
+  !! count from 0.
   type :: riis_attachment
     real(c_double), pointer :: edges(:, :, :) => null()     !< (3, 2, n_edges): both ends of each edge, after placement.
-    integer(int64), pointer :: vertex_id(:, :) => null()    !< (2, n_edges), from 0: the vertices at the ends.
+    integer(int64), pointer :: vertex_id(:, :) => null()    !< (2, n_edges): the vertices at the ends, in riis_triangles%xyz.
     integer(int32), pointer :: leaflet_id(:) => null()      !< (n_edges): the leaflet that is attached there.
-    integer(int32), pointer :: patch_id(:) => null()        !< (n_edges), from 0: its patch, as in riis_triangles.
+    integer(int32), pointer :: patch_id(:) => null()        !< (n_edges): its patch, as in riis_triangles.
   end type riis_attachment
 
   !> A surface of triangles with a half thickness, which answers closest-point queries. It borrows nothing from the caller. It is
@@ -109,6 +123,7 @@ contains
     real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units. Default 0.
     logical, intent(in), optional :: flip_normals           !< .true. reverses every triangle. Default .false.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    integer(riis_status) :: code
     integer(int32), intent(in), optional :: measure         !< RIIS_MEASURE_*: how distances are measured from now on. Default
                                                             !! RIIS_MEASURE_TRIANGLES.
     real(c_double), intent(in), optional :: measure_tolerance !< For the other methods: a fraction of half_thickness, 1e-6 to
@@ -122,7 +137,6 @@ contains
     real(c_double), intent(in), optional :: offset          !< By how many half thicknesses the band steps aside along the
                                                             !! normals, above -1 and below 1. Default 0.
     type(riis_surface_options) :: options
-    integer(riis_status) :: code
     code = RIIS_OK
     call create_options(this, options, code)
     if (code == RIIS_OK) code = check_created(valve%c_handle(), 'valve')
@@ -149,13 +163,13 @@ contains
     real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units.
     logical, intent(in), optional :: flip_normals           !< .true. reverses every triangle.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    integer(riis_status) :: code
     integer(int32), intent(in), optional :: measure         !< RIIS_MEASURE_*.
     real(c_double), intent(in), optional :: measure_tolerance !< 1e-6 to 1, or RIIS_AUTO.
     integer(int32), intent(in), optional :: n_threads       !< 0 to 1024.
     integer(int32), intent(in), optional :: triangulation   !< RIIS_TRIANGULATION_*.
     real(c_double), intent(in), optional :: offset          !< Half thicknesses, above -1 and below 1.
     type(riis_surface_options) :: options
-    integer(riis_status) :: code
     code = RIIS_OK
     call update_options(this, options, code)
     if (code == RIIS_OK) code = check_created(valve%c_handle(), 'valve')
@@ -195,9 +209,9 @@ contains
     real(c_double), intent(in), optional :: rotation_angle_before !< Degrees.
     real(c_double), intent(in), optional :: translation_before(:) !< (3), mesh units.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    integer(riis_status) :: code
     real(c_double), intent(in), optional :: offset          !< Half thicknesses, above -1 and below 1.
     type(riis_surface_options) :: options, before
-    integer(riis_status) :: code
     code = RIIS_OK
     call update_options(this, options, code)
     if (code == RIIS_OK) code = check_created(valve%c_handle(), 'valve')
@@ -241,8 +255,8 @@ contains
     real(c_double), intent(in), optional :: rotation_angle_before !< Degrees.
     real(c_double), intent(in), optional :: translation_before(:) !< (3), mesh units.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(riis_surface_options) :: after, before
     integer(riis_status) :: code
+    type(riis_surface_options) :: after, before
     code = RIIS_OK
     call update_options(this, after, code)
     if (code == RIIS_OK) code = check_created(valve_after%c_handle(), 'valve_after')
@@ -755,10 +769,10 @@ contains
     logical, intent(in), optional :: flip_normals           !< .true. reverses every triangle.
     integer(int32), intent(in), optional :: n_threads       !< 0 to 1024.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    integer(riis_status) :: code
     real(c_double), intent(in), optional :: offset          !< Half thicknesses, above -1 and below 1.
     type(riis_surface_options) :: options
     real(c_double) :: step
-    integer(riis_status) :: code
     step = 0
     if (present(dt)) step = dt
     code = RIIS_OK
@@ -790,10 +804,10 @@ contains
     logical, intent(in), optional :: flip_normals           !< .true. reverses every triangle.
     integer(int32), intent(in), optional :: n_threads       !< 0 to 1024.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    integer(riis_status) :: code
     real(c_double), intent(in), optional :: offset          !< Half thicknesses, above -1 and below 1.
     type(riis_surface_options) :: options
     real(c_double) :: step
-    integer(riis_status) :: code
     step = 0
     if (present(dt)) step = dt
     code = RIIS_OK
@@ -867,8 +881,8 @@ contains
     class(riis_surface), intent(in) :: this                 !< Must be created.
     type(riis_triangles), intent(inout) :: triangles        !< Every component is set.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(c_triangles) :: made
     integer(riis_status) :: code
+    type(c_triangles) :: made
     made = c_triangles(0, c_null_ptr, c_null_ptr, c_null_ptr, 0, c_null_ptr, c_null_ptr, c_null_ptr, c_null_ptr)
     code = check_created(this%handle, 'the surface')
     if (code == RIIS_OK) code = riis_surface_get_triangles(this%handle, made, c_sizeof(made))
@@ -892,9 +906,9 @@ contains
     real(c_double), pointer, intent(inout) :: rate(:, :)    !< (3, n_vertices): the derivative of each vertex by the parameter, in
                                                             !! mesh units divided by the parameter's unit.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    integer(riis_status) :: code
     real(c_double), intent(out), optional :: area_rate      !< The derivative of the surface's area.
     type(riis_direction) :: made
-    integer(riis_status) :: code
     made = riis_direction(0, c_null_ptr, 0)
     code = check_created(this%handle, 'the surface')
     if (code == RIIS_OK) code = riis_surface_get_direction(this%handle, direction_id, made, c_sizeof(made))
@@ -913,8 +927,8 @@ contains
     class(riis_surface), intent(in) :: this                 !< Must be created.
     type(riis_attachment), intent(inout) :: attachment      !< Every component is set.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(c_attachment) :: made
     integer(riis_status) :: code
+    type(c_attachment) :: made
     made = c_attachment(0, c_null_ptr, c_null_ptr, c_null_ptr, c_null_ptr)
     code = check_created(this%handle, 'the surface')
     if (code == RIIS_OK) code = riis_surface_get_attachment(this%handle, made, c_sizeof(made))
@@ -931,8 +945,8 @@ contains
     real(c_double), intent(in) :: point(:)                  !< (3), magnitude at most 1e60.
     type(riis_closest), intent(inout) :: closest            !< Unchanged on an error.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    real(c_double) :: the_point(3)
     integer(riis_status) :: code
+    real(c_double) :: the_point(3)
     code = check_created(this%handle, 'the surface')
     if (code == RIIS_OK .and. size(point) /= 3) &
       code = refuse('the size of point is ' // text_of(size(point)) // '; it must be 3')

@@ -13,19 +13,25 @@ module riis_valves
   public :: riis_valve, riis_parameter_info, riis_valve_patches
 
   !> Pointers to the curves and patches of a valve, by riis_valve%get_patches. The valve owns the arrays, which are valid until
-  !! the valve changes.
+  !! the valve changes. The arrays count from 1. Pieces, curves and ids count from 0.
   type :: riis_valve_patches
-    integer(int64), pointer, contiguous :: first_piece(:) => null() !< (n_curves + 1): the pieces of curve i, counted from 0, are
-                                                                 !! first_piece(i) to first_piece(i + 1) - 1, counted from 0.
-    integer(int32), pointer, contiguous :: degree(:) => null()   !< (n_pieces): 2 or 3.
-    real(c_double), pointer, contiguous :: control(:, :) => null() !< (3, sum(degree + 1)): control points, piece after piece.
-    integer(int32), pointer, contiguous :: curve_id(:, :) => null() !< (4, n_patches): the curves at v = 0, v = 1, u = 0, u = 1,
-                                                                 !! counted from 0.
-    integer(int32), pointer, contiguous :: reversed(:, :) => null() !< (4, n_patches): 1 if the side runs against its curve.
-    integer(int32), pointer, contiguous :: leaflet_id(:) => null() !< (n_patches): from 0.
-    integer(int32), pointer, contiguous :: patch_id(:) => null() !< (n_patches): from 0.
-    integer(int32), pointer, contiguous :: attached(:) => null() !< (n_patches): the side that is attached, 0 to 3, or -1.
-    real(c_double), pointer, contiguous :: bulge(:) => null()    !< (n_patches): 0 for a Coons patch, as in riis.h.
+    integer(int64), pointer, contiguous :: first_piece(:) => null() !< (n_curves + 1): the pieces of curve i are first_piece(i +
+                                                            !! 1) to first_piece(i + 2) - 1.
+    integer(int32), pointer, contiguous :: degree(:) => null() !< (n_pieces): 2 or 3.
+    real(c_double), pointer, contiguous :: control(:, :) => null() !< (3, sum of all degree + 1): control points, piece after
+                                                            !! piece.
+    integer(int32), pointer, contiguous :: curve_id(:, :) => null() !< (4, n_patches): the curves at v = 0, v = 1, u = 0, u = 1.
+    integer(int32), pointer, contiguous :: reversed(:, :) => null() !< (4, n_patches): 1 if the side runs against its curve, else
+                                                            !! 0.
+    integer(int32), pointer, contiguous :: leaflet_id(:) => null() !< (n_patches): as in riis_triangles.
+    integer(int32), pointer, contiguous :: patch_id(:) => null() !< (n_patches): as in riis_triangles.
+    integer(int32), pointer, contiguous :: attached(:) => null() !< (n_patches): the side that is attached, 0 to 3 in the order
+                                                            !! of curve_id, or -1.
+    real(c_double), pointer, contiguous :: bulge(:) => null() !< (n_patches): 0 for a Coons patch. With another number, the line
+                                                            !! at each u is an arc from v = 0 to v = 1. W is the vector from v
+                                                            !! = 0 to v = 1 at this u, and T is the unit tangent of the side v
+                                                            !! = 0. The arc's middle control point lies bulge |W| unit(W x T)
+                                                            !! beside the middle of the straight line.
   end type riis_valve_patches
 
   !> The description of a parameter.
@@ -116,10 +122,10 @@ contains
                                                                  !! Default .false.
     integer(int32), intent(in), contiguous, optional, target :: leaflet_id(:) !< (n_patches), >= 0. Default 0.
     class(*), intent(in), optional :: index_base                 !< integer, 0 or 1: the first curve's number. Default 1.
-    integer(riis_status), intent(out), optional :: status        !< RIIS_OK or the error. Without it an error stops the program.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    integer(riis_status) :: code
     type(riis_patches) :: patches
     integer(int32), allocatable, target :: reversed_sides(:, :)
-    integer(riis_status) :: code
     integer :: stat
 
     code = check_not_created(this%handle, 'the valve')
@@ -158,7 +164,7 @@ contains
     logical, intent(in), optional :: reversed(:, :)              !< (4, n_patches). Default .false.
     integer(int64), intent(in), optional :: leaflet_id(:)        !< (n_patches), >= 0. Default 0.
     class(*), intent(in), optional :: index_base                 !< integer, 0 or 1. Default 1.
-    integer(riis_status), intent(out), optional :: status        !< RIIS_OK or the error. Without it an error stops the program.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(riis_status) :: code
     code = check_fits(degree, 'degree')
     if (code == RIIS_OK) code = check_fits(reshape(curve_id, [size(curve_id, kind=int64)]), 'curve_id')
@@ -295,8 +301,8 @@ contains
     class(riis_valve), intent(in) :: this                   !< Must be created.
     character(len=*), intent(in) :: name                    !< As in %get. Trailing blanks do not matter.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    logical :: is_set                                       !< .true. if it was set.
     integer(riis_status) :: code
+    logical :: is_set                                       !< .true. if it was set.
     integer(int32) :: found
     character(len=len_trim(name) + 1, kind=c_char) :: c_name
     found = 0
@@ -330,8 +336,8 @@ contains
     class(riis_warp), intent(in), optional :: closed        !< The warp at opening 0. Must be created.
     class(riis_warp), intent(in), optional :: open          !< The warp at opening 1. Must be created. Default: closed.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(c_ptr) :: handles(2)
     integer(riis_status) :: code
+    type(c_ptr) :: handles(2)
     handles = c_null_ptr
     code = check_created(this%handle, 'the valve')
     if (present(closed)) then
@@ -352,21 +358,21 @@ contains
     class(riis_valve), intent(inout) :: this                !< Must be created.
     type(riis_valve_patches), intent(inout) :: patches      !< Every component is set, on an error to null.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(c_valve_patches) :: made
     integer(riis_status) :: code
+    type(c_valve_patches) :: made
     patches = riis_valve_patches()
     code = check_created(this%handle, 'the valve')
     if (code == RIIS_OK) code = riis_valve_get_patches(this%handle, made, c_sizeof(made))
     if (code == RIIS_OK) then
-      call c_f_pointer(made%first_piece, patches%first_piece, [made%n_curves + 1])
-      call c_f_pointer(made%degree, patches%degree, [made%n_pieces])
+      if (c_associated(made%first_piece)) call c_f_pointer(made%first_piece, patches%first_piece, [made%n_curves + 1])
+      if (c_associated(made%degree)) call c_f_pointer(made%degree, patches%degree, [made%n_pieces])
+      if (c_associated(made%curve_id)) call c_f_pointer(made%curve_id, patches%curve_id, [4_int64, made%n_patches])
+      if (c_associated(made%reversed)) call c_f_pointer(made%reversed, patches%reversed, [4_int64, made%n_patches])
+      if (c_associated(made%leaflet_id)) call c_f_pointer(made%leaflet_id, patches%leaflet_id, [made%n_patches])
+      if (c_associated(made%patch_id)) call c_f_pointer(made%patch_id, patches%patch_id, [made%n_patches])
+      if (c_associated(made%attached)) call c_f_pointer(made%attached, patches%attached, [made%n_patches])
+      if (c_associated(made%bulge)) call c_f_pointer(made%bulge, patches%bulge, [made%n_patches])
       call c_f_pointer(made%control, patches%control, [3_int64, sum(int(patches%degree, int64) + 1)])
-      call c_f_pointer(made%curve_id, patches%curve_id, [4_int64, made%n_patches])
-      call c_f_pointer(made%reversed, patches%reversed, [4_int64, made%n_patches])
-      call c_f_pointer(made%leaflet_id, patches%leaflet_id, [made%n_patches])
-      call c_f_pointer(made%patch_id, patches%patch_id, [made%n_patches])
-      call c_f_pointer(made%attached, patches%attached, [made%n_patches])
-      call c_f_pointer(made%bulge, patches%bulge, [made%n_patches])
     end if
     call finish(code, status)
   end subroutine valve_get_patches
@@ -375,8 +381,8 @@ contains
   function valve_n_parameters(this, status) result(n)
     class(riis_valve), intent(in) :: this                   !< Must be created.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    integer(int64) :: n                                     !< >= 1.
     integer(riis_status) :: code
+    integer(int64) :: n                                     !< >= 1.
     n = 0
     code = check_created(this%handle, 'the valve')
     if (code == RIIS_OK) code = riis_valve_get_n_parameters(this%handle, n)
@@ -398,9 +404,9 @@ contains
     integer(int64), intent(in) :: number                    !< From 1 to %n_parameters().
     type(riis_parameter_info), intent(inout) :: info        !< Gets copies of the texts and values.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    integer(riis_status) :: code
     type(riis_parameter) :: parameter
     integer(int64) :: n
-    integer(riis_status) :: code
     code = check_created(this%handle, 'the valve')
     n = 0
     if (code == RIIS_OK) code = riis_valve_get_n_parameters(this%handle, n)

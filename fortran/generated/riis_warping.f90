@@ -47,10 +47,10 @@ contains
     real(c_double), intent(in), optional :: rotation_angle  !< Degrees. Default 0.
     real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units. Default 0.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    integer(riis_status) :: code
     type(riis_warp_options) :: options
     type(riis_surface_options), target :: placement
     type(riis_points) :: points
-    integer(riis_status) :: code
     code = check_not_created(this%handle, 'the warp')
     if (code == RIIS_OK) code = riis_warp_options_init(options, c_sizeof(options))
     if (code == RIIS_OK) code = riis_surface_options_init(placement, c_sizeof(placement))
@@ -85,8 +85,8 @@ contains
     class(riis_warp), intent(inout) :: this                 !< Must be created.
     real(c_double), intent(in), contiguous, target :: targets(:, :) !< (3, n): as many as the sources, in their order.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(riis_points) :: points
     integer(riis_status) :: code
+    type(riis_points) :: points
     code = check_created(this%handle, 'the warp')
     call get_points(targets, 'targets', points, code)
     if (code == RIIS_OK) code = riis_warp_set_targets(this%handle, points)
@@ -104,8 +104,8 @@ contains
                                                             !! first key and after the last.
     class(*), intent(in), optional :: interpolation         !< integer, RIIS_INTERPOLATION_*. Default RIIS_INTERPOLATION_LINEAR.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(riis_keyframe_arrays) :: frames
     integer(riis_status) :: code
+    type(riis_keyframe_arrays) :: frames
     code = check_created(this%handle, 'the warp')
     if (code == RIIS_OK .and. size(xyz, 1) /= 3) &
       code = refuse('the first extent of xyz is ' // text_of(size(xyz, 1)) // '; it must be 3')
@@ -129,8 +129,8 @@ contains
     real(c_double), intent(in), contiguous, target :: points(:, :) !< (3, n).
     real(c_double), intent(out), contiguous :: mapped(:, :) !< (3, n).
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(riis_points) :: given
     integer(riis_status) :: code
+    type(riis_points) :: given
     code = check_created(this%handle, 'the warp')
     call get_points(points, 'points', given, code)
     if (code == RIIS_OK .and. any(shape(mapped) /= shape(points))) &

@@ -170,10 +170,10 @@ typedef struct riis_dense_arrays {
   int64_t n_nodes;      /* the number of nodes of the marking, 0 for empty marks */
   double far_distance;  /* the number that the array `distance` gets for nodes that are masked out or beyond the limit: NaN, or
                            any value outside [0, distance limit]. Default RIIS_FAR_DISTANCE */
-  uint8_t *mark;        /* 1 for marked nodes, 0 for others */
-  double *distance;     /* the distance of nodes within the distance limit, far_distance for others */
-  int64_t *triangle_id; /* the closest triangle of nodes within the distance limit, -1 for others */
-  int32_t *leaflet_id;  /* the leaflet of this triangle, -1 for others */
+  uint8_t *mark;        /* (n_nodes): 1 for marked nodes, 0 for others */
+  double *distance;     /* (n_nodes): the distance of nodes within the distance limit, far_distance for others */
+  int64_t *triangle_id; /* (n_nodes): the closest triangle of nodes within the distance limit, -1 for others */
+  int32_t *leaflet_id;  /* (n_nodes): the leaflet of this triangle, -1 for others */
 } riis_dense_arrays;
 RIIS_API riis_status riis_dense_arrays_init(riis_dense_arrays *arrays, int64_t struct_size); /* the defaults */
 /* Writes the marks to every entry of the caller's arrays.

@@ -24,11 +24,11 @@ for name in test_calls test_objects test_meshes test_marking test_resistance tes
     error_stop; do
   "$flang" -O0 "$tests/$name.f90" ./*.o "${link[@]}" -o "$name"
 done
-for name in test_f77 test_f77_motion test_f77_loads test_f77_arrays; do
+for name in test_f77 test_f77_motion test_f77_forces; do
   "$flang" -O0 -I"$source/fortran/generated" "$tests/$name.f" "$tests/f77_checks.f" ./riis*.o "${link[@]}" -o "$name"
 done
 for name in test_calls test_objects test_meshes test_marking test_resistance test_components test_laws test_frames test_f2003 \
-    test_f77 test_f77_motion test_f77_loads test_f77_arrays; do
+    test_f77 test_f77_motion test_f77_forces; do
   echo "$name"
   "./$name"
 done

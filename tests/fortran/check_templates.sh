@@ -35,10 +35,10 @@ check() {
   return "$status"
 }
 
-# refused TEXT: `check` must refuse $scratch/copy with an error that contains TEXT.
+# refused TEXT: `check` must refuse $scratch/fortran with an error that contains TEXT.
 refused() {
   local errors
-  if errors=$(check "$scratch/copy" 2>&1); then
+  if errors=$(check "$scratch/fortran" 2>&1); then
     echo "accepted, though: $1" >&2
     exit 1
   fi
@@ -48,35 +48,39 @@ refused() {
   fi
 }
 
-# The damaged copies need only two sources and their templates.
+# The damaged copies need only three sources and their templates, and the headers.
 copy() {
   local name
-  rm -rf "$scratch/copy"
-  mkdir -p "$scratch/copy/templates" "$scratch/copy/generated"
-  cp "$folder/expand_templates.sh" "$scratch/copy"
-  cp "$folder/templates/kinds.fypp" "$scratch/copy/templates"
-  for name in riis_meshes riis_frames; do
-    cp "$folder/generated/$name.f90" "$scratch/copy/generated"
-    cp "$folder/templates/$name.fypp" "$scratch/copy/templates"
+  rm -rf "$scratch/fortran" "$scratch/include"
+  mkdir -p "$scratch/fortran/templates" "$scratch/fortran/generated"
+  cp -r "$folder/../include" "$scratch"
+  cp -r "$folder/bindings" "$folder/expand_templates.sh" "$scratch/fortran"
+  cp "$folder/templates/kinds.fypp" "$scratch/fortran/templates"
+  for name in riis_meshes riis_frames riis_crossing; do
+    cp "$folder/generated/$name.f90" "$scratch/fortran/generated"
+    cp "$folder/templates/$name.fypp" "$scratch/fortran/templates"
   done
 }
 
 check "$folder" >&2
 ls "$scratch/expanded"
 copy
-check "$scratch/copy" >&2
-sed -i 's/must be one more/must be more/' "$scratch/copy/generated/riis_meshes.f90"
+check "$scratch/fortran" >&2
+sed -i 's/must be one more/must be more/' "$scratch/fortran/generated/riis_meshes.f90"
 refused 'riis_meshes.f90 is not what its template expands to'
 copy
-sed -i 's/must be one more/must be more/' "$scratch/copy/templates/riis_meshes.fypp"
+sed -i 's/must be one more/must be more/' "$scratch/fortran/templates/riis_meshes.fypp"
 refused 'riis_meshes.f90 is not what its template expands to'
 copy
-rm "$scratch/copy/templates/riis_meshes.fypp"
+rm "$scratch/fortran/templates/riis_meshes.fypp"
 refused 'riis_meshes.f90 says that it is generated, and has no template'
 copy
-echo '#:endfor' >>"$scratch/copy/templates/riis_meshes.fypp"
-refused "riis_meshes.fypp:$(wc -l <"$scratch/copy/templates/riis_meshes.fypp"): error:"
+sed -i 's|^} riis_crossing_list;|  double planted; /* planted */\n&|' "$scratch/include/riis/queries.h"
+refused '+    real(c_double) :: planted = 0                           !< Planted.'
 copy
-printf '! %130d\n' 0 >>"$scratch/copy/templates/riis_meshes.fypp"
-"$scratch/copy/expand_templates.sh"
+echo '#:endfor' >>"$scratch/fortran/templates/riis_meshes.fypp"
+refused "riis_meshes.fypp:$(wc -l <"$scratch/fortran/templates/riis_meshes.fypp"): error:"
+copy
+printf '! %130d\n' 0 >>"$scratch/fortran/templates/riis_meshes.fypp"
+"$scratch/fortran/expand_templates.sh"
 refused '132 columns; at most 130'

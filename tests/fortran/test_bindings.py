@@ -20,7 +20,7 @@ from header import with_included
 
 HEADER, TABLE, SUBROUTINES = generate.HEADER, generate.TABLE, generate.SUBROUTINES
 HEADERS = [os.path.relpath(path, SOURCES) for path in with_included(os.path.join(SOURCES, HEADER))]
-MODULE, FIXED, EXTERNAL, INTERFACES = generate.WIDTHS
+MODULE, FIXED, EXTERNAL, INTERFACES, PUBLISHED = generate.WIDTHS
 BEFORE_FUNCTION = "/* Destroys the valve. Surfaces"  # a comment of a header; functions are planted before it
 IN_LAST_HEADER = "/* The phases of a switch. */"
 FUNCTION = "RIIS_API riis_status riis_valve_planted(const riis_valve *valve, {});\n"
@@ -97,7 +97,7 @@ class Planted(unittest.TestCase):
 class Committed(Planted):
     def test_is_what_is_generated(self):
         status, text = self.run_it("--check")
-        self.assertEqual((status, text), (0, "4 of 4 files were as they should be\n"))
+        self.assertEqual((status, text), (0, "5 of 5 files were as they should be\n"))
 
     def test_a_line_by_hand_is_seen_and_shown(self):
         for path, line in ((MODULE, "    integer(c_int64_t) :: n_curves\n"), (FIXED, "      PARAMETER (RIIS_OK = 0)\n"),
@@ -198,6 +198,7 @@ class Constants(Planted):
                       "  integer(riis_status), parameter :: RIIS_UNAVAILABLE = 9\n", self.text(MODULE))
         self.assertIn("\n      INTEGER(SELECTED_INT_KIND(9)) RIIS_PLANTED\n      PARAMETER (RIIS_PLANTED = -2)\n",
                       self.text(FIXED))
+        self.assertIn(", RIIS_PLANTED, ", self.text(PUBLISHED))
 
     def test_an_enum_of_its_own(self):
         self.plant(HEADER, "/* Options of a marking. */", "enum {\n  RIIS_PLANTED_A = 0, /* , */\n  RIIS_PLANTED_B = 12\n};\n"

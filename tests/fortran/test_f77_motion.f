@@ -30,10 +30,10 @@ C     The velocity is the shift divided by the step.
       INTEGER*8 VALVE(2), SURF, WARP
       INTEGER STAT, N, M, I, C, K
       DOUBLE PRECISION XYZ(3,8), TO(3,8), AXIS(3), ZERO(3), SHIFT(3)
-      DOUBLE PRECISION A(3,MAXV), B(3,MAXV), V(3,MAXV), DT, OPEN(1)
+      DOUBLE PRECISION A(3,MAXV), B(3,MAXV), V(3,MAXV), DT
       SAVE A, B, V
       DATA AXIS /0D0, 0D0, 1D0/, ZERO /0D0, 0D0, 0D0/
-      DATA SHIFT /0.02D0, -0.01D0, 0.03D0/, DT /0.25D0/, OPEN /0.4D0/
+      DATA SHIFT /0.02D0, -0.01D0, 0.03D0/, DT /0.25D0/
       SURF = 0
       WARP = 0
       DO 20 I = 1, 8
@@ -54,18 +54,14 @@ C     The velocity is the shift divided by the step.
       CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'n_points is 7')
       DO 30 I = 1, 2
         VALVE(I) = 0
-        CALL RIISF_VALVE_CREATE('trileaflet', VALVE(I), STAT)
-        CALL OK(STAT)
-        CALL RIISF_VALVE_SET(VALVE(I), 'opening', 1, OPEN, STAT)
-        CALL OK(STAT)
+        CALL VALVEOF('trileaflet', VALVE(I))
+        CALL SETONE(VALVE(I), 'opening', 0.4D0)
         CALL RIISF_VALVE_SET_WARP(VALVE(I), WARP, 0_8, STAT)
         CALL OK(STAT)
    30 CONTINUE
       CALL RIISF_VALVE_SET_WARP(VALVE(1), 0_8, WARP, STAT)
       CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'closed')
-      CALL RIISF_SURFACE_CREATE(VALVE(1), 0.1D0, 0.05D0, 1D0, AXIS,
-     &  0D0, ZERO, SURF, STAT)
-      CALL OK(STAT)
+      CALL HERE(VALVE(1), 0.1D0, SURF)
       CALL RIISF_SURFACE_VERTICES(SURF, MAXV, N, A, STAT)
       CALL OK(STAT)
       DO 60 K = 1, 2
@@ -477,8 +473,7 @@ C     surface is a square at z = 0.1 that rises with the speed 1.5.
      &  0.2D0) CALL FAILED('a limit')
 
 C     A surface with distances by sampling has no sides.
-      CALL RIISF_VALVE_CREATE('aortic', VALVE, STAT)
-      CALL OK(STAT)
+      CALL VALVEOF('aortic', VALVE)
       CALL RIISF_SURFACE_MEASURE(SURF, VALVE, 0.12D0, 0.05D0, 1D0, AXIS,
      &  0D0, ZERO, RIIS_MEASURE_SAMPLING, 0.1D0, STAT)
       CALL OK(STAT)
@@ -494,20 +489,15 @@ C     opening, and an adapted triangulation does not.
       SUBROUTINE FIXED
       INCLUDE 'riisf.h'
       INTEGER*8 SURF, VALVE
-      DOUBLE PRECISION AXIS(3), ZERO(3), XYZ(3,20000), A(1)
+      DOUBLE PRECISION AXIS(3), ZERO(3), XYZ(3,20000)
       INTEGER STAT, N(2), K, J
       SAVE XYZ
       DATA SURF, VALVE /2*0/, AXIS /0D0, 0D0, 1D0/, ZERO /3*0D0/
-      CALL RIISF_VALVE_CREATE('mitral', VALVE, STAT)
-      CALL OK(STAT)
-      CALL RIISF_SURFACE_CREATE(VALVE, RIIS_AUTO, 0.05D0, 1D0, AXIS,
-     &  0D0, ZERO, SURF, STAT)
-      CALL OK(STAT)
+      CALL VALVEOF('mitral', VALVE)
+      CALL HERE(VALVE, RIIS_AUTO, SURF)
       DO 20 K = RIIS_TRIANGULATION_ADAPTED, RIIS_TRIANGULATION_FIXED
         DO 10 J = 1, 2
-          A(1) = 0.3D0 * J
-          CALL RIISF_VALVE_SET(VALVE, 'opening', 1, A, STAT)
-          CALL OK(STAT)
+          CALL SETONE(VALVE, 'opening', 0.3D0 * J)
           IF (J .EQ. 1) CALL RIISF_SURFACE_TRIANGULATE(SURF, VALVE,
      &      RIIS_AUTO, 0.05D0, 1D0, AXIS, 0D0, ZERO, K, STAT)
           IF (J .EQ. 2) CALL RIISF_SURFACE_UPDATE(SURF, VALVE, STAT)
@@ -518,9 +508,7 @@ C     opening, and an adapted triangulation does not.
         IF (K .EQ. RIIS_TRIANGULATION_FIXED .NEQV. N(1) .EQ. N(2))
      &    CALL FAILED('fixed triangles')
    20 CONTINUE
-      A(1) = 3D0
-      CALL RIISF_VALVE_SET(VALVE, 'surface_angle', 1, A, STAT)
-      CALL OK(STAT)
+      CALL SETONE(VALVE, 'surface_angle', 3D0)
       CALL RIISF_SURFACE_UPDATE(SURF, VALVE, STAT)
       CALL WANT(STAT, RIIS_INVALID_PARAMETER, 'surface_angle')
       CALL RIISF_SURFACE_TRIANGULATE(SURF, VALVE, RIIS_AUTO, 0.05D0,

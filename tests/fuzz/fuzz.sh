@@ -4,11 +4,26 @@
 #   fuzz.sh test BUILD_DIR HARNESS             runs one harness for RIIS_FUZZ_TEST_SECONDS (9) and keeps only findings
 #   fuzz.sh all BUILD_DIR SECONDS N_JOBS OUT   runs all harnesses for SECONDS altogether, N_JOBS at a time, and prints a table.
 #                                              OUT keeps the harnesses' logs and findings, and their corpora for the next run.
+#   fuzz.sh add HARNESS FILE                   adds an input to corpus.txt, with which each run of the harness begins
+#   fuzz.sh inputs FOLDER                      writes the inputs of corpus.txt as files FOLDER/HARNESS/NAME
 # RIIS_FUZZ_SEED is the seed of the mutations: 1 by default; "random" draws one. The seed is printed. The script fails if there is
 # a finding.
 set -euo pipefail
 here=$(dirname -- "$(readlink -f -- "$0")")
 mode=$1 build=$2
+
+# write_inputs FOLDER: writes the inputs of corpus.txt as files FOLDER/HARNESS/NAME.
+write_inputs() {
+  local file
+  for file in "${harnesses[@]}"; do mkdir -p "$1/$file"; done
+  awk -v folder="$1" '
+    /^== / { if (file) close(file); file = folder "/" $2 ($3 == "base64" ? ".base64" : ""); printf "" >file; next }
+    file { print >file }' "$here/corpus.txt"
+  find "$1" -name '*.base64' | while read -r file; do
+    base64 -d <"$file" >"${file%.base64}"
+    rm "$file"
+  done
+}
 
 seed=${RIIS_FUZZ_SEED:-1}
 [[ $seed != random ]] || seed=$(od -An -N4 -tu4 /dev/urandom | tr -d ' ')
@@ -67,7 +82,9 @@ run_test() {
   learnt=$(mktemp -d)
   trap 'rm -rf "$learnt"' EXIT
   echo "seed $seed"
-  fuzz "$name" "${RIIS_FUZZ_TEST_SECONDS:-9}" "$build/findings/$name" "$learnt" "$here/corpus/$name"
+  write_inputs "$learnt/inputs"
+  mkdir "$learnt/new"
+  fuzz "$name" "${RIIS_FUZZ_TEST_SECONDS:-9}" "$build/findings/$name" "$learnt/new" "$learnt/inputs/$name"
 }
 
 run_all() {
@@ -76,6 +93,8 @@ run_all() {
   for name in "${harnesses[@]}"; do parts=$((parts + shares[$name])); done
   ((n_jobs <= ${#harnesses[@]})) || n_jobs=${#harnesses[@]}
   echo "seed $seed; logs, corpora and findings in $out"
+  rm -rf "$out/inputs"
+  write_inputs "$out/inputs"
   for name in "${harnesses[@]}"; do
     while (($(jobs -rp | wc -l) >= n_jobs)); do wait -n || true; done
     mine=$((seconds * n_jobs * shares[$name] / parts))
@@ -87,7 +106,7 @@ run_all() {
     # The run begins with the earlier findings. The run reports a finding again if the fault still exists.
     find "$out/$name/findings" -type f -exec mv -t "$out/$name/corpus" {} +
     echo "$name: $mine s"
-    fuzz "$name" "$mine" "$out/$name/findings" "$out/$name/corpus" "$here/corpus/$name" >"$out/$name/log" 2>&1 </dev/null &
+    fuzz "$name" "$mine" "$out/$name/findings" "$out/$name/corpus" "$out/inputs/$name" >"$out/$name/log" 2>&1 </dev/null &
   done
   wait || true
   printf '%-13s %11s %6s %6s %6s %7s %9s\n' harness executions per_s cov ft corpus findings
@@ -110,6 +129,8 @@ run_all() {
 case $mode in
   test) run_test "$3" ;;
   all) run_all "$3" "$4" "$5" ;;
+  add) { echo "== $2/$(basename "$3") base64" && base64 -w 100 "$3"; } >>"$here/corpus.txt" ;;
+  inputs) write_inputs "$2" ;;
   *)
     echo "fuzz.sh: no mode '$mode'" >&2
     exit 2

@@ -2,10 +2,11 @@
 #include "parallel/threads.hpp"
 
 #include <pthread.h>
+#if defined(__APPLE__)
+#include <dlfcn.h>
+#endif
 
 #include <atomic>
-
-#include "parallel/stay_loaded.hpp"
 
 namespace riis {
 namespace {
@@ -14,6 +15,18 @@ std::atomic<bool> are_used{false}, are_lost{false};
 
 void begin_child() {
   if (are_used) are_lost = true;
+}
+
+// Keeps the library's code in memory once threads may run it, even if a plug-in that uses riis is closed. On Linux the linker's
+// option -z nodelete does that (cmake/RiisPlatform.cmake). Darwin's linker has no option like -z nodelete. `address` is that of
+// some code or data of the library.
+void stay_loaded([[maybe_unused]] const void *address) noexcept {
+#if defined(__APPLE__)
+  // The library's file is opened a second time and never closed, so the loader keeps it. A program that contains a static riis
+  // does not need this, so it does no harm if the file cannot be opened.
+  Dl_info file{};
+  if (dladdr(address, &file) != 0) static_cast<void>(dlopen(file.dli_fname, RTLD_LAZY | RTLD_NOLOAD | RTLD_NODELETE));
+#endif
 }
 
 }  // namespace

@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tests which runs examples/svmultiphysics/check.py refuses: it gets recorded runs, and copies with one fault each."""
+"""Tests which runs examples/svmultiphysics/check.py refuses: it gets recorded runs, and copies with one fault each.
+
+In recorded.txt, a line "== RUN/FILE" begins a file of a run."""
 import pathlib
+import re
 import sys
 import unittest
 
@@ -9,17 +12,15 @@ sys.path.insert(0, str(HERE.parent))
 from judged import Judged  # noqa: E402
 
 CHECK = str(HERE.parents[2] / "examples/svmultiphysics/check.py")
-RECORDED = HERE / "recorded"
+_, *RECORDED = re.split(r"^== (.*)\n", (HERE / "recorded.txt").read_text(encoding="ascii"), flags=re.MULTILINE)
 
 
 def tables_of(*runs):
-    paths = [path for run in runs for path in sorted((RECORDED / run).rglob("*")) if path.is_file()]
-    return {str(path.relative_to(RECORDED)): path.read_text(encoding="ascii") for path in paths}
+    return {path: text for path, text in zip(RECORDED[::2], RECORDED[1::2]) if path.split("/")[0] in runs}
 
 
 def judge(command, *words):
-    runs = [word for word in words if (RECORDED / word).is_dir()]
-    return Judged(CHECK, tables_of(*runs), command, *words)
+    return Judged(CHECK, tables_of(*words), command, *words)
 
 
 def fault(judged, table, column, value, where=lambda row: True):
