@@ -41,12 +41,13 @@ Sought sought_by(const std::string &name) {
   return name == "opening" ? Sought::opening : name == "scale" ? Sought::scale : Sought::parameter;
 }
 
-// The range to search, and a value. If several values fit, the one nearest to this value is wanted.
+// The range to search. If several values fit, the value nearest to `near` is wanted.
 struct Values {
   double from, to, near;
 };
 
-// Makes surfaces of a valve at one value after the other. AreaTrials calls the public functions, whose messages refuse bad input.
+// Makes a surface of the valve for each value that the search tries. AreaTrials calls the public functions, which refuse bad
+// input.
 class AreaTrials {
  public:
   AreaTrials(const riis::Valve &valve, const char *name, const riis_area_search &search)
@@ -220,7 +221,7 @@ riis_status riis_find_by_area(const riis_valve *valve, const char *name, int64_t
     points.reserve(static_cast<std::size_t>(n_areas));
     for (std::int64_t i = 0; i < n_areas; ++i) {
       auto point = found.find(areas[i], searched.near, whole.tolerance);
-      // Slits remain between closed leaflets, so the area 0 stands for the least area.
+      // Slits remain between closed leaflets, so no opening has the area 0. The area 0 therefore stands for the least area.
       if (!point && areas[i] == 0 && trials.seeks_opening()) point = found.least();
       if (!point) trials.fail_out_of_reach(i, areas[i], found, searched);
       points.push_back(*point);

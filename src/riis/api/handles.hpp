@@ -42,7 +42,7 @@ enum class HandleKind : std::uint64_t {
 };
 
 // The calls that use a handle now. While a call writes a handle, a call of another thread that uses it fails instead of crashing
-// (riis.h, "Threads"). Calls that only read count themselves without waiting, and order nothing between each other.
+// (riis.h, "Threads"). Calls that only read count themselves without waiting, and impose no order on each other.
 class Uses {
  public:
   // Returns false if a call of another thread excludes this one.
@@ -62,7 +62,7 @@ class Uses {
   bool is_readable() const noexcept { return !is_written_.load() || is_inherited(); }
 
  private:
-  // The calls of another process's threads never end in this child of fork().
+  // In a child of fork(), calls that the parent's threads had begun never end.
   bool is_inherited() const noexcept { return getpid() != maker_; }
   bool is_unread() const noexcept {
     const std::uint64_t n_ended = n_ended_.load(std::memory_order_acquire);
@@ -119,7 +119,7 @@ riis_status guarded_with_handles(Body &&body) noexcept {
 }
 
 // Returns the handle, or fails if it is null or of another kind, or if a call of another thread excludes this one. A call writes
-// the handles that it does not take as const. A call that is short is not counted, because many threads would wait for the count.
+// the handles that it does not take as const. Short calls are not counted, because many threads would wait for the count.
 template <class AnyHandle>
 AnyHandle *require_handle(AnyHandle *handle, const char *argument, bool is_counted = true) {
   require(handle, argument);

@@ -52,7 +52,7 @@ class Bulge {
   // Returns the start of the arc at u.
   Vec3 on_base(double u) const { return base_.at(u); }
 
-  // Bounds the distance of O(u) from its linear interpolation between two places, for all u from one place to a later place. The
+  // Bounds the distance of O(u) from its linear interpolation between a place and a later place, for all u between them. The
   // bound falls with the square of the distance. If W becomes parallel to T, O has no direction, and the bound stays at 2
   // |factor| |W|. The function refines the bound only until it is at most `enough`.
   double linear_error(const Place &from, const Place &to, double enough) const;

@@ -1,7 +1,6 @@
-// SPDX-License-Identifier: Apache-2.0
-// Kernels compute sixteen floats or eight doubles at a time. Kernels are compiled once for each instruction set, and one set is
-// chosen at run time. This header has only plain data and declarations. The compiler would compile a function body for several
-// instruction sets under one name.
+// SPDX-License-Identifier: Apache-2.0 Kernels compute sixteen floats or eight doubles at a time. Kernels are compiled once for
+// each instruction set, and one set is chosen at run time. This header has only plain data and declarations, because a function
+// body would be compiled for several instruction sets under one name.
 //
 // FilterKernels compute in single precision, and only rule out pairs that cannot matter. Results are accurate to filter_error
 // (docs/theory/clusters.md). Coordinates are in the surface's frame: relative to the surface's middle, and scaled by a power of
@@ -32,7 +31,7 @@ struct alignas(64) TriangleGroup {
   float bc_e[triangles_per_group], bc_f[triangles_per_group], bc_middle[triangles_per_group],
       bc_side[triangles_per_group];
 };
-constexpr float beyond_limits = 0x1p40f;  // its square is finite, and farther than any limit of a filter
+constexpr float beyond_limits = 0x1p40f;  // its square is finite, and above the square of any limit of a filter
 
 // The coordinates of a group's corners: x, y and z of the first corners, then of the second corners, then of the third corners.
 struct alignas(64) GroupCorners {
@@ -136,8 +135,8 @@ struct ClusterTask {
   int32_t n_listed, next_listed;
   int32_t node[most_listed + 16], group[most_listed + 16];
   float nearest_sq[most_listed + 16];       // the square of the node's distance to the group
-  uint16_t triangles[most_listed + 16];     // the group's triangles that are at this distance, to the tolerance
-  uint16_t in_band[most_listed + 16];       // some of these triangles, which do not leave the node out of the band
+  uint16_t triangles[most_listed + 16];     // the group's triangles at this distance, up to the tolerance
+  uint16_t in_band[most_listed + 16];       // the part of `triangles` that does not leave the node out of the band
   FilterLimits limits[leaves_per_cluster];  // by the leaf's position
   alignas(64) float xyz[3][nodes_per_cluster];
   float best[nodes_per_cluster];         // the least of reach_sq and of all computed squares of distances
@@ -201,8 +200,8 @@ struct FilterKernels {
   // For each candidate group, writes a bit for each box within the group's reach. Returns false if no box is within any reach.
   bool (*near_boxes)(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
                      uint16_t *near);
-  // Clears the bits of boxes beyond the reach of the box that a group has along its own axes. If only one side of the surface
-  // counts, also clears all bits of a box that all groups leave out. Returns false if no box is left. `near` comes from
+  // Each group also has a box along its own axes. Clears the bits of boxes beyond the reach of this box. If only one side of the
+  // surface counts, also clears all bits of a box that all groups leave out. Returns false if no box is left. `near` comes from
   // near_boxes, so lanes without a box have no bits.
   bool (*near_own_boxes)(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
                          uint16_t *near);

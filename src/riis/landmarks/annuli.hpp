@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: Apache-2.0
-// These checks are used for landmarks along an annulus and along a housing.
+// SPDX-License-Identifier: Apache-2.0 Checks of landmarks along an annulus or along a housing.
 #pragma once
 
 #include "geometry/vec3.hpp"

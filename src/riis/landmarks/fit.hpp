@@ -136,7 +136,7 @@ struct LandmarkFit {
   std::size_t n_unknowns;  // sizes that are not held, and the pose
 };
 
-// Changes the model's sizes. Fits from each of the poses with the model's values, and keeps the best result.
+// Fits the model's sizes and the pose. Begins with the model's sizes and each of the poses in turn, and keeps the best result.
 LandmarkFit fit(LandmarkModel &model, const Landmarks &landmarks, const std::vector<Pose> &starts);
 
 // Returns whether the general model fits the landmarks better than the simple model only by chance. The sizes of the simple model

@@ -1,6 +1,6 @@
-// SPDX-License-Identifier: Apache-2.0
-// From the order of landmarks around a valve's axis, finds the leaflet of each nadir and the two leaflets beside each commissure.
-// Some landmarks may name their leaflets. The result is the landmarks in the order of the leaflets.
+// SPDX-License-Identifier: Apache-2.0 Finds the leaflet of each nadir, and the two leaflets beside each commissure, from the
+// order of landmarks around a valve's axis. Some landmarks may name their leaflets. The result is the landmarks in the order of
+// the leaflets.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@ namespace riis {
 struct LeafletsAround {
   std::vector<std::string> names;  // in the order of leaflet ids
   const char *seen_along_flow;     // the direction from leaflet to leaflet: "clockwise" if blood flows along +z
-  // The end of the message if landmarks lack names, or null if the leaflets need no names. Without names, leaflet 0 is at the
+  // The end of a message about landmarks without names, or null if the leaflets need no names. Without names, leaflet 0 is at the
   // first nadir.
   const char *why_names;
 

@@ -145,7 +145,7 @@ class Mesh {
     edges_.forget();
   }
 
-  // Returns the nodes in balls. Several threads may call this function and the next two at once.
+  // Returns the nodes in balls. Several threads may call this function and the next two functions at once.
   const NodeBalls &balls(int n_threads) const;
   // Returns the nodes in clusters. The mesh must have at most max_clustered_nodes nodes.
   const Clusters &clusters(int n_threads) const;

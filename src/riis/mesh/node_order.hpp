@@ -243,13 +243,13 @@ class NodeSorter {
     return {nodes_per_leaf, std::clamp(static_cast<std::int64_t>(along + 0.5f), std::int64_t{2}, most)};
   }
 
-  // Returns how many leaves lie along the longest side of a box, if each leaf is as wide as it is long. In a narrower
-  // box, a leaf fills the width of the box.
+  // Returns how many leaves lie along the longest side of a box, if each leaf is as wide as it is long. If the box is narrower
+  // than such a leaf, a leaf fills the width of the box.
   static float leaves_along(const NodeBox &box, float n_leaves) {
     float side[3];
     for (int i = 0; i < 3; ++i) side[i] = box.upper[i] - box.lower[i];
     std::sort(side, side + 3);
-    const float middle = side[1] / side[2], least = side[0] / side[2];  // not numbers if all nodes are in one place
+    const float middle = side[1] / side[2], least = side[0] / side[2];  // NaN if all nodes are in one place
     float edge = 1 / n_leaves;                                          // as a share of the longest side
     if (middle > edge) edge = std::sqrt(middle / n_leaves);
     if (least > edge) edge = static_cast<float>(cube_root(middle * least / n_leaves));

@@ -36,8 +36,8 @@ class Threads {
 };
 
 // Returns whether this process may use several threads, and records the use. A child of fork() may not use several threads if the
-// library had used them before the fork. The child lacks these threads, so the run-times of OpenMP and TBB would wait for them
-// for ever.
+// library used several threads before the fork. The child lacks these threads, so the run-times of OpenMP and TBB would wait for
+// them for ever.
 bool begin_threads() noexcept;
 
 // Returns whether this process is a child of fork() that may not use several threads.
