@@ -41,8 +41,8 @@ class ClosestPoints {
         to_(to) {}
 
   void write() {
-    // The tree is built now, so that a failure comes before anything is written. The tree is needed for queries if memory runs
-    // out later.
+    // If memory runs out later, the points are queried one by one, which needs the tree. The tree is built now, so that a failure
+    // comes before anything is written.
     scene_.build_tree();
     const int n_threads = request_.n_threads;
     if (!are_enough_for_clusters(wanted_.n, surface_)) {

@@ -161,7 +161,7 @@ class ClusterSearch {
       list_near_regions();
       n_near = view(own_.near_regions).size();
     } else {
-      n_near = nodes_.n_regions();  // the grid's box is around the surface
+      n_near = nodes_.n_regions();  // all regions are near, because the grid's box is around the surface
     }
     constexpr std::int64_t few = 64;  // searching this many regions takes a few tenths of a millisecond
     const int n_ran = parallel_for(n_near, request_.n_threads.for_part(n_near, few), [&](std::int64_t i, int thread) {

@@ -1,6 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0
-// Makes the triangles of grids, image by image. The adapted and the fixed triangulation share this code. From grids with the
-// levels of their quads, this file makes placed vertices and the triangles between them.
+// SPDX-License-Identifier: Apache-2.0 Makes the triangles of grids, image by image. The adapted and the fixed triangulation share
+// this code. This file makes placed vertices, and the triangles between them, from grids with the levels of their quads.
 #pragma once
 
 #include <cstddef>
@@ -89,7 +88,7 @@ class Tiles {
   std::int64_t n_vertices_ = 0, room_ = 0;
 };
 
-// Returns whether a triangle was left out that nothing in the set replaces.
+// Returns true if nothing in the set replaces this triangle, which was left out.
 bool is_missed(const TriangleSet &set, const LeftOut &triangle);
 
 // Returns the triangulation's request, with the allowed error reduced by the patches' own deviation. Fails if the remaining error

@@ -100,7 +100,7 @@ class QuadGroups {
   Vector<std::int32_t> ends_;
 };
 
-// After the triangles of all tiles were moved together, joins the groups of all tiles. `ends` has the ends of each tile's groups.
+// Joins the groups of all tiles, after the triangles of all tiles were moved together. `ends` has the ends of each tile's groups.
 void join(const Vector<Tile> &tiles, const Vector<Vector<std::int32_t>> &ends, Grouping &joined) {
   std::int32_t n = 0;
   joined.end.clear();
