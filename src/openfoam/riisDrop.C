@@ -91,7 +91,7 @@ labelList sidesOf(const fvMesh &mesh, const scalarField &K, const riis_mark_list
   return side;
 }
 
-// On both sides, chooses the cells that keep the pressure 1 or 0. Between the chosen cells and the band there are more than four
+// Chooses the cells on both sides that keep the pressure 1 or 0. Between the chosen cells and the band there are more than four
 // cells, or fewer if the mesh ends sooner. If an edge between cell centres is not orthogonal to its face, the solver corrects the
 // flow by the gradient in the cells. Beside the band, the correction includes the gradient in the band. The pressure beside the
 // band must therefore be free to balance the correction.

@@ -63,7 +63,7 @@ void diagonalise(Matrix &a, Matrix &vectors) {
 }  // namespace
 
 // B. Horn, "Closed-form solution of absolute orientation using unit quaternions", J. Opt. Soc. Am. A 4 (1987): the rotation is
-// the eigenvector of a matrix of 4 x 4 that belongs to the largest eigenvalue.
+// the eigenvector of a 4 x 4 matrix for its largest eigenvalue.
 riisRigid::riisRigid(const pointField &atRest, const pointField &now, scalar &gap) {
   gap = 0;
   const label n = atRest.size();

@@ -1,7 +1,6 @@
-// SPDX-License-Identifier: Apache-2.0
-// The bileaflet mechanical valve. Two rigid flat leaflets in a round housing turn about their hinges (docs/theory/bileaflet.md).
-// From the parameters of two states and the opening, this file makes the patches of the two leaflets. If ring_height is not 0, it
-// also makes the patches of the housing's wall.
+// SPDX-License-Identifier: Apache-2.0 The bileaflet mechanical valve. Two rigid flat leaflets in a round housing turn about their
+// hinges (docs/theory/bileaflet.md). This file makes the patches of the two leaflets from the parameters of two states and the
+// opening. If ring_height is not 0, it also makes the patches of the housing's wall.
 #include <riis/riis.h>
 
 #include <algorithm>

@@ -29,9 +29,9 @@ constexpr double least_sine_to_axis = 0.2;
 // If the sine of a side's angle to the plane across the axis is at least `least_rise`, the skirt leans as the side's tangent
 // does. Beside a flatter side the skirt leans less, and beside a side in the plane across the axis the skirt does not lean.
 constexpr double least_rise = 0.5;
-// If a skirt is turned at rest, small turns by the warp are added to its place at rest. If the warp turns the skirt by
-// `most_turn_as_at_rest` or more, the whole turn counts. For turns between small turns and `most_turn_as_at_rest`, the skirt
-// changes gradually from one rule to the other.
+// In some valves the skirt is not turned at rest, although its rule gives a turn there. If a warp hardly changes this turn, the
+// skirt is turned only by the change. If the warp changes the turn by `most_turn_as_at_rest` or more, the skirt is turned by the
+// whole new turn. In between, the turn passes gradually from one value to the other.
 constexpr double most_turn_as_at_rest = pi / 4;
 // A disc about the axis has `n_corners` corners when it is warped.
 constexpr int n_corners = 24;

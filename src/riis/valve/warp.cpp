@@ -291,8 +291,8 @@ double WarpLandmarks::solve(double lambda) {
 }
 
 // Returns the lambda at which the sum of squares of all residuals is a given share of its expected value. The noise gives the
-// expected value, 3 noise^2 for each free landmark. The sum of squares grows with lambda, so at most one lambda gives the
-// expected value. Returns infinity if even the affine map has a smaller sum.
+// expected value, 3 noise^2 for each free landmark. The sum of squares grows with lambda, so at most one lambda gives the wanted
+// share. Returns infinity if even the affine map has a smaller sum.
 double WarpLandmarks::smoothing_for_noise() {
   const double noise = noise_ / size_, wanted = residual_share * 3 * noise * noise * static_cast<double>(n_free_);
   if (wanted == 0) return 0;

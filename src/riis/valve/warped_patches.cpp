@@ -348,8 +348,8 @@ void map_outer_points(const PatchSet &made, const Patch &patch, const LabelGrid 
     }
 }
 
-// Fails if a part of the warped patch is turned over relative to the mapped patch. Slivers are not checked: cells that are
-// slivers before the warp, after it, or when only their corners are mapped.
+// Fails if a part of the warped patch is turned over relative to the mapped patch. A cell is not checked if it is a sliver before
+// the warp, after the warp, or with only its corners mapped.
 void check_turns(const LabelGrid &before, const PatchImage &image, const LabelGrid &now, const MappedGrid &mapped) {
   const auto at_mapped = [&](std::size_t i, std::size_t j) -> const Vec3 & {
     return mapped[j * (n_fold_cells + 1) + i];

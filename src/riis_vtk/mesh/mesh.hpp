@@ -119,7 +119,7 @@ struct VolumeEdges {
 };
 VolumeEdges volume_edges_of(vtkUnstructuredGrid *grid);
 
-// Returns the edges that are longer than a given length. The bounding box of an edge must also meet the box from lower to upper.
+// Chooses the edges that are longer than a given length, and whose bounding box meets the box from lower to upper.
 struct LongEdges {
   LongEdges(double longer_than, const double *box_lower, const double *box_upper)
       : least_square(longer_than * (1 - 1e-9) * (longer_than * (1 - 1e-9))), lower(box_lower), upper(box_upper) {}
@@ -135,7 +135,7 @@ VolumeEdges long_edges_of(vtkUnstructuredGrid *grid, const double *xyz, const Lo
 // Returns the median of the lengths, or 0 if there are no lengths.
 double median_of(std::vector<double> lengths);
 inline constexpr std::int64_t most_measured =
-    20'000;  // cells or pairs of cells that a median is of, at equal distances in the list
+    20'000;  // a median is taken over at most this many cells or pairs of cells, evenly spaced in the list
 
 // Returns the median length of the edges of faces and volumes, or 0 if no edge is known. An edge of several cells counts once for
 // each cell.
