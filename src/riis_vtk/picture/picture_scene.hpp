@@ -178,12 +178,12 @@ class Scene {
   vtkSmartPointer<vtkUnstructuredGrid> grid_;
   vtkSmartPointer<vtkPolyData> triangles_;
   SurfacePanel surface_;
-  std::optional<MarksPanel> marks_;  // not set without a mesh, with a flow, and if the picture shows only the surface
+  std::optional<MarksPanel> marks_;  // missing if there is no mesh, if there is a flow, or if only the surface is shown
   std::optional<FlowPanel> flow_;    // takes the place of the marks
   vtkSmartPointer<vtkPointSet> around_;  // the grid, or the wall of the options; NULL if there is neither
   std::optional<Shell> shell_;           // set if there is a grid or a wall
   std::vector<std::string> title_;
-  std::vector<PanelTexts> texts_;  // of the panels, without that of the flow
+  std::vector<PanelTexts> texts_;  // of the panels, except the flow's panel
   vtkNew<vtkCamera> camera_;
   vtkNew<vtkRenderWindow> window_;
   vtkSmartPointer<vtkRenderer> behind_;

@@ -490,7 +490,7 @@ class GmshFile {
   std::optional<NodeTags> tags_;
   std::map<std::array<std::int64_t, 2>, std::vector<std::int64_t>> groups_;  // by dimension and entity
   PlainGrid mesh_;
-  static constexpr std::size_t most_groups = 16;  // further ones of an element
+  static constexpr std::size_t most_groups = 16;  // further groups of an element
   Groups physical_;
   std::vector<Groups> further_;
   std::vector<std::string> names_;  // numbers and names of groups of volumes, in turn

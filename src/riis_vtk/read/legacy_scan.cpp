@@ -148,8 +148,8 @@ class Scan {
     return text;
   }
 
-  // Returns the next word in lower case, or "" at the end of the file. Mostly, the format does not distinguish capital letters
-  // from small letters.
+  // Returns the next word in lower case, or "" at the end of the file. In most places, the format does not distinguish capital
+  // letters from small letters.
   std::string word() { return lower_case(word_as_it_is()); }
 
   // The next two functions return the next word, and fail at the end of the file.
