@@ -1,6 +1,7 @@
-// SPDX-License-Identifier: Apache-2.0 Kernels compute sixteen floats or eight doubles at a time. Kernels are compiled once for
-// each instruction set, and one set is chosen at run time. This header has only plain data and declarations, because a function
-// body would be compiled for several instruction sets under one name.
+// SPDX-License-Identifier: Apache-2.0
+// Kernels compute sixteen floats or eight doubles at a time. Kernels are compiled once for each instruction set, and one set is
+// chosen at run time. This header has only plain data and declarations, because a function body would be compiled for several
+// instruction sets under one name.
 //
 // FilterKernels compute in single precision, and only rule out pairs that cannot matter. Results are accurate to filter_error
 // (docs/theory/clusters.md). Coordinates are in the surface's frame: relative to the surface's middle, and scaled by a power of

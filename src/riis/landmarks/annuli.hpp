@@ -1,4 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 Checks of landmarks along an annulus or along a housing.
+// SPDX-License-Identifier: Apache-2.0
+// Checks of landmarks along an annulus or along a housing.
 #pragma once
 
 #include "geometry/vec3.hpp"

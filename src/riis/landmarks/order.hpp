@@ -1,6 +1,6 @@
-// SPDX-License-Identifier: Apache-2.0 Finds the leaflet of each nadir, and the two leaflets beside each commissure, from the
-// order of landmarks around a valve's axis. Some landmarks may name their leaflets. The result is the landmarks in the order of
-// the leaflets.
+// SPDX-License-Identifier: Apache-2.0
+// Finds the leaflet of each nadir, and the two leaflets beside each commissure, from the order of landmarks around a valve's
+// axis. Some landmarks may name their leaflets. The result is the landmarks in the order of the leaflets.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,7 @@
-// SPDX-License-Identifier: Apache-2.0 The nodes of a grid in leaves, clusters and regions, as the search over clusters needs
-// them. Leaves, clusters and regions are bricks of nodes, so the axes give their boxes. A thread fills the leaves of one cluster
-// at a time. Only the nodes within a box of the grid, near a surface, are included.
+// SPDX-License-Identifier: Apache-2.0
+// The nodes of a grid in leaves, clusters and regions, as the search over clusters needs them. Leaves, clusters and regions are
+// bricks of nodes, so the axes give their boxes. A thread fills the leaves of one cluster at a time. Only the nodes within a box
+// of the grid, near a surface, are included.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
-// SPDX-License-Identifier: Apache-2.0 Makes the triangles of grids, image by image. The adapted and the fixed triangulation share
-// this code. This file makes placed vertices, and the triangles between them, from grids with the levels of their quads.
+// SPDX-License-Identifier: Apache-2.0
+// Makes the triangles of grids, image by image. The adapted and the fixed triangulation share this code. This file makes placed
+// vertices, and the triangles between them, from grids with the levels of their quads.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,7 @@
-// SPDX-License-Identifier: Apache-2.0 The bileaflet mechanical valve. Two rigid flat leaflets in a round housing turn about their
-// hinges (docs/theory/bileaflet.md). This file makes the patches of the two leaflets from the parameters of two states and the
-// opening. If ring_height is not 0, it also makes the patches of the housing's wall.
+// SPDX-License-Identifier: Apache-2.0
+// The bileaflet mechanical valve. Two rigid flat leaflets in a round housing turn about their hinges (docs/theory/bileaflet.md).
+// This file makes the patches of the two leaflets from the parameters of two states and the opening. If ring_height is not 0, it
+// also makes the patches of the housing's wall.
 #include <riis/riis.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
-// SPDX-License-Identifier: Apache-2.0 A smooth map of space that landmarks determine (docs/theory/warp.md): an affine map plus a
-// function |r|^3 for each landmark. This file computes the map's values and derivatives from the landmarks at rest and their
-// present places.
+// SPDX-License-Identifier: Apache-2.0
+// A smooth map of space that landmarks determine (docs/theory/warp.md): an affine map plus a function |r|^3 for each landmark.
+// This file computes the map's values and derivatives from the landmarks at rest and their present places.
 #pragma once
 
 #include <cstddef>
