@@ -139,8 +139,8 @@ riis_status create_handle(AnyHandle **handle, const char *argument) noexcept {
   });
 }
 
-// The body of a destroy function. A handle of another kind, or in use by another thread, is not destroyed, because a leak of
-// memory is better than freeing it as the wrong type or too early.
+// The body of a destroy function. A handle of another kind is not destroyed, and neither is a handle that another thread uses. A
+// leak is better than memory that is freed as the wrong type or too early.
 template <class AnyHandle>
 void destroy_handle(AnyHandle **handle, const char *argument) noexcept {
   if (!handle || !*handle) return;

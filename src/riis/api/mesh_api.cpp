@@ -86,7 +86,7 @@ std::unique_ptr<const riis::Grid> checked_grid(const riis_grid *given) {
   return std::make_unique<const riis::Grid>(std::move(axes), whole.first, stride, n_numbers);
 }
 
-// Refuses an edge at a number that has no node.
+// Some numbers of a grid may have no node. Refuses an edge at such a number.
 void check_rows_of_grid(const riis::Adjacency &rows, const riis::MeshNodes &nodes) {
   for (std::int64_t i = 0; i < rows.n_rows; ++i)
     rows.for_each_neighbor(i, [&](std::int64_t j) {

@@ -5,8 +5,8 @@
 //     O(u) = factor |W| unit(W x T),  W(u) = edge(u) - base(u),  T(u) the base's direction.
 // Thus D(u,v) = (1-v) base(u) + v edge(u) + 2 v (1-v) O(u). (The paper offsets along edge' x base', by a number that is not a
 // length. The product edge' x base' is 0 where edge' is 0, and changes its sign at the edge's corners: docs/theory/mitral.md.)
-// From two curves and the factor, this file computes O(u), and bounds how far O deviates from a linear function between two
-// values of u.
+// This file computes O(u) from two curves and the factor, and bounds how far O deviates from a linear function between two values
+// of u.
 #pragma once
 
 #include "base/recycled.hpp"

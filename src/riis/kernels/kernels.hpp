@@ -5,8 +5,8 @@
 //
 // FilterKernels compute in single precision, and only rule out pairs that cannot matter. Results are accurate to filter_error
 // (docs/theory/clusters.md). Coordinates are in the surface's frame: relative to the surface's middle, and scaled by a power of
-// two that makes the surface's half extent 1/2 to 1.
-// DecisionKernels compute in double precision, with exactly the bits of the decision kernel (geometry/point_triangle.hpp).
+// two. The scale brings the surface's half extent between 1/2 and 1. DecisionKernels compute in double precision, with exactly
+// the bits of the decision kernel (geometry/point_triangle.hpp).
 #pragma once
 
 #include <stdint.h>
@@ -209,7 +209,7 @@ struct FilterKernels {
   // Copies, without gaps, those of n numbers whose entry in `marks` has the given bit. Returns the number of copied numbers. `to`
   // must have room for n numbers.
   int32_t (*select)(const int32_t *numbers, const uint16_t *marks, int32_t n, int32_t bit, int32_t *to);
-  // For each of 16 boxes, finds the candidate group whose corner is nearest to the middle of the box, and writes the group's
+  // Finds, for each of 16 boxes, the candidate group whose corner is nearest to the middle of the box. Writes the group's
   // position among the candidates. The number n_candidates is above 0.
   void (*nearest_groups)(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
                          int32_t *nearest);

@@ -168,8 +168,8 @@ struct Lanes {
     for (int i = 0; i < n_registers; ++i) lanes.part[i] = x - Register{};
     return lanes;
   }
-  // load and store need memory aligned to 64 bytes. Both functions move each register as a whole. GCC would copy longer memory in
-  // pieces of another size, and a register that is read from two such pieces has to wait until both pieces are written.
+  // load and store need memory aligned to 64 bytes. Both functions move each register as a whole. GCC would copy larger objects
+  // in parts of another size. A register that is read from two of these parts has to wait until both parts are written.
   static RIIS_INLINE Lanes load(const Scalar *from) {
     Lanes lanes;
     for (int i = 0; i < n_registers; ++i) lanes.part[i] = reinterpret_cast<const InMemory *>(from)[i];

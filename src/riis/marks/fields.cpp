@@ -168,8 +168,8 @@ class TriangleFields {
     }
   }
 
-  // Writes the derivatives of the distances: -n.V in each direction, with the unit vector n from the closest point to the node
-  // and the rate V of the closest point.
+  // Writes the derivatives of the distances, which are -n.V in each direction. n is the unit vector from the closest point to the
+  // node, and V is the rate of the closest point.
   void write_gradients(const EightPoints &eight, std::int64_t first, std::int64_t n) const {
     const std::int64_t *vertex[pairs_at_once];
     for (std::int64_t lane = 0; lane < n; ++lane) vertex[lane] = set_.vertex_id.data() + 3 * eight.triangle[lane];

@@ -39,8 +39,8 @@ constexpr double u_of(std::size_t place) { return static_cast<double>(place) / n
 constexpr double least_coaptation = 0.05;
 // A closed meridian's first inner control point lies below the annulus by `first_drop` times the drop to the coaptation line.
 constexpr double first_drop = 0.2;
-// The heights of a closed free edge's control points from the middle to a commissure, as shares of the rise from the middle to
-// the commissure.
+// The heights of a closed free edge's control points, from the middle to a commissure. The unit is the height of the edge's end
+// over its middle.
 constexpr std::array<double, 4> edge_rise{0, 0, 0.6, 1};
 // A bump lifts a meridian's first inner control point by only `lift_of_start` times the bump's lift.
 constexpr double lift_of_start = 0.3;

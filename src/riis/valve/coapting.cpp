@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The coapting valves. The two to four cusps of a coapting valve lie side by side in a coaptation zone, and their free edges keep
+// The coapting valves. The two to four cusps of a coapting valve lie side by side in a coaptation zone. Their free edges keep
 // their length while the valve opens (docs/theory/coapting.md).
 #include <algorithm>
 #include <array>
@@ -43,7 +43,7 @@ constexpr double least_rise = 0.05;
 // If a cusp rises by less than `usual_rise`, its open edge leaves the commissures at a smaller slope. If the rise is at most
 // usual_rise - rise_until_level, the edge leaves the commissures horizontally.
 constexpr double usual_rise = 0.1, rise_until_level = 0.15;
-// If a cusp needs a smaller slope because it would fold otherwise, the height of its edge above the root must stay at least
+// A cusp that would fold gets a smaller slope. The height of its edge above the root must then stay at least
 // `least_height_of_flat` times root_radius. In a lower leaflet, triangles would cross near the attachment.
 constexpr double least_height_of_flat = 0.08;
 // Fused commissures must leave an open orifice of at least `least_orifice` of the area inside the commissures.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The numbers that change as a coapting cusp opens, and the length of its free edge (docs/theory/coapting.md). The sizes of a
-// cusp give its numbers in the closed state, in the open state and between these states, and the depth of its free edge.
+// The numbers that change as a coapting cusp opens, and the length of its free edge (docs/theory/coapting.md). This file computes
+// the numbers from the sizes of a cusp, in the closed state, in the open state and between them. It also finds the depth of the
+// free edge.
 #pragma once
 
 #include <array>

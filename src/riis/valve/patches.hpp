@@ -66,8 +66,8 @@ struct AxisLine {
 struct Patch {
   Side v0, v1, u0, u1;
   Vector<PatchImage> images;
-  // The factor of a patch of arcs, or 0. With the factor 0, the patch is the Coons patch of its sides. With another factor it is
-  // the patch of arcs from v0 to v1 with this factor (geometry/bulge.hpp), and u0 and u1 must be arcs with this factor.
+  // The factor of a patch of arcs, or 0. With the factor 0, the patch is the Coons patch of its sides. With another factor, the
+  // patch consists of arcs from v0 to v1 (geometry/bulge.hpp). Its sides u0 and u1 must then be arcs with the same factor.
   double bulge = 0;
   AttachedSide attached = AttachedSide::none;
   AxisLine axis = {{0, 0, 0},

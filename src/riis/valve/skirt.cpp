@@ -113,8 +113,8 @@ AxisLine warped_axis(const AxisLine &axis, const Vector<Step> &steps, const Blen
   return {centre, size > 0 ? (1 / size) * area : Vec3{0, 0, 0}};
 }
 
-// Returns the line through the centroid of the attachment. If the axis is vertical, the line is vertical, otherwise it leads
-// along the attachment's vector area. The direction has length 0 if the attachment encloses no area, and otherwise length 1.
+// Returns the line through the centroid of the attachment. The line is vertical if `axis` says so. Otherwise it leads along the
+// attachment's vector area. The direction has the length 1, or 0 if the attachment encloses no area.
 AxisLine axis_of_attachment(const PatchSet &set, const Vector<HeldSide> &sides, SkirtAxis axis) {
   const Vector<Step> steps = steps_of_attachment(set, sides);
   double whole = 0;
@@ -189,8 +189,9 @@ class SkirtMaker {
     return found->second;
   }
 
-  // Returns the derivative of the length at one of the shares, per step between shares. Between two shares, the length then stays
-  // between the lengths at the shares, so a skirt does not overshoot at a corner of the wall (F. N. Fritsch, R. E. Carlson 1980).
+  // Returns the derivative of the length at one of the shares, per step between shares. The length between two shares then stays
+  // between the lengths at these shares, so a skirt does not overshoot at a corner of the wall (F. N. Fritsch, R. E. Carlson
+  // 1980).
   static double growth_at(const Vector<double> &lengths, std::size_t i) {
     const double before = i == 0 ? 0 : lengths[i] - lengths[i - 1];
     const double after = i + 1 == lengths.size() ? 0 : lengths[i + 1] - lengths[i];
@@ -287,8 +288,8 @@ double angle_about(const AxisLine &axis, Vec3 from, Vec3 to) {
   return arc_tangent(dot(cross(from, to), axis.direction), dot(from, to));
 }
 
-// Returns the angles by which the skirts at two neighbouring ends turn from the outward directions of their own axes, if both
-// skirts lead along direction_between.
+// Returns two angles, one for each of two neighbouring ends. The skirt at an end turns by this angle from the outward direction
+// of its own axis to direction_between.
 std::array<double, 2> turns_between(const AxisLine &axis_before, const SideEnd &before, const AxisLine &axis_after,
                                     const SideEnd &after) {
   const Vec3 direction = direction_between(between(axis_before, axis_after), before, after);

@@ -187,8 +187,8 @@ class Valve {
   void derive();
   PatchSet make_patches(FoldCheck check) const;
   BlendedWarp blended_warp() const;  // of a warped valve
-  // Returns where the warp's landmarks lie on the curves before the warp: landmarks of the closed map on the closed valve, and
-  // landmarks of the open map on the open valve. `now` has the patches at the current opening.
+  // Returns where the warp's landmarks lie on the curves before the warp. The landmarks of the closed map lie on the closed
+  // valve, and those of the open map on the open valve. `now` has the patches at the current opening.
   std::shared_ptr<const LandmarkCuts> landmark_cuts(const PatchSet &now) const;
   void check_open_values() const;
   static std::uint64_t next_revision();
