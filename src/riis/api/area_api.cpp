@@ -74,7 +74,7 @@ class AreaTrials {
 
   bool seeks_opening() const { return sought_ == Sought::opening; }
 
-  // Samples of the opening have equal distances, as in the tables of openings. Neighbouring samples of a size differ by a
+  // Samples of the opening are evenly spaced, as in the tables of openings. Each sample of a size is the previous sample times a
   // constant factor.
   bool grows(const Values &values) const { return !seeks_opening() && values.from > 0; }
 
@@ -113,7 +113,7 @@ class AreaTrials {
  private:
   const char *words() const { return search_.area == RIIS_AREA_EFFECTIVE ? "effective area" : "area"; }
 
-  // Returns the caller's range. If the caller left out an end of the range, the usual end is used, moved into the range of
+  // Returns the caller's range. If the caller left out an end of the range, the usual end is used, limited to the range of
   // possible values.
   Values checked(const Values &usual, const std::array<double, 2> &range) const {
     const double from = std::isnan(search_.from) ? std::clamp(usual.from, range[0], range[1]) : search_.from;
@@ -130,7 +130,7 @@ class AreaTrials {
       options_.scale = value;
     else
       valve_.set(name_, 1, &value);
-    // A fixed triangulation is made for one shape and one scale.
+    // A fixed triangulation is made for one shape and one scale, so another value needs a new one.
     const bool is_planned_anew = options_.triangulation == RIIS_TRIANGULATION_FIXED && !seeks_opening();
     if (!surface_ || is_planned_anew) {
       surface_ = std::make_unique<riis_surface>();

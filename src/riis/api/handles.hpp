@@ -45,7 +45,7 @@ enum class HandleKind : std::uint64_t {
 // (riis.h, "Threads"). Calls that only read count themselves without waiting, and impose no order on each other.
 class Uses {
  public:
-  // Returns false if a call of another thread excludes this one.
+  // Returns false if a call of another thread excludes this call.
   bool begin(bool writes) noexcept {
     if (writes && is_written_.exchange(true)) return is_inherited();
     if (!writes) n_begun_.fetch_add(1);
@@ -80,7 +80,8 @@ struct Handle {
   mutable Uses uses = {};
 };
 
-// The handles that a call uses until its end, each with whether the call writes it. A call may name a handle twice.
+// The handles that a call uses until its end. For each handle, the list also says whether the call writes it. A call may name a
+// handle twice.
 class UsesOfCall {
  public:
   UsesOfCall() noexcept : outer_(std::exchange(innermost(), this)) {}
@@ -118,7 +119,7 @@ riis_status guarded_with_handles(Body &&body) noexcept {
   });
 }
 
-// Returns the handle, or fails if it is null or of another kind, or if a call of another thread excludes this one. A call writes
+// Returns the handle, or fails if it is null or of another kind, or if a call of another thread excludes this call. A call writes
 // the handles that it does not take as const. Short calls are not counted, because many threads would wait for the count.
 template <class AnyHandle>
 AnyHandle *require_handle(AnyHandle *handle, const char *argument, bool is_counted = true) {
@@ -160,7 +161,7 @@ struct riis_warp : riis::Handle<riis::HandleKind::warp> {
   riis_warp(riis::WarpLandmarks made, const riis::Placement &placed) : landmarks(std::move(made)), placement(placed) {}
   riis::KeepsMemory keeps_memory;
   riis::WarpLandmarks landmarks;
-  riis::Placement placement;  // takes the valve's coordinates to the caller's
+  riis::Placement placement;  // takes the valve's coordinates to the caller's coordinates
   riis::WarpMap map, next_map;
   riis::WarpQuality quality{};
   riis::Vector<riis::Vec3> targets;

@@ -261,8 +261,8 @@ double rough_curvature(const Bezier &curve, double t0, double t1) {
 }
 
 double largest_curvature(const Bezier &curve) {
-  // Bounds each quarter of the curve separately. The bound from control points is loose if they vary much. The control points of
-  // a quarter vary little.
+  // Bounds each quarter of the curve separately. The bound from control points is tighter for a quarter, because its control
+  // points vary less.
   const auto [left, right] = split(curve, 0.5);
   const auto [first, second] = split(left, 0.5);
   const auto [third, fourth] = split(right, 0.5);

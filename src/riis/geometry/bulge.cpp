@@ -177,7 +177,7 @@ class OffsetDerivatives {
     across1_ = across(m1_, normal_);
   }
 
-  // Whether O has a direction: W is parallel to T at no point.
+  // Returns whether O has a direction, which it has if W is nowhere parallel to T.
   bool has_direction() const { return has_direction_; }
 
   // O is factor |W| N with N = M / |M|, and N' is the part of M' across N, divided by |M|.
@@ -208,7 +208,7 @@ class OffsetDerivatives {
   Interval m_inverse_, w_size_, size1_;
 };
 
-// Returns O at points at the same share of the length of both curves.
+// Returns O at two points that lie at the same share of the lengths of their curves.
 Vec3 offset_at(const Curve &base, const PointOnSpan &on_base, const Curve &edge, const PointOnSpan &on_edge,
                double factor) {
   const Curve::PointAndTangent there = base.with_tangent(on_base);

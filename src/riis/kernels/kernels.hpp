@@ -76,10 +76,10 @@ struct FilterLimits {
 // A band with an offset leaves out nodes far behind the surface, on the side away from the offset. All numbers are in the
 // surface's frame (docs/theory/clusters.md, "One side").
 struct OneSide {
-  float behind;       // 1 or -1: this times a node's height over a triangle is the node's depth behind the triangle
+  float behind;       // 1 or -1: the factor from a node's height over a triangle to its depth behind the triangle
   float twice_shift;  // twice the distance of the band's middle from the surface
   float least_depth;  // a node with less depth may be in front of the triangle
-  float least_sum;    // a node is out of the band if the square of its distance + twice_shift * depth exceeds this
+  float least_sum;    // a node is out of the band if distance^2 + twice_shift * depth exceeds this number
   // For each group, a place along the group's first axis, multiplied by `behind`. Beyond this place the whole group leaves a node
   // out. The place is infinite if the group never leaves a node out. The pointer is null if nodes on both sides are wanted.
   const float *end_of_band = nullptr;
@@ -109,7 +109,7 @@ struct LeafTask {
   const int32_t *near_groups;
   int32_t n_groups;
   FilterLimits limits;
-  bool may_be_near;  // begin_cluster sets it to whether a wanted node may be near a group
+  bool may_be_near;  // whether a wanted node may be near a group; begin_cluster sets it
   uint32_t found;    // after the last call of filter_cluster, a bit for each node that had pairs in any call
 };
 
@@ -141,7 +141,7 @@ struct ClusterTask {
   FilterLimits limits[leaves_per_cluster];  // by the leaf's position
   alignas(64) float xyz[3][nodes_per_cluster];
   float best[nodes_per_cluster];         // the least of reach_sq and of all computed squares of distances
-  float limit[nodes_per_cluster];        // the square of the distance up to which groups are near, or -1 if none is
+  float limit[nodes_per_cluster];        // groups up to the root of this number are near; -1 if no group is near
   float first_group[nodes_per_cluster];  // the group that the node was compared with first
 };
 
@@ -265,8 +265,8 @@ struct DecisionKernels {
                           VertexNumbers *mixed);
   // Computes how fast the distances of the first n_points points change when the triangles' vertices move. The number n_points is
   // above 0. The search passes the distances that it has already computed, so that the kernel need not take roots again. `vertex`
-  // has the ids of each pair's three vertices, and rates[i] has the rates of all vertices in direction i. The derivatives of a
-  // point follow each other. A derivative at distance 0 is 0.
+  // has the ids of each pair's three vertices, and rates[i] has the rates of all vertices in direction i. The derivatives of one
+  // point are stored one after another. A derivative at distance 0 is 0.
   void (*differentiate)(const PointsAndTriangles &pairs, const PointsOnTriangles &located,
                         const double (&distance)[pairs_at_once], const int64_t *const *vertex,
                         const double *const *rates, int64_t n_directions, int32_t n_points, double *derivatives);

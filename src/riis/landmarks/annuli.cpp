@@ -434,7 +434,7 @@ namespace {
 // Kinds whose annulus is a saddle, with the names of their sizes.
 struct SaddleKind {
   const char *kind, *width, *depth, *flat_ratio;
-  const char *anterior_ratio;  // null if the flat side is the anterior leaflet's
+  const char *anterior_ratio;  // null if the flat side belongs to the anterior leaflet
   FlatSide flat_side;
 };
 constexpr SaddleKind tricuspid{"tricuspid",    "AP_diameter",    "SL_diameter",

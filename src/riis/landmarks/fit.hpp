@@ -168,7 +168,7 @@ struct KindOfLandmarks {
   std::vector<Pose> starts;
   const char *size_name;  // the parameter that stands for the valve's size
   // Sets the parameters that are not lengths, and the lengths that do not grow with the valve's size. All other lengths and the
-  // model's sizes have already been set. `own` is the template valve. The pointer is NULL if there is nothing to set.
+  // model's sizes have already been set. `own` is the template valve. The function pointer is NULL if there is nothing to set.
   void (*finish)(const Valve &own, Valve &valve) = nullptr;
   // Refuses a fit that leaves something undetermined or that contradicts the landmarks. If the function is empty, no fit is
   // refused.

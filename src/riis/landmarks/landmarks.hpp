@@ -58,7 +58,7 @@ void check_unit(const Landmarks &landmarks);
 void check_roles(const Landmarks &landmarks, const char *kind, const std::vector<std::int32_t> &roles);
 // Checks that the number of landmarks with this role is in range. If there is no upper limit, `most` is 0.
 void check_count(const Landmarks &landmarks, const char *kind, std::int32_t role, std::size_t least, std::size_t most);
-// Refuses two landmarks of the list whose distance is less than a share of their spread.
+// Refuses two landmarks of the list whose distance is less than `share` times the spread of the list.
 void check_apart(const Landmarks &landmarks, const std::vector<std::size_t> &numbers, double share);
 // Refuses landmarks along one line.
 void check_not_collinear(const Landmarks &landmarks, const std::vector<std::size_t> &numbers);

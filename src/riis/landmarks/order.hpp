@@ -35,8 +35,8 @@ void check_leaflet_ids(const Landmarks &landmarks, const LeafletsAround &leaflet
 // Returns whether the names fit the order around the axis, which points along z.
 bool names_fit(const Landmarks &landmarks, const LeafletsAround &leaflets, Vec3 axis, Vec3 middle);
 
-// Returns the order around the axis. The number of commissures is the number of leaflets, and the number of nadirs is this number
-// or 0. Refuses commissures and nadirs that do not alternate, and names that contradict the order.
+// Returns the order around the axis. There must be as many commissures as leaflets, and as many nadirs as leaflets or none.
+// Refuses commissures and nadirs that do not alternate, and names that contradict the order.
 Order order_around(const Landmarks &landmarks, const LeafletsAround &leaflets, Vec3 axis, Vec3 middle);
 
 }  // namespace riis

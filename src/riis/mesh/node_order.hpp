@@ -88,8 +88,8 @@ template <class Node>
 using NodeItems = UnfilledVector<NodeItem<Node>>;
 
 // The places where parts are cut. With by_clusters, large parts are cut between clusters and small parts between leaves, into at
-// most four parts each time. Clusters are then compact. With by_leaves, all cuts are between leaves, into so many parts that
-// leaves become as wide as long. Cuts by leaves take half as many passes, but make long clusters.
+// most four parts each time. Clusters are then compact. With by_leaves, all cuts are between leaves. The number of parts is
+// chosen so that leaves become as wide as they are long. Cuts by leaves take half as many passes, but make long clusters.
 enum class Cuts { by_clusters, by_leaves };
 
 // Sorts nodes so that near nodes follow each other. Each pass counts the nodes of a part in bins along the longest axis of its
@@ -388,7 +388,7 @@ class NodeSorter {
     for (std::int32_t i = 0; i < n; ++i) to[part.begin + view(rank)[i]] = from[part.begin + i];
   }
 
-  // Sorts down to leaves on one thread.
+  // Sorts a part into leaves, on one thread.
   void sort_alone(const Part &part, Item *at, Item *other) {
     if (part.size() <= nodes_per_leaf) {
       if (at != items_.data()) std::copy(at + part.begin, at + part.end, items_.data() + part.begin);

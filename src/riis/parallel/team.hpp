@@ -20,10 +20,10 @@ int run_by_team(int n_threads, void (*work)(void *context, int thread), void *co
 // caller's own loops. However, a loop of OpenMP waits for all its threads, even if another process keeps one of the processors
 // for long. After a long wait, teams run the loops for some time. If OpenMP then runs only a few loops before the next long wait,
 // the machine is busy, and teams run the loops for twice the time. A team also waits if another process interrupts its thread
-// inside a block. The calling thread therefore begins a team's loop alone. It calls the team only after the time that recent
-// loops lost by calling their teams. The alternatives are the calling thread alone, and the team from the beginning. If this team
-// loses no more time than recent teams, the loop takes at most twice as long as with either alternative. All times are in
-// nanoseconds.
+// inside a block. The calling thread therefore begins a team's loop alone. It calls the team only after it has worked for as long
+// as recent loops lost by calling their teams. There are two alternatives: the calling thread alone, or the team from the
+// beginning. If this team loses no more time than recent teams, the loop takes at most twice as long as with either alternative.
+// All times are in nanoseconds.
 class LoopChoice {
  public:
   static constexpr std::int64_t long_wait = 2'000'000, first_pause = 250'000'000, longest_pause = 2'000'000'000;
