@@ -36,9 +36,9 @@ struct Placing {
 };
 
 #if defined(__SIZEOF_INT128__)
-// A number for each triangle, in the order of closest triangles (is_closer), for finite squares of distances. The first 64 bits
-// of the number are the bits of the square. Squares are not negative, so their bits have the same order. The last 64 bits are the
-// triangle, or the largest number if there is no triangle.
+// A number for each triangle. If the squares of the distances are finite, the numbers have the order of is_closer. The first 64
+// bits of the number are the bits of the square. Squares are not negative, so their bits have the same order. The last 64 bits
+// are the triangle, or the largest number if there is no triangle.
 __extension__ typedef unsigned __int128 Rank;
 Rank rank_of(const ClosestTriangle &closest) {
   std::uint64_t square;
@@ -192,9 +192,9 @@ class ClusterSearch {
   // limit (docs/theory/clusters.md, "Every distance").
   void search_every_cluster() {
     const auto n = nodes_.n_clusters();
-    // If several threads share the clusters of a region, each thread must compare the region.
+    // If several threads share the clusters of a region, each thread must compare the region with the groups.
     const std::int64_t per_block = n < 64 * request_.n_threads ? 1 : Clusters::clusters_per_region;
-    constexpr std::int64_t few = 4;  // searching this many takes about half a millisecond
+    constexpr std::int64_t few = 4;  // searching this many clusters takes about half a millisecond
     n_threads_ =
         parallel_for_ranges(n, per_block, request_.n_threads.for_part(n, few), [&](const Range &range, int thread) {
           for (std::int64_t cluster = range.begin; cluster < range.end; ++cluster)

@@ -25,7 +25,7 @@ struct Tile {
   std::int64_t first_id;         // the first triangle_id, which also counts triangles without area
   std::int64_t n_triangles = 0;  // the triangles that have an area; the range may have room for more
   Vector<LeftOut> left_out{};    // the triangles without area
-  bool is_whole = true;          // false if one of the omitted triangles is missed (is_missed)
+  bool is_whole = true;          // false if one of the triangles left out is missed (is_missed)
 };
 
 // The vertices of a patch before its images are placed: first the grid's vertices, then the vertices of subdivided quads.

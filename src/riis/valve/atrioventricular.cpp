@@ -171,8 +171,8 @@ struct Leaflet {
   AtPlaces<Vec3> start;       // the meridians' first inner control points
   AtPlaces<double> turn;      // the lengths of the meridians' end tangents
   AtPlaces<double> body;      // the lengths of the meridians down to the coaptation line
-  AtPlaces<double> whole;     // and down to the free edge
-  AtPlaces<double> lift;      // of the bumps, when closed
+  AtPlaces<double> whole;     // the lengths of the meridians down to the free edge
+  AtPlaces<double> lift;      // how far bumps lift the closed leaflet
 };
 
 // The control points are those of two cubics, which meet at the middle place. Returns the parts of the cubics between the places.

@@ -122,7 +122,7 @@ class Turn {
   SineCosine closed_, now_;
 };
 
-// Every arc has `n_spans` spans. The distance of a quarter of a circle from the true circle is then at most 1e-9 of its radius.
+// Every arc has `n_spans` spans. A quarter of a circle then deviates from the true circle by at most 1e-9 of the radius.
 constexpr int n_spans = 8;
 
 // Bounds the distance of an arc's spans from the circle, in radii. For a span of the angle a, the distance is 2/27 sin^6(a/4) /

@@ -76,7 +76,7 @@ struct FusedPart {
 struct HalfNumbers {
   double root_radius;
   Vec3 commissure;
-  double attachment_width, attachment_drop;  // the lengths of the attachment's end tangents, or of its second piece's
+  double attachment_width, attachment_drop;  // the lengths of the end tangents of the attachment, or of its second piece
   std::array<double, 4> edge_x, edge_y;      // the free edge, seen along the axis
   std::array<double, 4> sag;                 // how far control points of the free edge hang, as shares of the sag
   double edge_top;                           // height of the free edge's end

@@ -20,9 +20,9 @@ namespace {
 constexpr std::size_t n_even_parts = 8;
 // Two ends of cusps that are not joined are neighbours if their distance is at most `most_between_ends` times the longest side.
 constexpr double most_between_ends = 0.5;
-// The line through two neighbouring ends has an angle to the outward direction. If the angle's sine is in this range, the skirts
-// lead along the line. The sine is positive if the ends have passed each other. Outside of this range, the skirts use a sine that
-// decreases to 0.
+// The line through two neighbouring ends has an angle to the outward direction. If the angle's sine is between these two numbers,
+// the skirts lead along the line. The sine is positive if the ends have passed each other. Outside of this range, the skirts use
+// a sine that decreases to 0.
 constexpr double most_apart_in_line = -0.5, most_past_in_line = 0.98;
 // The sine that is used also falls to 0 if the sine of the line's angle to the axis is below `least_sine_to_axis`.
 constexpr double least_sine_to_axis = 0.2;
@@ -50,7 +50,7 @@ struct Step {
   Vec3 at, by;
 };
 
-// Takes evenly spaced points of a curve.
+// Returns evenly spaced points of a curve, with the steps between them.
 Vector<Step> steps_of(const Curve &curve) {
   constexpr int n = 8;
   Vector<Step> steps;

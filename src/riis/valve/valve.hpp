@@ -72,7 +72,7 @@ struct ValveKind {
   Vector<ParameterSpec> parameters;
   std::size_t opening;   // the position of the parameter "opening"
   bool opens_by_itself;  // one set of parameters defines both the closed and the open state
-  // Refuses values that do not fit together. NULL if all values fit together.
+  // Refuses values that do not fit together. NULL if the kind has nothing to check.
   void (*check_values)(const ParameterValues &values);
   // Makes the patches at an opening from 0, the closed state, to 1, the open state. Both states have been checked. The two states
   // are the same object if the valve was given no open state.
