@@ -2,8 +2,8 @@
 // Measures the cost of each call for the tables in docs/performance.md. The cost is the time of the shortest of repeated calls,
 // and the memory that stays with the handle. The meshes are cylinders of a million nodes around the valves, and the tolerance is
 // 5 %. A second table compares a step with an offset to a step without an offset. The last table has processor times of orifices,
-// free edges and coaptation, for surfaces with 60,000 triangles. argv[1], optional: thousands of nodes, "offset" for the second
-// table alone, or "measures" for the last table alone.
+// free edges and coaptation, for surfaces with 60,000 triangles.
+//   argv[1]  thousands of nodes, "offset" for the second table alone, or "measures" for the last table alone; optional
 #include <riis/riis.h>
 
 #include <algorithm>

@@ -482,7 +482,7 @@ void riisValve::addSup(const volScalarField &, fvMatrix<vector> &eqn, const labe
       << "equations of pimpleFoam" << exit(FatalError);
 }
 
-// Ends a run that diverges, before the run writes a time with speeds that cannot be.
+// Ends a run that diverges, before the run writes a time with impossible speeds.
 void riisValve::checkSpeed(const vectorField &U) const {
   scalar squared = -1;
   point fastest = vector::min;

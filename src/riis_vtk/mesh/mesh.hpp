@@ -62,7 +62,7 @@ struct riis_vtk_mesh {
   // Returns whether axes give the nodes.
   bool is_of_axes() const { return axes && !centers; }
   vtkDataSetAttributes *node_data() const;
-  void make_points() const;           // of axes, unless they are made
+  void make_points() const;           // makes the points from the axes, unless they exist
   vtkUnstructuredGrid *grid() const;  // with points and cells
 };
 
@@ -106,7 +106,7 @@ VolumeCounts count_volumes(vtkUnstructuredGrid *grid, vtkUnsignedCharArray *ghos
 
 struct VolumeCells {
   std::vector<std::int64_t> node_ids;
-  std::vector<std::int64_t> offsets = {0};  // the number of cells plus one entries
+  std::vector<std::int64_t> offsets = {0};  // one entry more than there are cells
 };
 
 // Returns the tetrahedra, pyramids, wedges and hexahedra of the grid. Voxels become hexahedra. Other cells are left out.

@@ -392,7 +392,7 @@ class Scan {
     return true;
   }
 
-  // VTK allocates the stated number of arrays before it compares the number with the grid's number.
+  // VTK allocates memory for the stated number of tuples before it compares this number with the grid.
   void check_tuples(bool are_points) const {
     if (!lattice_) refuse("has data before DIMENSIONS");
     const std::int64_t n = are_points ? lattice_->n_points() : lattice_->n_cells();
