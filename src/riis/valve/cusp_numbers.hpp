@@ -76,7 +76,7 @@ struct FusedPart {
 struct HalfNumbers {
   double root_radius;
   Vec3 commissure;
-  double attachment_width, attachment_drop;  // the lengths of the end tangents of the attachment, or of its second piece
+  double attachment_width, attachment_drop;  // lengths of the end tangents, for the attachment or its second piece
   std::array<double, 4> edge_x, edge_y;      // the free edge, seen along the axis
   std::array<double, 4> sag;                 // how far control points of the free edge hang, as shares of the sag
   double edge_top;                           // height of the free edge's end
@@ -85,7 +85,7 @@ struct HalfNumbers {
   double band_lean;   // in the middle, how much farther from the axis the coaptation line is than the free edge
   double belly_x;     // x of the first inner control point of the symmetry curve
   double belly_rise;  // height of that point, as a share of the height of the coaptation line's middle
-  double band_start;  // height from the second inner control point to the coaptation line, as a share of the same height
+  double band_start;  // height from the second inner control point to the coaptation line, in the same unit
   std::optional<AttachmentArc> attachment_arc = {};
   std::optional<FusedPart> fused = {};
 };
