@@ -260,7 +260,7 @@ scalar riisValve::conductance(const scalarField &K, const labelList &side, const
       flow = 0;
       forAll(side, cell) flow -= side[cell] < 0 && isEnd[cell] ? out[cell] : 0;
       reduce(flow, sumOp<scalar>());
-      if (mag(flow - before) < 5e-4 * mag(flow)) break;  // the corrections for edges not orthogonal to faces have converged
+      if (mag(flow - before) < 5e-4 * mag(flow)) break;  // the corrections for non-orthogonal edges have converged
     }
     equation.setValues(fixed, pressures);
     // fvMatrix::solve is not used, because it would add its residuals to those of the solver's own p.

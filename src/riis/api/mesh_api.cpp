@@ -135,7 +135,7 @@ riis_status riis_mesh_update_copy(riis_mesh *mesh, const riis_points *nodes) {
 
 riis_status riis_mesh_prepare(riis_mesh *mesh, int32_t n_threads) {
   return guarded_with_handles([&] {
-    const riis_mesh *const as_read = mesh;  // const: a marking makes the same clusters, so other threads may mark meanwhile
+    const riis_mesh *const as_read = mesh;  // const, because other threads may make the same clusters meanwhile
     const riis::Mesh &content = require_handle(as_read, "mesh")->mesh;
     const int n = riis::threads_for(n_threads, "n_threads", content.nodes().n, riis::nodes_per_thread);
     if (content.nodes().grid) return;

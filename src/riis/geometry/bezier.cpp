@@ -143,8 +143,8 @@ struct SpeedOnPart {
 };
 
 // Finds the parameters of given ascending lengths from the start of the part. Each parameter is found from the previous
-// parameter. Returns false if the lengths do not add up to the length of the part. One quadrature for each step is not accurate
-// enough where the speed is far from a polynomial, for example at a cusp.
+// parameter. Returns false if the lengths do not add up to the length of the part. This happens at a cusp, for example, because
+// one quadrature for each step is accurate only where the speed is nearly a polynomial.
 bool find_in_one_pass(const SpeedOnPart &part, const double *behind, std::size_t n, double *t) {
   const Speed &speed = part.speed;
   const double close_enough = 1e-14 * part.whole_length;

@@ -119,7 +119,7 @@ struct Flattened {
 // the part and its chord are at most max_error apart at equal shares of their lengths. With `bend`, a part is also halved if its
 // velocity is estimated to differ from a linear function by more than max_bend. Parts are halved by length, whereas the paper
 // (algorithm "Recursive de Casteljau subdivision") halves the parameter. A share of one curve therefore equals a share of another
-// curve to the last bit, or differs by at least one part. No slivers arise. A common point of two parts appears once. Fails with
+// curve to the last bit, or is at least one part away, so no slivers arise. A common point of two parts appears once. Fails with
 // RIIS_LIMIT_EXCEEDED for more than 2^20 parts.
 Flattened flatten(const Curve &curve, double max_error, const VelocityBend *bend = nullptr, double max_bend = 0);
 

@@ -5,8 +5,8 @@
 //
 // FilterKernels compute in single precision, and only rule out pairs that cannot matter. Results are accurate to filter_error
 // (docs/theory/clusters.md). Coordinates are in the surface's frame: relative to the surface's middle, and scaled by a power of
-// two. The scale brings the surface's half extent between 1/2 and 1. DecisionKernels compute in double precision, with exactly
-// the bits of the decision kernel (geometry/point_triangle.hpp).
+// two. The scale brings the surface's half extent between 1/2 and 1.
+// DecisionKernels compute in double precision, with exactly the bits of the decision kernel (geometry/point_triangle.hpp).
 #pragma once
 
 #include <stdint.h>

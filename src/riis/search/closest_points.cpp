@@ -74,8 +74,8 @@ class ClosestPoints {
   }
   bool is_far(Vec3 p) const { return may_be_far_ && !(reach_of(p) <= far); }
 
-  // Returns whether consecutive points are near each other. The test is that, along some axis, a small batch from the middle has
-  // at most half the extent of all points. The batch comes from the middle because many meshes begin with the nodes of their
+  // Returns whether consecutive points are near each other. They are if a small batch from the middle has, along some axis, at
+  // most half the extent of all points. The batch comes from the middle because many meshes begin with the nodes of their
   // boundary. The function needs enough points for a small batch.
   bool follow_each_other() const {
     const std::int64_t begin = (wanted_.n - points_per_small_batch) / 2;
