@@ -198,7 +198,7 @@ void riisFollow::readFaces(const labelList &points, const string &place) {
 void riisFollow::readLabels(const dictionary &dict) {
   const labelList wanted(dict.get<labelList>("points"));
   name_ = Foam::name(wanted.size()) + " points";
-  Map<label> place;  // of each wanted label in the list
+  Map<label> place;  // the place of each wanted label in the list
   forAll(wanted, i) {
     if (!place.insert(wanted[i], i)) {
       FatalIOErrorInFunction(dict) << "points has " << wanted[i] << " twice" << exit(FatalIOError);

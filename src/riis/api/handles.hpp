@@ -105,7 +105,7 @@ class UsesOfCall {
   }
 
  private:
-  static UsesOfCall *&innermost() noexcept;  // of this thread
+  static UsesOfCall *&innermost() noexcept;  // the innermost call of this thread
   UsesOfCall *outer_;
   std::array<std::pair<Uses *, bool>, 4> used_{};
 };

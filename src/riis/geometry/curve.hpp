@@ -102,7 +102,7 @@ class VelocityBend {
       return (1 - share) * bend0 + share * bend1;
     }
   };
-  static constexpr std::size_t n_cells = 8;  // of each span
+  static constexpr std::size_t n_cells = 8;  // the number of cells of each span
 
   Vector<Cell> cells_;
 };

@@ -138,7 +138,7 @@ struct ClusterTask {
   float nearest_sq[most_listed + 16];       // the square of the node's distance to the group
   uint16_t triangles[most_listed + 16];     // the group's triangles at this distance, up to the tolerance
   uint16_t in_band[most_listed + 16];       // the part of `triangles` that does not leave the node out of the band
-  FilterLimits limits[leaves_per_cluster];  // by the leaf's position
+  FilterLimits limits[leaves_per_cluster];  // the limits of each leaf, by its position
   alignas(64) float xyz[3][nodes_per_cluster];
   float best[nodes_per_cluster];         // the least of reach_sq and of all computed squares of distances
   float limit[nodes_per_cluster];        // groups up to the root of this number are near; -1 if no group is near

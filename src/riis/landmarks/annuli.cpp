@@ -271,7 +271,7 @@ struct ShownDepth {
 struct HornHeights {
   std::size_t anterior_landmark, posterior_landmark;
   double anterior, posterior;
-  double usual_difference;  // by the valve's proportions
+  double usual_difference;  // the difference that the valve's proportions give
   double depth;             // between both ends
 };
 

@@ -272,7 +272,7 @@ class TriangleFields {
   double least_way_;  // a shorter way from the closest point has no certain direction
   const NodeList &list_;
   NodeFields &made_;
-  Vector<const double *> rates_;  // of the vertices, for each direction
+  Vector<const double *> rates_;  // the rates of the vertices, for each direction
 };
 
 // Orders ties by node, then by leaflet, then by distance.

@@ -69,8 +69,8 @@ class GridClusters {
   GridBox box_;
   NodeFrame frame_;
   GridIndex n_regions_, leaf_extent_, cluster_extent_, region_extent_;
-  Parts lanes_, leaves_, clusters_;       // of a leaf, a cluster and a region
-  std::int64_t step_[nodes_per_cluster];  // from a cluster's first number to the number of each node
+  Parts lanes_, leaves_, clusters_;       // the parts of a leaf, a cluster and a region
+  std::int64_t step_[nodes_per_cluster];  // the step from a cluster's first number to each node's number
   std::vector<float> x_[3];  // coordinates in the frame. The last coordinate is repeated to the end of the last region
 };
 

@@ -85,7 +85,7 @@ void check_proportions(const Sizes &sizes, std::uint64_t surface_number, WarnedS
 
 // The nodes of a mesh: points, or a grid.
 struct MeshNodes {
-  std::int64_t n = 0;    // of points, or of a grid's numbers
+  std::int64_t n = 0;    // the number of points, or of a grid's numbers
   StridedPoints points;  // none with a grid
   const Grid *grid = nullptr;
 

@@ -125,7 +125,7 @@ struct MaterialArcs {
 
   Vec3 middle(std::size_t k) const { return 0.5 * (base[k] + edge[k] + offset[k]); }
 
-  std::array<Vec3, n_material> base, edge, offset;  // of the warped curves
+  std::array<Vec3, n_material> base, edge, offset;  // values of the warped curves
   std::array<Vec3, n_material> mapped_base, mapped_edge, mapped_middle;
 };
 

@@ -79,7 +79,7 @@ class SideMaterial {
 struct PatchMaterial {
   explicit PatchMaterial(const MovedPatch &moved);
 
-  bool has_arcs;  // in one of the states
+  bool has_arcs;  // whether the patch has arcs in one of the states
   SideMaterial v0, v1, u0, u1;
 };
 

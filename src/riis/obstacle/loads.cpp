@@ -69,8 +69,8 @@ class Holds {
 
  private:
   const Loads &loads_;
-  NearestEdges own_;                 // by leaflet, if the edges have leaflets
-  std::optional<NearestEdges> all_;  // of all edges, if the edges have leaflets
+  NearestEdges own_;                 // the edges by leaflet, if the edges have leaflets
+  std::optional<NearestEdges> all_;  // all edges together, if the edges have leaflets
 };
 
 // Returns m w(d) of each node.

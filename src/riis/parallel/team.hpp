@@ -28,7 +28,7 @@ class LoopChoice {
  public:
   static constexpr std::int64_t long_wait = 2'000'000, first_pause = 250'000'000, longest_pause = 2'000'000'000;
   static constexpr int few_loops = 32;                          // about three time steps
-  static constexpr double loops_in_mean = 16, half_life = 1e9;  // of the mean loss
+  static constexpr double loops_in_mean = 16, half_life = 1e9;  // for the mean loss
   static constexpr double least_loss = 5'000;                   // a smaller mean loss counts as none
 
   bool takes_team(std::int64_t now) const noexcept { return now < until_.load(std::memory_order_relaxed); }

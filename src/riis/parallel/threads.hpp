@@ -26,8 +26,8 @@ class Threads {
 
   operator int() const { return n_; }  // NOLINT(google-explicit-constructor)
 
-  // Returns the number of threads for a part of the call that has n_items of work. A default number becomes 1 for fewer than
-  // `few` items.
+  // Returns the number of threads for a part of the call that has n_items of work. A number that the library chose becomes 1 for
+  // fewer than `few` items.
   int for_part(std::int64_t n_items, std::int64_t few) const { return is_default_ && n_items < few ? 1 : n_; }
 
  private:

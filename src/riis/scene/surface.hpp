@@ -103,7 +103,7 @@ class Surface {
   mutable std::atomic<double> area_{not_known};
   std::optional<SourceValve> source_valve_;
   std::optional<PatchSet> patches_;
-  std::vector<std::vector<double>> rates_;  // of the directions; later entries only keep their memory
+  std::vector<std::vector<double>> rates_;  // the rates of the directions; later entries only keep their memory
   std::int64_t n_directions_ = 0;
   std::unique_ptr<const PatchDistance> other_distance_;
   double triangle_error_ = 0;

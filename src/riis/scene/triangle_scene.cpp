@@ -73,7 +73,7 @@ float inflated_radius(double distance, Vec3 q, double rounding) {
 struct TriangleScene::Implementation {
   TriangleGroups groups;
   double rounding = 0;  // TriangleScene::rounding_ in the frame's units
-  int n_threads = 1;    // of the tree
+  int n_threads = 1;    // the number of threads that build the tree
   std::shared_ptr<std::remove_pointer_t<RTCDevice>> device = shared_device();
   MadeOnce<Scene> scene;
   Geometry geometry;

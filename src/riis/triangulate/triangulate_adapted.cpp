@@ -25,7 +25,7 @@ class QuadGroups {
   Vector<std::int32_t> make() {
     const Quads all{0, grid_.u.size() - 1, 0, grid_.v.size() - 1};
     const std::int64_t n = n_triangles(all);
-    constexpr std::int64_t fewest_in_group = triangles_per_group / 2;  // in most groups
+    constexpr std::int64_t fewest_in_group = triangles_per_group / 2;  // most groups have at least this number
     ends_.reserve(static_cast<std::size_t>(n / fewest_in_group + 1));
     group(all, n);
     return std::move(ends_);

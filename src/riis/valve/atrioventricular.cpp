@@ -167,7 +167,7 @@ class Annulus {
 
 // The control points of a leaflet, as vectors from the hinges at their places.
 struct Leaflet {
-  AtPlaces<Vec3> edge, line;  // of the free edge and of the coaptation line, which ends above the commissure
+  AtPlaces<Vec3> edge, line;  // points of the free edge and of the coaptation line, which ends above the commissure
   AtPlaces<Vec3> start;       // the meridians' first inner control points
   AtPlaces<double> turn;      // the lengths of the meridians' end tangents
   AtPlaces<double> body;      // the lengths of the meridians down to the coaptation line

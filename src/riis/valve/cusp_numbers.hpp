@@ -67,8 +67,8 @@ struct CuspSizes {
 // the free edge to the commissure. The coaptation line begins below the end of the free edge.
 struct FusedPart {
   Bezier edge, line;
-  Vec3 commissure;  // of the closed valve
-  double share;     // of the free part, in the length of the closed edge
+  Vec3 commissure;  // the commissure of the closed valve
+  double share;     // the share of the free part in the length of the closed edge
 };
 
 // The numbers of half a cusp, y >= 0. The numbers are blended, and the curves follow from the numbers. Shares have the range 0 to

@@ -27,8 +27,8 @@ constexpr std::size_t n_fold_cells = 3;
 // A cell is a sliver if the sine of the angle between its diagonals is below `sliver_sine`. A sliver is hardly wider than a line,
 // so it has no clear normal. Half-open coapting leaflets have slivers beside the attachment. The chords of a curve in a sliver do
 // not show the direction of the surface. In 20,000 states of valves with rough warps, cells with a sine up to 0.067 turned over
-// although no triangle did. Where triangles but no wider cells turned over, the triangles had at most 0.6 mm^2. One cell of the
-// default valve has the sine 0.041 at the opening 0.9.
+// although no triangle did. In some states triangles turned over, but no wider cell did. Those triangles had at most 0.6 mm^2.
+// One cell of the default valve has the sine 0.041 at the opening 0.9.
 constexpr double sliver_sine = 0.07;
 
 Bezier raised_to_cubic(const Bezier &span) {

@@ -52,7 +52,7 @@ struct riis_vtk_mesh {
   std::string foam_time = {};  // the folder of the time that the path of the mesh names, or ""
   // If the mesh has centres of cells, the centres are its nodes, and the data of nodes is data of cells.
   std::unique_ptr<const riis::vtk::CellCenters> centers = {};
-  std::vector<riis::vtk::RegionName> region_names = {};  // of gmsh's physical groups of volumes
+  std::vector<riis::vtk::RegionName> region_names = {};  // names of gmsh's physical groups of volumes
   riis::vtk::Regions regions = {};                       // as riis_vtk_mesh_find_regions found them
   // The ids of nodes and cells in the whole mesh, if only some cells were kept. The lists are empty if all cells were kept.
   std::vector<std::int64_t> whole_node_ids = {}, whole_cell_ids = {};
@@ -90,8 +90,8 @@ struct CellShape {
     int n_corners;
   };
   int dimension = 0;
-  std::vector<Edge> edges;  // of a face or a volume
-  std::vector<Face> faces;  // of a volume
+  std::vector<Edge> edges;  // the edges of a face or a volume
+  std::vector<Face> faces;  // the faces of a volume
 };
 const CellShape &shape_of(int type);
 

@@ -139,7 +139,7 @@ struct Style {
   explicit Style(const riis_vtk_picture_options &options);
   Colour background;
   bool is_transparent;
-  Colour ink, line;   // of texts, and of the wall's rims
+  Colour ink, line;   // colours of texts, and of the wall's rims
   double shell_grey;  // the brightness of the wall
   std::int32_t captions, panels;
 };
@@ -172,7 +172,7 @@ class Scene {
 
   Style style_;
   Axes axes_;         // of the valve
-  Layout layout_;     // of a picture with one view
+  Layout layout_;     // the layout of a picture with one view
   std::string unit_;  // "" if the caller gave none
   std::vector<std::string> leaflet_names_;
   vtkSmartPointer<vtkUnstructuredGrid> grid_;
@@ -183,7 +183,7 @@ class Scene {
   vtkSmartPointer<vtkPointSet> around_;  // the grid, or the wall of the options; NULL if there is neither
   std::optional<Shell> shell_;           // set if there is a grid or a wall
   std::vector<std::string> title_;
-  std::vector<PanelTexts> texts_;  // of the panels, except the flow's panel
+  std::vector<PanelTexts> texts_;  // the texts of the panels, except the flow's panel
   vtkNew<vtkCamera> camera_;
   vtkNew<vtkRenderWindow> window_;
   vtkSmartPointer<vtkRenderer> behind_;
