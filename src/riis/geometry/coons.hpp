@@ -37,7 +37,7 @@ struct GridLines {
 
 struct QuadGrid {
   Vector<double> u, v;  // ascending from 0 to 1
-  Vector<Vec3> points;  // points[j * u.size() + i] at (u[i], v[j])
+  Vector<Vec3> points;  // points[j * u.size() + i] lies at (u[i], v[j])
   // errors[j * (u.size() - 1) + i] belongs to the quad between lines i, i + 1 and j, j + 1. An error bounds the distance, at
   // equal (u,v), between the quad and the patch of the exact curves.
   Vector<double> errors;

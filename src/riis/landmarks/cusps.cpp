@@ -149,7 +149,7 @@ class CirclesModel : public CuspModel {
  public:
   enum Size { radius_, commissure_radius, n_common };
   using CuspModel::CuspModel;
-  std::vector<LinearValue> sectors, heights;  // of each cusp, and of the commissure behind it
+  std::vector<LinearValue> sectors, heights;  // each cusp's sector, and the height of the commissure behind it
   double meeting_shift = 0;
   void offsets(const std::vector<double> &values, const std::vector<Vec3> &local,
                std::vector<Offset> &out) const override {

@@ -58,7 +58,7 @@ struct CuspSizes {
     double commissure_height, fusion;
     std::array<LocalOpening, 4> local;  // at the control points of the free edge, from the middle
   };
-  Vector<Side> sides;  // y >= 0 and y < 0, or one side for both
+  Vector<Side> sides;  // the sides y >= 0 and y < 0, or one side for both
   // In the open free edge, the inner control points beside the commissures hang `open_sag` times as deep as the middle.
   double open_sag = usual_open_sag;
 };
