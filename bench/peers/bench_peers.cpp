@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // ./run bench peers: gives the library's nodes and triangles to other programs (CGAL, VTK, OpenVDB), on one thread. First the
 // marks of all programs are compared with the marks of a loop over all triangles. After the comparison of marks, the programs are
-// timed in turns. One group of bars compares queries of every distance with queries node by node, with FCPW and with CGAL. Fails
-// if the library or CGAL marks other nodes than the loop. Also fails if queries by leaves give other bits than queries node by
-// node. argv[1] a file for the results as JSON
+// timed in turns. One group of bars is for queries without a limit: queries over leaves are compared with queries node by node,
+// with FCPW and with CGAL. Fails if the library or CGAL marks other nodes than the loop. Also fails if queries over leaves give
+// other bits than queries node by node.
+//   argv[1]  a file for the results as JSON
 //   argv[2]  thousands of nodes; default 100
 //   argv[3]  a folder for nodes, triangles and distances as raw binary numbers, for peers.py
 #include <algorithm>

@@ -3,8 +3,8 @@
 // give the same triangles, and the same distances to the last bit. The proof covers a million nodes, both valves, three
 // positions, three half thicknesses, every instruction set of the processor, and 1 to 4 threads. The loop runs the scalar form of
 // the library's decision kernel on every triangle whose box is near the node. A separate grid finds the triangles near a node.
-// For a sample of nodes, the loop runs over every triangle. The program prints a table and fails on any difference. argv[1]:
-// thousands of nodes, instead of a million.
+// For a sample of nodes, the loop runs over every triangle. The program prints a table and fails on any difference.
+//   argv[1]  the number of nodes in thousands, 1000 by default
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

@@ -2,8 +2,9 @@
 // ./run bench proof, its third part: every search marks a small mesh many times, and the memory of the process must not grow.
 // Each search runs with 1, 2 and 4 threads, on processors that other processes keep busy. A search takes less than a millisecond,
 // so threads join it late. TBB keeps the memory that it allocated for late threads. The program prints a table and fails if
-// memory grows. argv[1]: another number of markings. OpenMP's threads should sleep while they wait (OMP_WAIT_POLICY=passive).
-// Otherwise the run takes many times as long.
+// memory grows. OpenMP's threads should sleep while they wait (OMP_WAIT_POLICY=passive). Otherwise the run takes many times as
+// long.
+//   argv[1]  the number of markings, 5,000 by default
 #include <sched.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>

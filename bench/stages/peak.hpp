@@ -16,8 +16,8 @@ struct PeakKernel {
   double (*repeat)(int64_t n);
 };
 struct PeakKernels {
-  // These functions use single precision. The three functions do multiply-adds; multiply-adds and additions; multiplications and
-  // additions.
+  // These functions use single precision. The first function does multiply-adds, the second multiply-adds and additions, and the
+  // third multiplications and additions.
   PeakKernel floats[3];
   PeakKernel doubles;  // for double precision: multiplications and additions, because the decision kernel fuses no
                        // operations

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Measures the cost of each call for the tables in docs/performance.md. The cost is the time of the shortest of repeated calls,
 // and the memory that stays with the handle. The meshes are cylinders of a million nodes around the valves, and the tolerance is
-// 5 %. A second table compares a step with an offset to a step without. The last table has processor times of orifices, free
-// edges and coaptation, for surfaces with 60,000 triangles. argv[1], optional: thousands of nodes, "offset" for the second table
-// alone, or "measures" for the last table alone.
+// 5 %. A second table compares a step with an offset to a step without an offset. The last table has processor times of orifices,
+// free edges and coaptation, for surfaces with 60,000 triangles.
+//   argv[1]  thousands of nodes, "offset" for the second table alone, or "measures" for the last table alone; optional
 #include <riis/riis.h>
 
 #include <algorithm>
@@ -225,8 +225,8 @@ class OffsetStep {
   riis_mark_options marking_;
 };
 
-// Prints the processor time of a step with the offset 0.75, divided by that of a step without. Both steps take turns, so other
-// work on the machine slows both.
+// Prints the processor time of a step with the offset 0.75, divided by that of a step without an offset. Both steps take turns,
+// so other work on the machine slows both.
 void print_offset() {
   constexpr double half_thickness = 0.1, spacing = half_thickness / 2;
   const Cylinder &around = cylinders[0];
@@ -335,7 +335,7 @@ double processor_seconds(const std::function<void()> &call, const std::function<
   return least;
 }
 
-// Prints the processor times of the measures. Of the times of a closed and of an open valve, the longer is printed.
+// Prints the processor times of the measures. Each printed time is the longer of the times for a closed and for an open valve.
 void print_measures() {
   const std::pair<const char *, std::function<void(const riis_surface *)>> calls[] = {
       {"`riis_surface_get_orifice`", get_orifice},

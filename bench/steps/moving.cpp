@@ -158,7 +158,7 @@ class MovingSteps {
     marking_.fields = fields;
     check(riis_mark_nodes(surface_.get(), mesh_.get(), &marking_, result_.get()));
   }
-  // Directions of the opening. All parameters take the same time.
+  // Adds directions of the opening. Directions of other parameters would take the same time.
   void add_directions(int n) {
     riis_valve *const after = after_.get(), *const earlier = earlier_.get();
     check(riis_valve_set_scalar(after, "opening", opening_ + 1e-4));

@@ -147,7 +147,7 @@ inline double cube_root(double x) {
   std::frexp(x, &exponent);
   double root = std::ldexp(1.0, exponent / 3);  // within a factor of 2
   for (int i = 0; i < 7; ++i)
-    root -= (root - x / (root * root)) / 3;  // each of Newton's steps doubles the right digits
+    root -= (root - x / (root * root)) / 3;  // each of Newton's steps doubles the number of right digits
   return root;
 }
 

@@ -27,8 +27,8 @@ constexpr std::size_t n_sectors = 12;
 // Two flat parts that touch are both unclear if their areas differ by a factor of less than `most_apart`. If the areas differ
 // more, only the smaller part is unclear.
 constexpr double most_apart = 10;
-// A small part is an end if its rim has at least `least_sides` sides, and if the wall stays as steep up to `wide_band_share` of
-// the radius.
+// A small part is an end if its rim has at least `least_sides` sides, and if the wall is also steep in a wider band, up to
+// `wide_band_share` times the radius.
 constexpr std::int64_t least_sides = 12;
 constexpr double wide_band_share = 1.5;
 

@@ -41,7 +41,7 @@ struct Part {
   std::int64_t n_rims = 0, n_sides = 0;  // lines of the rim, and their edges
   bool is_behind = false;                // the wall beside it lies on the side of the blood
   bool is_touching = false;              // another flat part begins at its rim
-  bool is_large = false;                 // enough not to be noise
+  bool is_large = false;                 // large enough not to be noise
   bool is_facet = false;  // it is small beside the largest end, and hardly larger than the wall's triangles
   bool was_open = false;
 
@@ -61,7 +61,7 @@ class Finder {
 
   // Returns the flat parts that may be ends, the largest first. The result includes `parts`, which are already known.
   std::vector<Part> find(std::vector<Part> parts);
-  // Returns the part that closed a hole.
+  // Returns the part of these triangles, which closed a hole.
   Part closed_hole(std::vector<std::int64_t> triangles);
   // Returns the flat part at a triangle to which the user points.
   Part pointed_at(std::int64_t triangle);
@@ -93,7 +93,7 @@ class Finder {
   double size_ = 0, total_ = 0;
   std::vector<double> areas_;
   std::vector<Vector3> normals_, centres_;
-  std::vector<int> stamp_;  // by which the last walk marked a triangle
+  std::vector<int> stamp_;  // for each triangle, the number of the last walk that marked it
   int last_stamp_ = 0;
 };
 

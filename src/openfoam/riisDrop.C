@@ -24,7 +24,7 @@ namespace fv {
 namespace {
 
 constexpr scalar openShare = 1e-5;  // the resistance of blood outside the band, divided by the largest K
-constexpr scalar leastShare = 0.2;  // calibration refuses a closed valve that drops less of (R / eps) u
+constexpr scalar leastShare = 0.2;  // calibration refuses a closed valve whose drop is a smaller share of (R / eps) u
 
 // Returns -1 for each cell upstream of the closed band, and 1 for each cell downstream. Cells in the band get 0, and so do
 // pockets that the band encloses. If the band does not separate the blood into two sides, all entries are 0. `middle` is the
@@ -91,7 +91,7 @@ labelList sidesOf(const fvMesh &mesh, const scalarField &K, const riis_mark_list
   return side;
 }
 
-// On both sides, chooses the cells that keep the pressure 1 or 0. Between the chosen cells and the band there are more than four
+// Chooses the cells on both sides that keep the pressure 1 or 0. Between the chosen cells and the band there are more than four
 // cells, or fewer if the mesh ends sooner. If an edge between cell centres is not orthogonal to its face, the solver corrects the
 // flow by the gradient in the cells. Beside the band, the correction includes the gradient in the band. The pressure beside the
 // band must therefore be free to balance the correction.
@@ -260,7 +260,7 @@ scalar riisValve::conductance(const scalarField &K, const labelList &side, const
       flow = 0;
       forAll(side, cell) flow -= side[cell] < 0 && isEnd[cell] ? out[cell] : 0;
       reduce(flow, sumOp<scalar>());
-      if (mag(flow - before) < 5e-4 * mag(flow)) break;  // corrections for edges that are not orthogonal to faces
+      if (mag(flow - before) < 5e-4 * mag(flow)) break;  // the corrections for non-orthogonal edges have converged
     }
     equation.setValues(fixed, pressures);
     // fvMatrix::solve is not used, because it would add its residuals to those of the solver's own p.

@@ -63,7 +63,7 @@ void diagonalise(Matrix &a, Matrix &vectors) {
 }  // namespace
 
 // B. Horn, "Closed-form solution of absolute orientation using unit quaternions", J. Opt. Soc. Am. A 4 (1987): the rotation is
-// the eigenvector of a matrix of 4 x 4 that belongs to the largest eigenvalue.
+// the eigenvector of a 4 x 4 matrix for its largest eigenvalue.
 riisRigid::riisRigid(const pointField &atRest, const pointField &now, scalar &gap) {
   gap = 0;
   const label n = atRest.size();
@@ -198,7 +198,7 @@ void riisFollow::readFaces(const labelList &points, const string &place) {
 void riisFollow::readLabels(const dictionary &dict) {
   const labelList wanted(dict.get<labelList>("points"));
   name_ = Foam::name(wanted.size()) + " points";
-  Map<label> place;  // of each wanted label in the list
+  Map<label> place;  // the place of each wanted label in the list
   forAll(wanted, i) {
     if (!place.insert(wanted[i], i)) {
       FatalIOErrorInFunction(dict) << "points has " << wanted[i] << " twice" << exit(FatalIOError);

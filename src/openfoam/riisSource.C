@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Defines a linear solver for the pressure. The solver adds a volume source in cells that the band of a moving valve seals off.
 //
-// The band imposes the velocity of the leaflets. In the mesh, the divergence of the leaflets' velocity is not 0. The velocity
-// points through walls, leaflets stretch, and the velocity jumps between leaflets. If all faces of a cell are resisted, only a
-// very large pressure could drive blood through them. Therefore riisSource adds a source to the right-hand side of the pressure
-// equation, and then calls the linearSolver of its dictionary. README.md says how to switch the source on, and riisNetSource.H
-// describes the source.
+// The band imposes the velocity of the leaflets. In the mesh, the divergence of the leaflets' velocity is not 0, because the
+// velocity points through walls, leaflets stretch, and the velocity jumps between leaflets. If all faces of a cell are resisted,
+// only a very large pressure could drive blood through them. Therefore riisSource adds a source to the right-hand side of the
+// pressure equation, and then calls the linearSolver of its dictionary. README.md says how to switch the source on, and
+// riisNetSource.H describes the source.
 #include "addToRunTimeSelectionTable.H"
 #include "fvOptions.H"
 #include "lduMatrix.H"

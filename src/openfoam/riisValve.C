@@ -89,7 +89,7 @@ void riisValve::readAll() {
   withVelocity_ = coeffs_.getOrDefault<Switch>("velocity", true);
   writeLeaflets_ = coeffs_.getOrDefault<Switch>("writeLeaflets", false);
   calibrate_ = coeffs_.getOrDefault<Switch>("calibrate", false);
-  // The default would need a pressure difference of about 10,000 mmHg. The jets of the narrowest valves have 6 m/s.
+  // The default of 50 m/s would need a pressure difference of about 10,000 mmHg. The jets of the narrowest valves have 6 m/s.
   largestSpeed_ = coeffs_.found("largestSpeed") ? positive(coeffs_, "largestSpeed") : 50;
   estimated_ = false;
   readFields(dict_);
@@ -482,7 +482,7 @@ void riisValve::addSup(const volScalarField &, fvMatrix<vector> &eqn, const labe
       << "equations of pimpleFoam" << exit(FatalError);
 }
 
-// Ends a run that diverges, before the run writes a time with speeds that cannot be.
+// Ends a run that diverges, before the run writes a time with impossible speeds.
 void riisValve::checkSpeed(const vectorField &U) const {
   scalar squared = -1;
   point fastest = vector::min;

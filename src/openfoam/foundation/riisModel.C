@@ -31,9 +31,9 @@ class riisModel : public fvModel {
   riis_mark_options markOptions_;
   riis_resistance resistance_;
 
-  scalar opening_;    // at the end of step timeIndex_
+  scalar opening_;    // the opening at the end of step timeIndex_
   label timeIndex_;   // the step of the last marking
-  bool meshChanged_;  // since the last marking
+  bool meshChanged_;  // whether the mesh has changed since the last marking
   volScalarField K_;
   volVectorField KU_;  // K times the velocity of the leaflets
   mutable riisNetSource source_;

@@ -41,12 +41,13 @@ Sought sought_by(const std::string &name) {
   return name == "opening" ? Sought::opening : name == "scale" ? Sought::scale : Sought::parameter;
 }
 
-// The range to search, and a value. If several values fit, the one nearest to this value is wanted.
+// The range to search. If several values fit, the value nearest to `near` is wanted.
 struct Values {
   double from, to, near;
 };
 
-// Makes surfaces of a valve at one value after the other. AreaTrials calls the public functions, whose messages refuse bad input.
+// Makes a surface of the valve for each value that the search tries. AreaTrials calls the public functions, which refuse bad
+// input.
 class AreaTrials {
  public:
   AreaTrials(const riis::Valve &valve, const char *name, const riis_area_search &search)
@@ -73,7 +74,7 @@ class AreaTrials {
 
   bool seeks_opening() const { return sought_ == Sought::opening; }
 
-  // Samples of the opening have equal distances, as in the tables of openings. Neighbouring samples of a size differ by a
+  // Samples of the opening are evenly spaced, as in the tables of openings. Each sample of a size is the previous sample times a
   // constant factor.
   bool grows(const Values &values) const { return !seeks_opening() && values.from > 0; }
 
@@ -112,7 +113,7 @@ class AreaTrials {
  private:
   const char *words() const { return search_.area == RIIS_AREA_EFFECTIVE ? "effective area" : "area"; }
 
-  // Returns the caller's range. If the caller left out an end of the range, the usual end is used, moved into the range of
+  // Returns the caller's range. If the caller left out an end of the range, the usual end is used, limited to the range of
   // possible values.
   Values checked(const Values &usual, const std::array<double, 2> &range) const {
     const double from = std::isnan(search_.from) ? std::clamp(usual.from, range[0], range[1]) : search_.from;
@@ -129,7 +130,7 @@ class AreaTrials {
       options_.scale = value;
     else
       valve_.set(name_, 1, &value);
-    // A fixed triangulation is made for one shape and one scale.
+    // A fixed triangulation is made for one shape and one scale, so another value needs a new one.
     const bool is_planned_anew = options_.triangulation == RIIS_TRIANGULATION_FIXED && !seeks_opening();
     if (!surface_ || is_planned_anew) {
       surface_ = std::make_unique<riis_surface>();
@@ -220,7 +221,7 @@ riis_status riis_find_by_area(const riis_valve *valve, const char *name, int64_t
     points.reserve(static_cast<std::size_t>(n_areas));
     for (std::int64_t i = 0; i < n_areas; ++i) {
       auto point = found.find(areas[i], searched.near, whole.tolerance);
-      // Slits remain between closed leaflets, so the area 0 stands for the least area.
+      // Slits remain between closed leaflets, so no opening has the area 0. The area 0 therefore stands for the least area.
       if (!point && areas[i] == 0 && trials.seeks_opening()) point = found.least();
       if (!point) trials.fail_out_of_reach(i, areas[i], found, searched);
       points.push_back(*point);

@@ -51,7 +51,7 @@ void refuse_what_is_of_triangles(const riis_closest_arrays &to, const riis::Patc
 double checked_limit(const riis_closest_options &options) {
   if (!(options.distance_limit >= 0))
     riis::fail(RIIS_INVALID_ARGUMENT, "options.distance_limit is ", options.distance_limit, "; it must be at least 0");
-  // Without a limit no point is beyond it, so far_distance does not matter.
+  // If there is no limit, far_distance does not matter.
   if (std::isfinite(options.distance_limit))
     riis::check_far_distance("options.far_distance", options.far_distance, options.distance_limit);
   return options.distance_limit;

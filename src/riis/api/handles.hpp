@@ -45,10 +45,10 @@ enum class HandleKind : std::uint64_t {
 constexpr bool is_kind(HandleKind kind) noexcept { return static_cast<std::uint64_t>(kind) >> 32 == 0x72696973; }
 
 // The calls that use a handle now. While a call writes a handle, a call of another thread that uses it fails instead of crashing
-// (riis.h, "Threads"). Calls that only read count themselves without waiting, and order nothing between each other.
+// (riis.h, "Threads"). Calls that only read count themselves without waiting, and impose no order on each other.
 class Uses {
  public:
-  // Returns false if a call of another thread excludes this one.
+  // Returns false if a call of another thread excludes this call.
   bool begin(bool writes) noexcept {
     if (writes && is_written_.exchange(true)) return is_inherited();
     if (!writes) n_begun_.fetch_add(1);
@@ -65,7 +65,7 @@ class Uses {
   bool is_readable() const noexcept { return !is_written_.load() || is_inherited(); }
 
  private:
-  // The calls of another process's threads never end in this child of fork().
+  // In a child of fork(), calls that the parent's threads had begun never end.
   bool is_inherited() const noexcept { return getpid() != maker_; }
   bool is_unread() const noexcept {
     const std::uint64_t n_ended = n_ended_.load(std::memory_order_acquire);
@@ -83,7 +83,8 @@ struct Handle {
   mutable Uses uses = {};
 };
 
-// The handles that a call uses until its end, each with whether the call writes it. A call may name a handle twice.
+// The handles that a call uses until its end. For each handle, the list also says whether the call writes it. A call may name a
+// handle twice.
 class UsesOfCall {
  public:
   UsesOfCall() noexcept : outer_(std::exchange(innermost(), this)) {}
@@ -107,7 +108,7 @@ class UsesOfCall {
   }
 
  private:
-  static UsesOfCall *&innermost() noexcept;  // of this thread
+  static UsesOfCall *&innermost() noexcept;  // the innermost call of this thread
   UsesOfCall *outer_;
   std::array<std::pair<Uses *, bool>, 4> used_{};
 };
@@ -121,8 +122,8 @@ riis_status guarded_with_handles(Body &&body) noexcept {
   });
 }
 
-// Returns the handle, or fails if it is null or of another kind, or if a call of another thread excludes this one. A call writes
-// the handles that it does not take as const. A call that is short is not counted, because many threads would wait for the count.
+// Returns the handle, or fails if it is null or of another kind, or if a call of another thread excludes this call. A call writes
+// the handles that it does not take as const. Short calls are not counted, because many threads would wait for the count.
 template <class AnyHandle>
 AnyHandle *require_handle(AnyHandle *handle, const char *argument, bool is_counted = true) {
   require(handle, argument);
@@ -144,8 +145,8 @@ riis_status create_handle(AnyHandle **handle, const char *argument) noexcept {
   });
 }
 
-// The body of a destroy function. A handle of another kind, or in use by another thread, is not destroyed, because a leak of
-// memory is better than freeing it as the wrong type or too early.
+// The body of a destroy function. A handle of another kind is not destroyed, and neither is a handle that another thread uses. A
+// leak is better than memory that is freed as the wrong type or too early.
 template <class AnyHandle>
 void destroy_handle(AnyHandle **handle, const char *argument) noexcept {
   if (!handle || !*handle) return;
@@ -165,7 +166,7 @@ struct riis_warp : riis::Handle<riis::HandleKind::warp> {
   riis_warp(riis::WarpLandmarks made, const riis::Placement &placed) : landmarks(std::move(made)), placement(placed) {}
   riis::KeepsMemory keeps_memory;
   riis::WarpLandmarks landmarks;
-  riis::Placement placement;  // takes the valve's coordinates to the caller's
+  riis::Placement placement;  // takes the valve's coordinates to the caller's coordinates
   riis::WarpMap map, next_map;
   riis::WarpQuality quality{};
   riis::Vector<riis::Vec3> targets;

@@ -70,7 +70,7 @@ void write_orifice(const riis::Surface &surface, const riis::Surface *wall, cons
   riis::write_struct(orifice, struct_size, "orifice", orifice_of(surface, wall, whole));
 }
 
-// Tries openings of a valve in a mesh. PassageTrials calls the public functions, whose messages refuse bad input.
+// Tries openings of a valve in a mesh. PassageTrials calls the public functions, which refuse bad input.
 class PassageTrials {
  public:
   PassageTrials(const riis_valve *valve, const riis_mesh *mesh, const riis_passage_ends *ends,

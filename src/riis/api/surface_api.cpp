@@ -55,7 +55,7 @@ void check_precision(const riis_surface_options &options, const char *name, doub
                ", where coordinates are rounded by more than a thousandth of ", name, " * half_thickness, ", wanted);
 }
 
-// Returns the request. The request keeps an n_threads of 0, and the surface chooses the number of threads.
+// Returns the request. An n_threads of 0 stays 0 in the request, because the surface chooses the number of threads.
 riis::SurfaceRequest request_of(const riis_surface_options &options) {
   return {riis::band_of(options), riis::placement_of(options), options.flip_normals != 0, options.n_threads};
 }

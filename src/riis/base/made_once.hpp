@@ -22,7 +22,8 @@ class MadeOnce {
     }
     return value_;
   }
-  // After this call, the next get() makes the value again, from the old value. No other thread may use the value meanwhile.
+  // After this call, the next get() makes the value again, from the old value. No other thread may use the value at the same
+  // time.
   T &forget() {
     is_made_.store(false, std::memory_order_relaxed);
     return value_;

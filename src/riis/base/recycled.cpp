@@ -40,12 +40,12 @@ struct Block {
 constexpr int smallest_class = 6, largest_class = 22;
 constexpr std::size_t largest_block = std::size_t{1} << largest_class;
 
-// Each thread takes from its own pool first, so threads seldom wait for each other. A thread may give back memory that
-// another thread took. A thread with an empty pool therefore looks into the other pools before the system is asked.
+// Each thread takes from its own pool first, so threads seldom wait for each other. A thread may give back memory that another
+// thread took. A thread with an empty pool therefore looks into the other pools before it asks the system.
 constexpr unsigned n_pools = 16;
 
-// A lock that a thread holds for a few instructions. Two threads seldom need it at the same time. A mutex would take half of the
-// time that an array's memory costs.
+// A lock that a thread holds for a few instructions. Two threads seldom need it at the same time. Locking a mutex would take half
+// of the time of an allocation.
 class ShortLock {
  public:
   void lock() noexcept {

@@ -5,8 +5,8 @@
 
 namespace riis {
 
-// Adds numbers by Neumaier's method (1974), which also adds up the rounding errors. The sum over all leaflets therefore differs
-// from the sum over the whole surface by only a few units in the last place, for any number of nodes.
+// Adds numbers by Neumaier's method (1974), which also adds up the rounding errors. For any number of nodes, the sum over all
+// leaflets thus equals the sum over the whole surface to a few units in the last place.
 class Sum {
  public:
   void add(double x) {

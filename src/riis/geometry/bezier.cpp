@@ -142,9 +142,9 @@ struct SpeedOnPart {
   double from, to, length, whole_length;
 };
 
-// Finds the parameters of ascending lengths from the start of the part, each from the previous parameter. Returns false if the
-// lengths do not add up to the length of the part. This happens where the speed is not nearly a polynomial, such as at a cusp,
-// because one quadrature for each step is then not accurate enough.
+// Finds the parameters of given ascending lengths from the start of the part. Each parameter is found from the previous
+// parameter. Returns false if the lengths do not add up to the length of the part. This happens at a cusp, for example, because
+// one quadrature for each step is accurate only where the speed is nearly a polynomial.
 bool find_in_one_pass(const SpeedOnPart &part, const double *behind, std::size_t n, double *t) {
   const Speed &speed = part.speed;
   const double close_enough = 1e-14 * part.whole_length;
@@ -203,8 +203,7 @@ double arc_length(const Bezier &curve, double t0, double t1) {
   return length_between(Speed(curve), length_tolerance(curve), t0, t1);
 }
 
-// Every point has its own variable, and no place in an array. With an array, the compiler would store the points and load them
-// again immediately.
+// Every point has its own variable. From an array, the compiler would store the points and load them again immediately.
 std::pair<Bezier, Bezier> split(const Bezier &curve, double t) {
   const auto &q = curve.control;
   const Vec3 a = mix(q[0], q[1], t), b = mix(q[1], q[2], t), ab = mix(a, b, t);
@@ -262,8 +261,8 @@ double rough_curvature(const Bezier &curve, double t0, double t1) {
 }
 
 double largest_curvature(const Bezier &curve) {
-  // Bounds each quarter of the curve separately. The bound from control points is loose if they vary much. The control points of
-  // a quarter vary little.
+  // Bounds each quarter of the curve separately. The bound from control points is tighter for a quarter, because its control
+  // points vary less.
   const auto [left, right] = split(curve, 0.5);
   const auto [first, second] = split(left, 0.5);
   const auto [third, fourth] = split(right, 0.5);

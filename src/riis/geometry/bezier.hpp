@@ -61,8 +61,8 @@ double parameter_at_length(const Bezier &curve, double curve_length, double behi
 // time of separate calls.
 void parameters_at_lengths(const Bezier &curve, double curve_length, const Vector<double> &behind, double *t);
 
-// Divides the part of the curve between two parameters into eight parts of equal length, and writes their ends to t. `length`
-// is the length of the whole part. Returns false if one pass over the part does not find the ends.
+// Divides the curve between two parameters into eight parts of equal length. Writes the seven parameters between these parts to
+// t. `length` is the length between the two given parameters. Returns false if one pass does not find the parameters.
 bool divide_part(const Bezier &curve, double curve_length, double from, double to, double length,
                  std::array<double, 7> &t);
 

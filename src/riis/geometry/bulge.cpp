@@ -64,15 +64,15 @@ inline Interval square(const Ball &a) {
 // Inverts positive numbers.
 inline Interval inverse(double least, double largest) { return Interval::between(1 / largest, 1 / least); }
 
-// Returns the part of a that is perpendicular to the unit vectors of a ball. The projections by two unit vectors differ by the
-// sine of the angle between these vectors, which is at most their distance.
+// Returns the part of `a` that is perpendicular to a unit vector, for all unit vectors of the ball `unit`. The projections by two
+// unit vectors differ by the sine of the angle between these vectors, which is at most their distance.
 inline Ball across(const Ball &a, const Ball &unit) {
   return {a.middle - dot(a.middle, unit.middle) * unit.middle, a.radius + length(a.middle) * unit.radius};
 }
 
-// Returns the unit vectors of vectors whose least length is positive. No vector of the ball turns away from the middle by an
-// angle whose sine exceeds radius / length. The distance between two unit vectors is less than the tangent of the angle between
-// them.
+// Returns a ball of the unit vectors of all vectors in `a`. The least length in `a` must be positive. The angle between the
+// middle and a vector of the ball has a sine of at most radius / length. The distance between two unit vectors is less than the
+// tangent of the angle between them.
 inline Ball unit(const Ball &a) {
   const double size = length(a.middle);
   return {(1 / size) * a.middle, a.radius / std::sqrt((size - a.radius) * (size + a.radius))};
@@ -177,7 +177,7 @@ class OffsetDerivatives {
     across1_ = across(m1_, normal_);
   }
 
-  // Whether O has a direction: W is parallel to T at no point.
+  // Returns whether O has a direction, which it has if W is nowhere parallel to T.
   bool has_direction() const { return has_direction_; }
 
   // O is factor |W| N with N = M / |M|, and N' is the part of M' across N, divided by |M|.
@@ -208,7 +208,7 @@ class OffsetDerivatives {
   Interval m_inverse_, w_size_, size1_;
 };
 
-// Returns O at points at the same share of the length of both curves.
+// Returns O at two points that lie at the same share of the lengths of their curves.
 Vec3 offset_at(const Curve &base, const PointOnSpan &on_base, const Curve &edge, const PointOnSpan &on_edge,
                double factor) {
   const Curve::PointAndTangent there = base.with_tangent(on_base);
@@ -275,7 +275,7 @@ double Bulge::linear_error(const Place &from, const Place &to, double enough) co
   // With eight parts, the error from the bound is only 1/64 of the error for the whole range.
   double error = error_between(from.u, to.u, 1, bounds.second);
   if (!(error <= enough)) error = sampled_error(from, to) + error_between(from.u, to.u, 8, bounds.second);
-  return error <= bounds.largest ? error : bounds.largest;  // an error that is NaN also gives way to this bound
+  return error <= bounds.largest ? error : bounds.largest;  // this bound is also returned if the error is NaN
 }
 
 // Returns the largest distance of O from its linear interpolation, at the points that divide the range into eight parts.

@@ -5,8 +5,8 @@
 //     O(u) = factor |W| unit(W x T),  W(u) = edge(u) - base(u),  T(u) the base's direction.
 // Thus D(u,v) = (1-v) base(u) + v edge(u) + 2 v (1-v) O(u). (The paper offsets along edge' x base', by a number that is not a
 // length. The product edge' x base' is 0 where edge' is 0, and changes its sign at the edge's corners: docs/theory/mitral.md.)
-// From two curves and the factor, this file computes O(u), and bounds how far O deviates from a linear function between two
-// values of u.
+// This file computes O(u) from two curves and the factor, and bounds how far O deviates from a linear function between two values
+// of u.
 #pragma once
 
 #include "base/recycled.hpp"
@@ -52,7 +52,7 @@ class Bulge {
   // Returns the start of the arc at u.
   Vec3 on_base(double u) const { return base_.at(u); }
 
-  // Bounds the distance of O(u) from its linear interpolation between two places, for all u from one place to a later place. The
+  // Bounds the distance of O(u) from its linear interpolation between a place and a later place, for all u between them. The
   // bound falls with the square of the distance. If W becomes parallel to T, O has no direction, and the bound stays at 2
   // |factor| |W|. The function refines the bound only until it is at most `enough`.
   double linear_error(const Place &from, const Place &to, double enough) const;

@@ -72,8 +72,8 @@ class ArcRefinement {
   }
 
  private:
-  // Returns the place at which a range is cut. A cut at a joint removes a kink, so the cut is at a joint that is not too near an
-  // end, if there is one. If there is no such joint, the cut is in the middle.
+  // Returns the place at which a range is cut. A cut at a joint removes a kink. The cut is therefore at a joint, if a joint is
+  // far enough from both ends. Otherwise the cut is in the middle.
   double cut(double from, double to) const {
     for (const double joint : bulge_.joints())
       if (joint > 0.875 * from + 0.125 * to && joint < 0.125 * from + 0.875 * to) return joint;

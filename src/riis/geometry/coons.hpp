@@ -37,7 +37,7 @@ struct GridLines {
 
 struct QuadGrid {
   Vector<double> u, v;  // ascending from 0 to 1
-  Vector<Vec3> points;  // points[j * u.size() + i] at (u[i], v[j])
+  Vector<Vec3> points;  // points[j * u.size() + i] lies at (u[i], v[j])
   // errors[j * (u.size() - 1) + i] belongs to the quad between lines i, i + 1 and j, j + 1. An error bounds the distance, at
   // equal (u,v), between the quad and the patch of the exact curves.
   Vector<double> errors;
@@ -89,8 +89,7 @@ ArcLines make_arc_lines(const PatchSides &sides, const Bulge &bulge, Vec3 offset
 // Makes the grid with n_rows rows of equal height h. The distance of an arc from its chords is at most |O| h^2 / 2.
 QuadGrid make_arc_grid(const PatchSides &sides, const ArcLines &lines, std::size_t n_rows);
 
-// A linear function has the value at0 at 0 and the value at1 at 1. Returns the larger of the function's values at `from` and
-// `to`.
+// Returns the larger of a linear function's values at `from` and `to`. The function's values at 0 and 1 are `at0` and `at1`.
 double larger_mix(double at0, double at1, double from, double to);
 // Returns the largest value of 2 v (1-v) between two values of v.
 double largest_arc_weight(double from, double to);

@@ -102,7 +102,7 @@ class VelocityBend {
       return (1 - share) * bend0 + share * bend1;
     }
   };
-  static constexpr std::size_t n_cells = 8;  // of each span
+  static constexpr std::size_t n_cells = 8;  // the number of cells of each span
 
   Vector<Cell> cells_;
 };
@@ -118,9 +118,9 @@ struct Flattened {
 // chord. The distance of a Bézier span from its chord is at most 3/4 (cubic) or 1/2 (quadratic) of the span's flatness. Second,
 // the part and its chord are at most max_error apart at equal shares of their lengths. With `bend`, a part is also halved if its
 // velocity is estimated to differ from a linear function by more than max_bend. Parts are halved by length, whereas the paper
-// (algorithm "Recursive de Casteljau subdivision") halves the parameter. The shares of two curves therefore agree to the last bit
-// or differ by at least a part, so no slivers arise. A common point of two parts appears once. Fails with RIIS_LIMIT_EXCEEDED for
-// more than 2^20 parts.
+// (algorithm "Recursive de Casteljau subdivision") halves the parameter. A share of one curve therefore equals a share of another
+// curve to the last bit, or is at least one part away, so no slivers arise. A common point of two parts appears once. Fails with
+// RIIS_LIMIT_EXCEEDED for more than 2^20 parts.
 Flattened flatten(const Curve &curve, double max_error, const VelocityBend *bend = nullptr, double max_bend = 0);
 
 // Points of a curve at many shares of its length, found in one pass.

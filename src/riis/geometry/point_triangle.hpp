@@ -22,7 +22,8 @@ struct PointOnTriangle {
 // the triangle. A wrong decision about "inside" therefore adds only a rounding error, and the distance never becomes too small.
 PointOnTriangle closest_point_on_triangle(Vec3 p, Vec3 a, Vec3 b, Vec3 c);
 
-// The closest of several triangles has the smallest square. Among triangles with equal squares, it has the lowest position.
+// The closest of several triangles. Among triangles at the same distance, the triangle with the lowest position counts as the
+// closest.
 struct ClosestTriangle {
   double distance_sq;
   std::int64_t triangle;  // position in the set, -1 for none

@@ -18,7 +18,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // `enough` requires.
 double split_error_at(const Quad &quad, int level, double enough) {
   // Below the level `few`, all parts of the quad are checked, because their number is small. From the level `few` on, the bound
-  // only uses that each level divides the twist by exactly 4.
+  // uses only the fact that each level divides the twist by exactly 4.
   constexpr int few = 5;
   const double at_equal_uv = std::ldexp(quad_flatness(quad), -2 * level);
   if (level >= few || (at_equal_uv <= enough && enough < infinity)) return at_equal_uv;
@@ -63,8 +63,8 @@ Quad without_shortest_edge(const Quad &quad, double &shortest) {
   return {corner[0], corner[1], corner[2], corner[3]};
 }
 
-// Returns a level that was planned for the quad, with its error. At a collapsed side, rounding may fold a quad at one opening and
-// not at the next. A bound for the quad without the collapsed edge ignores the fold.
+// Returns the quad's planned level, with the error at this level. At a collapsed side, rounding may fold a quad at one opening
+// and not at the next. A bound for the quad without the collapsed edge ignores the fold.
 Level planned_level(const QuadGrid &grid, std::size_t i, std::size_t j, double max_error, int level) {
   const Quad quad = quad_of(grid, i, j);
   const double left = max_error - grid.error(i, j);
@@ -72,8 +72,8 @@ Level planned_level(const QuadGrid &grid, std::size_t i, std::size_t j, double m
   if (!(error <= left)) {
     double shortest = 0;
     const Quad merged = without_shortest_edge(quad, shortest);
-    // The quad and the merged quad, and also their triangles, are at most half the shortest edge apart. The error of the merged
-    // quad therefore gets the whole length of the edge added.
+    // The quad and the merged quad, and also their triangles, are at most half the shortest edge apart. The whole length of the
+    // edge is therefore added to the error of the merged quad.
     error = std::min(split_error_at(quad, level, infinity), split_error_at(merged, level, infinity) + shortest);
   }
   return {level, grid.error(i, j) + error};

@@ -61,9 +61,9 @@ void check_pointers(const StridedReals<Real> &points, const char *what, const ch
 struct ComponentNames {
   const char *prefix, *names[3], *stride;
 };
-// Refuses components that begin inside each other, and not side by side within the first stride: x = xyz and y = xyz + 1 with the
-// stride 1, or separate arrays with the stride 3. Equal components are allowed if `may_be_equal`, because one array may serve two
-// axes. The caller has checked n and the stride, in numbers of `size` bytes.
+// Refuses a component that begins inside another component, but after that component's first stride. Examples are the components
+// of one array xyz with the stride 1, and separate arrays with the stride 3. Equal components are allowed if `may_be_equal`,
+// because one array may serve two axes. The caller has checked n and the stride, in numbers of `size` bytes.
 void check_apart(std::int64_t n, const void *const (&components)[3], std::int64_t stride, std::int64_t size,
                  const ComponentNames &names, bool may_be_equal = true);
 

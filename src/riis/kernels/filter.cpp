@@ -52,7 +52,7 @@ RIIS_INLINE ToGroup measure_to_group(const TriangleGroup &group, Floats3 p, Floa
     inside = least(inside, inside_edge);
   };
   offer_edge(e, f, group.ac_e, group.ac_f, group.ac_middle, group.ac_side, group.half_ac);
-  // The triangle is on the other side of bc, so two axes are exchanged.
+  // The triangle is on the right of ac but on the left of bc, so the two axes are exchanged.
   offer_edge(f, e, group.bc_f, group.bc_e, group.bc_middle, group.bc_side, group.half_bc);
   return {multiply_add(g, g, zero_where_at_least(inside, margin, in_plane)), g};
 }
@@ -282,8 +282,8 @@ RIIS_INLINE void begin_leaf(const FilterTask &task, LeafTask &leaf, ClusterTask 
   leaf.may_be_near = cluster.n_listed > n_before;
 }
 
-// Lists nodes of a leaf. Except with its first group, each node is listed with every group that may be as near as the best
-// triangle so far. The list begins with the group cluster.next_group. Returns false if the list is full before the last group.
+// Lists nodes of a leaf. Each node is listed with every group that may be as near as the best triangle so far, except the node's
+// first group. The list begins with the group cluster.next_group. Returns false if the list is full before the last group.
 RIIS_INLINE bool list_others(const LeafTask &leaf, ClusterTask &cluster, const float *lower_bounds) {
   const int32_t first_node = first_node_of(leaf);
   Floats limit[halves], first_group[halves];

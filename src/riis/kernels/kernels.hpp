@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Kernels compute sixteen floats or eight doubles at a time. Kernels are compiled once for each instruction set, and one set is
-// chosen at run time. This header has only plain data and declarations. The compiler would compile a function body for several
+// chosen at run time. This header has only plain data and declarations, because a function body would be compiled for several
 // instruction sets under one name.
 //
 // FilterKernels compute in single precision, and only rule out pairs that cannot matter. Results are accurate to filter_error
 // (docs/theory/clusters.md). Coordinates are in the surface's frame: relative to the surface's middle, and scaled by a power of
-// two that makes the surface's half extent 1/2 to 1.
+// two. The scale brings the surface's half extent between 1/2 and 1.
 // DecisionKernels compute in double precision, with exactly the bits of the decision kernel (geometry/point_triangle.hpp).
 #pragma once
 
@@ -32,7 +32,7 @@ struct alignas(64) TriangleGroup {
   float bc_e[triangles_per_group], bc_f[triangles_per_group], bc_middle[triangles_per_group],
       bc_side[triangles_per_group];
 };
-constexpr float beyond_limits = 0x1p40f;  // its square is finite, and farther than any limit of a filter
+constexpr float beyond_limits = 0x1p40f;  // its square is finite, and above the square of any limit of a filter
 
 // The coordinates of a group's corners: x, y and z of the first corners, then of the second corners, then of the third corners.
 struct alignas(64) GroupCorners {
@@ -76,10 +76,10 @@ struct FilterLimits {
 // A band with an offset leaves out nodes far behind the surface, on the side away from the offset. All numbers are in the
 // surface's frame (docs/theory/clusters.md, "One side").
 struct OneSide {
-  float behind;       // 1 or -1: this times a node's height over a triangle is the node's depth behind the triangle
+  float behind;       // 1 or -1: the factor from a node's height over a triangle to its depth behind the triangle
   float twice_shift;  // twice the distance of the band's middle from the surface
   float least_depth;  // a node with less depth may be in front of the triangle
-  float least_sum;    // a node is out of the band if the square of its distance + twice_shift * depth exceeds this
+  float least_sum;    // a node is out of the band if distance^2 + twice_shift * depth exceeds this number
   // For each group, a place along the group's first axis, multiplied by `behind`. Beyond this place the whole group leaves a node
   // out. The place is infinite if the group never leaves a node out. The pointer is null if nodes on both sides are wanted.
   const float *end_of_band = nullptr;
@@ -109,7 +109,7 @@ struct LeafTask {
   const int32_t *near_groups;
   int32_t n_groups;
   FilterLimits limits;
-  bool may_be_near;  // begin_cluster sets it to whether a wanted node may be near a group
+  bool may_be_near;  // whether a wanted node may be near a group; begin_cluster sets it
   uint32_t found;    // after the last call of filter_cluster, a bit for each node that had pairs in any call
 };
 
@@ -136,12 +136,12 @@ struct ClusterTask {
   int32_t n_listed, next_listed;
   int32_t node[most_listed + 16], group[most_listed + 16];
   float nearest_sq[most_listed + 16];       // the square of the node's distance to the group
-  uint16_t triangles[most_listed + 16];     // the group's triangles that are at this distance, to the tolerance
-  uint16_t in_band[most_listed + 16];       // some of these triangles, which do not leave the node out of the band
-  FilterLimits limits[leaves_per_cluster];  // by the leaf's position
+  uint16_t triangles[most_listed + 16];     // the group's triangles at this distance, up to the tolerance
+  uint16_t in_band[most_listed + 16];       // the part of `triangles` that does not leave the node out of the band
+  FilterLimits limits[leaves_per_cluster];  // the limits of each leaf, by its position
   alignas(64) float xyz[3][nodes_per_cluster];
   float best[nodes_per_cluster];         // the least of reach_sq and of all computed squares of distances
-  float limit[nodes_per_cluster];        // the square of the distance up to which groups are near, or -1 if none is
+  float limit[nodes_per_cluster];        // groups up to the root of this number are near; -1 if no group is near
   float first_group[nodes_per_cluster];  // the group that the node was compared with first
 };
 
@@ -201,15 +201,15 @@ struct FilterKernels {
   // For each candidate group, writes a bit for each box within the group's reach. Returns false if no box is within any reach.
   bool (*near_boxes)(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
                      uint16_t *near);
-  // Clears the bits of boxes beyond the reach of the box that a group has along its own axes. If only one side of the surface
-  // counts, also clears all bits of a box that all groups leave out. Returns false if no box is left. `near` comes from
+  // Each group also has a box along its own axes. Clears the bits of boxes beyond the reach of this box. If only one side of the
+  // surface counts, also clears all bits of a box that all groups leave out. Returns false if no box is left. `near` comes from
   // near_boxes, so lanes without a box have no bits.
   bool (*near_own_boxes)(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
                          uint16_t *near);
   // Copies, without gaps, those of n numbers whose entry in `marks` has the given bit. Returns the number of copied numbers. `to`
   // must have room for n numbers.
   int32_t (*select)(const int32_t *numbers, const uint16_t *marks, int32_t n, int32_t bit, int32_t *to);
-  // For each of 16 boxes, finds the candidate group whose corner is nearest to the middle of the box, and writes the group's
+  // Finds, for each of 16 boxes, the candidate group whose corner is nearest to the middle of the box. Writes the group's
   // position among the candidates. The number n_candidates is above 0.
   void (*nearest_groups)(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
                          int32_t *nearest);
@@ -265,8 +265,8 @@ struct DecisionKernels {
                           VertexNumbers *mixed);
   // Computes how fast the distances of the first n_points points change when the triangles' vertices move. The number n_points is
   // above 0. The search passes the distances that it has already computed, so that the kernel need not take roots again. `vertex`
-  // has the ids of each pair's three vertices, and rates[i] has the rates of all vertices in direction i. The derivatives of a
-  // point follow each other. A derivative at distance 0 is 0.
+  // has the ids of each pair's three vertices, and rates[i] has the rates of all vertices in direction i. The derivatives of one
+  // point are stored one after another. A derivative at distance 0 is 0.
   void (*differentiate)(const PointsAndTriangles &pairs, const PointsOnTriangles &located,
                         const double (&distance)[pairs_at_once], const int64_t *const *vertex,
                         const double *const *rates, int64_t n_directions, int32_t n_points, double *derivatives);

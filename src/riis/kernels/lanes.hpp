@@ -62,8 +62,8 @@ struct ComparisonOf<DoubleRegister> {
   typedef LongRegister type;
 };
 
-// Returns a < b ? a : b. If `a` is NaN, the result is therefore b. NEON differs for a NaN in b alone, and for two zeros of
-// different signs. No result depends on this difference: if b is NaN, a is also NaN, and nothing reads the sign of a zero.
+// Returns a < b ? a : b. If `a` is NaN, the result is therefore b. NEON gives another result if only b is NaN, and for two zeros
+// of different signs. No result depends on this difference: if b is NaN, a is also NaN, and nothing reads the sign of a zero.
 RIIS_INLINE FloatRegister least(FloatRegister a, FloatRegister b) {
 #if defined(__AVX512F__)
   return (FloatRegister)_mm512_min_ps((__m512)a, (__m512)b);
@@ -78,7 +78,7 @@ RIIS_INLINE FloatRegister least(FloatRegister a, FloatRegister b) {
 #endif
 }
 
-// Returns a > b ? a : b, with the same exceptions.
+// Returns a > b ? a : b, with the same exceptions as least().
 RIIS_INLINE FloatRegister greatest(FloatRegister a, FloatRegister b) {
 #if defined(__AVX512F__)
   return (FloatRegister)_mm512_max_ps((__m512)a, (__m512)b);
@@ -168,8 +168,8 @@ struct Lanes {
     for (int i = 0; i < n_registers; ++i) lanes.part[i] = x - Register{};
     return lanes;
   }
-  // load and store need memory aligned to 64 bytes. Both functions move each register as a whole. GCC would copy longer memory in
-  // pieces of another size, and a register that is read from two such pieces has to wait until both pieces are written.
+  // load and store need memory aligned to 64 bytes. Both functions move each register as a whole. GCC would copy larger objects
+  // in parts of another size. A register that is read from two of these parts has to wait until both parts are written.
   static RIIS_INLINE Lanes load(const Scalar *from) {
     Lanes lanes;
     for (int i = 0; i < n_registers; ++i) lanes.part[i] = reinterpret_cast<const InMemory *>(from)[i];

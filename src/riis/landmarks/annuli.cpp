@@ -265,14 +265,14 @@ void check_side(const LandmarkModel &fitted, const Landmarks &landmarks) {
 // The distance between the horns that the landmarks show, seen along the annulus' normal.
 struct ShownDepth {
   double depth;
-  bool has_posterior_horn;  // or the depth goes to the annulus point that is farthest from the anterior horn
+  bool has_posterior_horn;  // if false, the depth goes to the annulus point that is farthest from the anterior horn
 };
 
 // The heights of both ends of an annulus above its sides, along its normal.
 struct HornHeights {
   std::size_t anterior_landmark, posterior_landmark;
   double anterior, posterior;
-  double usual_difference;  // by the valve's proportions
+  double usual_difference;  // the difference that the valve's proportions give
   double depth;             // between both ends
 };
 
@@ -310,8 +310,8 @@ void check_depth(const LandmarkModel &fitted, const Landmarks &landmarks, const 
        "; the difference must be at most ", rounded(landmarks.scale * most_apart, 3), "; ", advice);
 }
 
-// Refuses a posterior horn or a trigone on the wrong side of the annulus. `y_of` returns a landmark's place from the posterior
-// point, at 0, to the anterior horn, at `depth`.
+// Refuses a posterior horn or a trigone on the wrong side of the annulus. `y_of` returns a landmark's place, which is 0 at the
+// posterior point and `depth` at the anterior horn.
 template <class Place>
 void check_sides(const Landmarks &landmarks, std::size_t horn, double depth, const Place &y_of) {
   const auto check = [&](std::int32_t role, bool is_anterior) {
@@ -406,7 +406,7 @@ KindOfLandmarks mitral_landmarks(const Valve &valve, const Landmarks &landmarks)
         made.models[0]->sizes[horn_size].value *= -1;
     }
   }
-  // A few noisy points can keep the fit in a wrong inclination.
+  // A few noisy points can keep the fit in a wrong inclination, so the fit also starts from inclined poses.
   const Pose upright = made.starts[0];
   for (const double lean : {-10.0, 10.0})
     made.starts.push_back({upright.rotation * rotation_about({1, 0, 0}, lean), upright.translation});
@@ -435,7 +435,7 @@ namespace {
 // Kinds whose annulus is a saddle, with the names of their sizes.
 struct SaddleKind {
   const char *kind, *width, *depth, *flat_ratio;
-  const char *anterior_ratio;  // null if the flat side is the anterior leaflet's
+  const char *anterior_ratio;  // null if the flat side belongs to the anterior leaflet
   FlatSide flat_side;
 };
 constexpr SaddleKind tricuspid{"tricuspid",    "AP_diameter",    "SL_diameter",
@@ -524,7 +524,7 @@ KindOfLandmarks tricuspid_landmarks(const Valve &valve, const Landmarks &landmar
       "counter-clockwise",
       "between which two leaflets each commissure lies: name the leaflets of two commissures"};
   check_leaflet_ids(landmarks, leaflets);
-  // Without the flow, the names show the side of the atrium.
+  // If the flow is unknown, the names of the leaflets show which side is the atrium.
   Vec3 up = outline.normal;
   const bool is_turned = landmarks.has_flow() ? checked_flow(landmarks, up, "the annulus'") > 0
                                               : !names_fit(landmarks, leaflets, up, outline.middle);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// These checks are used for landmarks along an annulus and along a housing.
+// Checks of landmarks along an annulus or along a housing.
 #pragma once
 
 #include "geometry/vec3.hpp"

@@ -137,7 +137,7 @@ class CuspModel : public LandmarkModel {
 };
 
 // Returns the directions of the cusps' middles in degrees. From the middle of one cusp to the middle of the next, the direction
-// grows by half of both sectors.
+// grows by half the sum of the two sectors.
 std::vector<double> middles_of(const std::vector<double> &sectors) {
   std::vector<double> middles{0};
   for (std::size_t cusp = 1; cusp < sectors.size(); ++cusp)
@@ -149,7 +149,7 @@ class CirclesModel : public CuspModel {
  public:
   enum Size { radius_, commissure_radius, n_common };
   using CuspModel::CuspModel;
-  std::vector<LinearValue> sectors, heights;  // of each cusp, and of the commissure behind it
+  std::vector<LinearValue> sectors, heights;  // each cusp's sector, and the height of the commissure behind it
   double meeting_shift = 0;
   void offsets(const std::vector<double> &values, const std::vector<Vec3> &local,
                std::vector<Offset> &out) const override {
@@ -318,7 +318,7 @@ class CircleSizes {
     }
   }
 
-  // Each commissure has a height, and commissure_height is their mean.
+  // Each commissure has a height, and commissure_height is the mean of these heights.
   template <class Add>
   void add_heights(CirclesModel &model, const Add &add) const {
     DerivedSize mean{names_.height, {}};
@@ -390,7 +390,7 @@ void finish_aortic(const Valve &own, Valve &valve) {
     set_proportion(own, valve, of + "bending_radius_out", middle_radius(own), middle_radius(valve));
     valve.set(of + "rotation", 3, std::array{0.0, 0.0, turns[cusp]}.data());
     valve.set(of + "translation", 3, shift.data());
-    // Lowers a power with which the free edge would bulge into the next cusp, beyond the plane of its commissure.
+    // Lowers the power if the free edge would otherwise bulge into the next cusp, beyond the plane of the commissure.
     const double x = value_of(valve, of + "leaflet_radius_out") * sine_cosine_degrees(angle).cosine;
     const double radius_in = value_of(valve, of + "leaflet_radius_in");
     if (x > radius_in && value_of(valve, of + "leaflet_power") > x / (x - radius_in))

@@ -18,8 +18,8 @@ namespace {
 constexpr double determined_share = 1.0 / 15;
 
 // Additional sizes also lower residuals that are only noise. The sum of squares then decreases by a number with a chi-squared
-// distribution, which has one degree of freedom for each additional unknown. The decrease counts if it exceeds the mean by
-// `surely_more` standard deviations.
+// distribution, which has one degree of freedom for each additional unknown. The decrease counts if it exceeds the mean of this
+// distribution by `surely_more` standard deviations.
 constexpr double surely_more = 3;
 // Residuals below `exact_share` of the stated noise show that the landmarks have no noise.
 constexpr double exact_share = 0.01;

@@ -136,7 +136,7 @@ struct LandmarkFit {
   std::size_t n_unknowns;  // sizes that are not held, and the pose
 };
 
-// Changes the model's sizes. Fits from each of the poses with the model's values, and keeps the best result.
+// Fits the model's sizes and the pose. Begins with the model's sizes and each of the poses in turn, and keeps the best result.
 LandmarkFit fit(LandmarkModel &model, const Landmarks &landmarks, const std::vector<Pose> &starts);
 
 // Returns whether the general model fits the landmarks better than the simple model only by chance. The sizes of the simple model
@@ -168,7 +168,7 @@ struct KindOfLandmarks {
   std::vector<Pose> starts;
   const char *size_name;  // the parameter that stands for the valve's size
   // Sets the parameters that are not lengths, and the lengths that do not grow with the valve's size. All other lengths and the
-  // model's sizes have already been set. `own` is the template valve. The pointer is NULL if there is nothing to set.
+  // model's sizes have already been set. `own` is the template valve. The function pointer is NULL if there is nothing to set.
   void (*finish)(const Valve &own, Valve &valve) = nullptr;
   // Refuses a fit that leaves something undetermined or that contradicts the landmarks. If the function is empty, no fit is
   // refused.

@@ -56,7 +56,7 @@ KindOfLandmarks bileaflet_landmarks(const Valve &valve, const Landmarks &landmar
     const Vec3 p = landmarks.at(i) - middle;
     radius += length(p - dot(p, up) * up) / static_cast<double>(ring.size());
   }
-  // The hinge lines run in the direction of the hinge ends' largest extent.
+  // The hinge lines run in the direction in which the hinge ends spread most.
   const Vec3 y = hinge_spread.direction[0];
   if (!(hinge_spread.deviation[0] > 0.2 * radius))
     fail(RIIS_INVALID_ARGUMENT, "the ends of the hinges are ", rounded(landmarks.scale * hinge_spread.deviation[0], 3),
@@ -65,7 +65,7 @@ KindOfLandmarks bileaflet_landmarks(const Valve &valve, const Landmarks &landmar
   if (std::abs(dot(y, up)) > 0.5)
     fail(RIIS_INVALID_ARGUMENT, "the hinges are at ", rounded(arc_cosine(std::abs(dot(y, up))) * 180 / pi, 3),
          " degrees to the ring's normal; they must be perpendicular to it, within 30 degrees");
-  // Landmarks of only one hinge belong to the leaflet at x > 0.
+  // If the landmarks show only one hinge, this hinge belongs to the leaflet at x > 0.
   const Vec3 hinge_middle = landmarks.mean_of(hinges) - middle;
   Vec3 x = cross(y, up);
   if (dot(x, hinge_middle) < 0) x = -x;

@@ -19,8 +19,8 @@ struct Landmark {
   Vec3 point;                               // in centimetres, relative to the mean of all landmarks
   std::int32_t role;                        // RIIS_LANDMARK_*
   std::array<std::int32_t, 2> leaflet_ids;  // -1: not given
-  // Another landmark in the same place that already has all conditions of this landmark. For example, a horn has all conditions
-  // of a point of the annulus.
+  // Another landmark in the same place that already tells the fit all that this landmark tells. For example, a horn also counts
+  // as a point of the annulus.
   std::optional<std::size_t> repeated = std::nullopt;
 };
 
@@ -58,11 +58,11 @@ void check_unit(const Landmarks &landmarks);
 void check_roles(const Landmarks &landmarks, const char *kind, const std::vector<std::int32_t> &roles);
 // Checks that the number of landmarks with this role is in range. If there is no upper limit, `most` is 0.
 void check_count(const Landmarks &landmarks, const char *kind, std::int32_t role, std::size_t least, std::size_t most);
-// Refuses two landmarks of the list whose distance is less than a share of their spread.
+// Refuses two landmarks of the list whose distance is less than `share` times the spread of the list.
 void check_apart(const Landmarks &landmarks, const std::vector<std::size_t> &numbers, double share);
 // Refuses landmarks along one line.
 void check_not_collinear(const Landmarks &landmarks, const std::vector<std::size_t> &numbers);
-// Makes both checks.
+// Calls check_apart and check_not_collinear.
 void check_spread(const Landmarks &landmarks, const std::vector<std::size_t> &numbers, double share);
 
 // The principal directions of points about their mean, in descending order of extent, and the standard deviations along them.
@@ -72,8 +72,8 @@ struct Spread {
 };
 Spread spread_of(const Landmarks &landmarks, const std::vector<std::size_t> &numbers);
 
-// Sets a valve's sizes from a patient's landmarks, and finds its placement (docs/theory/landmarks.md). A valve gives the
-// template's proportions. The result is the patient's valve, its placement and the residuals.
+// Sets a valve's sizes from a patient's landmarks, and finds its placement (docs/theory/landmarks.md). A valve serves as the
+// template for the proportions. The result is the patient's valve, its placement and the residuals.
 
 struct PlacedValve {
   Valve valve;

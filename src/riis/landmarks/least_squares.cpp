@@ -102,8 +102,8 @@ Minimum minimize(const Residuals &residuals, std::size_t n_residuals, double siz
       gradient[i] = std::inner_product(columns[i].begin(), columns[i].end(), r.begin(), 0.0);
       largest = std::max(largest, matrix[i * n + i]);
     }
-    // If this step would move an unknown beyond its bounds, the unknown is left out of the step, so that it does not change the
-    // other unknowns' steps.
+    // An unknown that this step would move beyond its bounds is left out of the step, so that it does not change the steps of the
+    // other unknowns.
     for (std::size_t i = 0; i < n; ++i) {
       const bool rests = gradient[i] > 0 ? x[i] <= bounds.lower[i] : x[i] >= bounds.upper[i];
       if (!rests) continue;

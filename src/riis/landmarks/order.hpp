@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the order of landmarks around a valve's axis, finds the leaflet of each nadir and the two leaflets beside each commissure.
-// Some landmarks may name their leaflets. The result is the landmarks in the order of the leaflets.
+// Finds the leaflet of each nadir, and the two leaflets beside each commissure, from the order of landmarks around a valve's
+// axis. Some landmarks may name their leaflets. The result is the landmarks in the order of the leaflets.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@ namespace riis {
 struct LeafletsAround {
   std::vector<std::string> names;  // in the order of leaflet ids
   const char *seen_along_flow;     // the direction from leaflet to leaflet: "clockwise" if blood flows along +z
-  // The end of the message if landmarks lack names, or null if the leaflets need no names. Without names, leaflet 0 is at the
+  // The end of a message about landmarks without names, or null if the leaflets need no names. Without names, leaflet 0 is at the
   // first nadir.
   const char *why_names;
 
@@ -35,8 +35,8 @@ void check_leaflet_ids(const Landmarks &landmarks, const LeafletsAround &leaflet
 // Returns whether the names fit the order around the axis, which points along z.
 bool names_fit(const Landmarks &landmarks, const LeafletsAround &leaflets, Vec3 axis, Vec3 middle);
 
-// Returns the order around the axis. The number of commissures is the number of leaflets, and the number of nadirs is this number
-// or 0. Refuses commissures and nadirs that do not alternate, and names that contradict the order.
+// Returns the order around the axis. There must be as many commissures as leaflets, and as many nadirs as leaflets or none.
+// Refuses commissures and nadirs that do not alternate, and names that contradict the order.
 Order order_around(const Landmarks &landmarks, const LeafletsAround &leaflets, Vec3 axis, Vec3 middle);
 
 }  // namespace riis

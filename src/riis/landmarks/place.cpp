@@ -205,7 +205,7 @@ void slide_along_attachment(const Vector<AttachmentPart> &parts, const Landmarks
     const Vector<double> bending = warp.bending_matrix();
     struct Sliding {
       std::size_t pair;
-      Vec3 tangent, mapped;  // of the attachment, and where the map takes it
+      Vec3 tangent, mapped;  // the tangent of the attachment, and its image under the map
     };
     Vector<Sliding> sliding;
     for (std::size_t i = 0; i < pairs.sources.size(); ++i) {

@@ -50,8 +50,8 @@ KeyTimes::KeyTimes(const char *name, std::int64_t n_keys, const double *time, do
   is_closed_ = period > 0 && n_keys > 1 && time[n_keys - 1] - time[0] >= (1 - rounding) * period;
 }
 
-// Adding periods rounds, both here and in the caller's time. Without a tolerance, rounding could put the time of a key just
-// before the key, where the rate is different.
+// A time to which periods were added is rounded, both here and in the caller's program. Without a tolerance, rounding could put
+// the time of a key just before the key, where the rate is different.
 double KeyTimes::from_key(std::int64_t i, double time) const {
   const auto if_at = [&](double key) {
     const double difference = time - key, key_lost = difference - time;

@@ -25,16 +25,16 @@ class KeyTimes {
   // the values of both keys must be equal.
   bool is_closed() const { return is_closed_; }
 
-  // The keys around a time and the times between these keys. The value at the time follows from these keys and these times
-  // between keys. A key is given by its position in the arrays, so a time one period later has the same keys.
+  // The keys around a time, and how far these keys are apart. The value at the time follows from both. A key is given by its
+  // position in the arrays, so a time one period later has the same keys.
   struct KeysAround {
     std::array<std::int64_t, 4> key;  // before the interval, at its two ends, after it
     std::array<double, 3> width;      // the time from each of these keys to the next key; infinite without a next key
     double since;                     // time since the interval's first end
     bool is_at_rest;                  // true before the first key and after the last; key[1] then gives the value
   };
-  // A time counts as a key if it differs from the key by at most 8 units of rounding, apart from whole periods. A key that counts
-  // as the time becomes the first end of the interval. The unit is 2^-52 times the largest of time, key and period. Fails with
+  // A time counts as a key if it differs from the key by at most 8 units of rounding, apart from whole periods. Such a key
+  // becomes the first end of the interval. The unit is 2^-52 times the largest of time, key and period. Fails with
   // RIIS_INVALID_ARGUMENT for a time that is not finite. `name` is the time's name in the message.
   KeysAround around(double time, const char *name = "time") const;
 

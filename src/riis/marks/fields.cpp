@@ -168,8 +168,8 @@ class TriangleFields {
     }
   }
 
-  // Writes the derivatives of the distances: -n.V in each direction, with the unit vector n from the closest point to the node
-  // and the rate V of the closest point.
+  // Writes the derivatives of the distances, which are -n.V in each direction. n is the unit vector from the closest point to the
+  // node, and V is the rate of the closest point.
   void write_gradients(const EightPoints &eight, std::int64_t first, std::int64_t n) const {
     const std::int64_t *vertex[pairs_at_once];
     for (std::int64_t lane = 0; lane < n; ++lane) vertex[lane] = set_.vertex_id.data() + 3 * eight.triangle[lane];
@@ -188,8 +188,8 @@ class TriangleFields {
     for (std::int64_t lane = 0; has(RIIS_FIELD_GRADIENT) && lane < n; ++lane)
       for (std::int64_t k = 0; k < n_directions(); ++k) {
         const std::int64_t at = n_directions() * (first + lane) + k;
-        // At an edge or a vertex, the normal is the direction from the closest point to the node, if rounding does not decide
-        // this direction.
+        // At an edge or a vertex, the normal is the direction from the closest point to the node, unless rounding decides this
+        // direction.
         const bool has_way = (eight.on.at_border >> lane & 1) != 0 && !is_on_rim[lane] && distance[lane] > least_way_;
         view(made_.height_gradient)[at] = has_way ? (height[lane] > 0 ? 1 : -1) * view(made_.distance_gradient)[at]
                                                   : height_rate(eight, lane, k, is_on_rim[lane] != 0);
@@ -197,7 +197,7 @@ class TriangleFields {
   }
 
   // Returns the rate of a height n.(x - p), which is n'.(x - p) - n.V. V is the rate of the closest point p, and n' is the rate
-  // of the unit normal n there. Off the rim n' does not count, because it is at right angles to x - p.
+  // of the unit normal n there. Away from the rim the term with n' is 0, because n' is at right angles to x - p.
   double height_rate(const EightPoints &eight, std::int64_t lane, std::int64_t direction, bool is_on_rim) const {
     const std::int64_t triangle = eight.triangle[lane], *const id = set_.vertex_id.data() + 3 * triangle;
     const Vec3 weights = EightPoints::lane_of(eight.on.barycentric, lane);
@@ -272,7 +272,7 @@ class TriangleFields {
   double least_way_;  // a shorter way from the closest point has no certain direction
   const NodeList &list_;
   NodeFields &made_;
-  Vector<const double *> rates_;  // of the vertices, for each direction
+  Vector<const double *> rates_;  // the rates of the vertices, for each direction
 };
 
 // Orders ties by node, then by leaflet, then by distance.

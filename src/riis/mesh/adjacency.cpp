@@ -169,7 +169,7 @@ class RowMaker {
     });
   }
 
-  // Writes the row of a node and returns the row's length. All entries of `is_seen` are 0 before and after.
+  // Writes the row of a node and returns the row's length. All entries of `is_seen` are 0 before and after the call.
   static std::int64_t make_row(const Lists &lists, std::int64_t node, const ArrayView<const Entry> &entries,
                                const Range &of_node, std::uint8_t *is_seen, Column *row) {
     const bool inserts = of_node.end - of_node.begin <= most_inserted;

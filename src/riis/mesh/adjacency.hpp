@@ -14,7 +14,7 @@
 namespace riis {
 
 struct Adjacency {
-  static constexpr bool is_symmetric = false;  // not for certain
+  static constexpr bool is_symmetric = false;  // the caller's rows need not be symmetric
 
   std::int64_t n_rows = 0;
   IntegerArray offsets, columns;

@@ -80,7 +80,7 @@ GridIndex checked_strides(const GridIndex &n, std::int64_t first, const GridInde
     if (is_default) n_nodes *= n[axis];
   }
   int axes[3];
-  std::int64_t way = 0;  // from the first to the last node along the axes with smaller strides
+  std::int64_t way = 0;  // the way from the first to the last node along the axes with smaller strides
   for (int i = list_long_axes(n, stride, axes) - 1; i >= 0; --i) {
     const int axis = axes[i];
     if (stride[axis] <= way)

@@ -90,7 +90,7 @@ class Grid {
 };
 
 // Returns the strides if each number has at most one node. Fails with RIIS_INVALID_ARGUMENT or RIIS_LIMIT_EXCEEDED.
-//   `given`: the strides as the caller gave them; three times 0 stands for the default.
+//   `given`: the strides as the caller gave them; three zeros stand for the default.
 //   `n_numbers`: 0 is replaced by the least length.
 // The stride of an axis with one node becomes 0.
 GridIndex checked_strides(const GridIndex &n, std::int64_t first, const GridIndex &given, std::int64_t &n_numbers);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The nodes of a grid in leaves, clusters and regions, as the search over clusters needs them. Leaves, clusters and regions are
-// bricks of nodes, so the axes give their boxes. A thread fills the leaves of one cluster at a time. The nodes are those of a box
-// of the grid near a surface.
+// bricks of nodes, so the axes give their boxes. A thread fills the leaves of one cluster at a time. Only the nodes within a box
+// of the grid, near a surface, are included.
 #pragma once
 
 #include <cstdint>
@@ -69,8 +69,8 @@ class GridClusters {
   GridBox box_;
   NodeFrame frame_;
   GridIndex n_regions_, leaf_extent_, cluster_extent_, region_extent_;
-  Parts lanes_, leaves_, clusters_;       // of a leaf, a cluster and a region
-  std::int64_t step_[nodes_per_cluster];  // from a cluster's first number to the number of each node
+  Parts lanes_, leaves_, clusters_;       // the parts of a leaf, a cluster and a region
+  std::int64_t step_[nodes_per_cluster];  // the step from a cluster's first number to each node's number
   std::vector<float> x_[3];  // coordinates in the frame. The last coordinate is repeated to the end of the last region
 };
 

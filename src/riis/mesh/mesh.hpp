@@ -85,7 +85,7 @@ void check_proportions(const Sizes &sizes, std::uint64_t surface_number, WarnedS
 
 // The nodes of a mesh: points, or a grid.
 struct MeshNodes {
-  std::int64_t n = 0;    // of points, or of a grid's numbers
+  std::int64_t n = 0;    // the number of points, or of a grid's numbers
   StridedPoints points;  // none with a grid
   const Grid *grid = nullptr;
 
@@ -145,7 +145,7 @@ class Mesh {
     edges_.forget();
   }
 
-  // Returns the nodes in balls. Several threads may call this function and the next two at once.
+  // Returns the nodes in balls. Several threads may call this function and the next two functions at once.
   const NodeBalls &balls(int n_threads) const;
   // Returns the nodes in clusters. The mesh must have at most max_clustered_nodes nodes.
   const Clusters &clusters(int n_threads) const;

@@ -88,8 +88,8 @@ template <class Node>
 using NodeItems = UnfilledVector<NodeItem<Node>>;
 
 // The places where parts are cut. With by_clusters, large parts are cut between clusters and small parts between leaves, into at
-// most four parts each time. Clusters are then compact. With by_leaves, all cuts are between leaves, into so many parts that
-// leaves become as wide as long. Cuts by leaves take half as many passes, but make long clusters.
+// most four parts each time. Clusters are then compact. With by_leaves, all cuts are between leaves. The number of parts is
+// chosen so that leaves become as wide as they are long. Cuts by leaves take half as many passes, but make long clusters.
 enum class Cuts { by_clusters, by_leaves };
 
 // Sorts nodes so that near nodes follow each other. Each pass counts the nodes of a part in bins along the longest axis of its
@@ -243,13 +243,13 @@ class NodeSorter {
     return {nodes_per_leaf, std::clamp(static_cast<std::int64_t>(along + 0.5f), std::int64_t{2}, most)};
   }
 
-  // Returns how many leaves lie along the longest side of a box, if each leaf is as wide as it is long. In a narrower
-  // box, a leaf fills the width of the box.
+  // Returns how many leaves lie along the longest side of a box, if each leaf is as wide as it is long. If the box is narrower
+  // than such a leaf, a leaf fills the width of the box.
   static float leaves_along(const NodeBox &box, float n_leaves) {
     float side[3];
     for (int i = 0; i < 3; ++i) side[i] = box.upper[i] - box.lower[i];
     std::sort(side, side + 3);
-    const float middle = side[1] / side[2], least = side[0] / side[2];  // not numbers if all nodes are in one place
+    const float middle = side[1] / side[2], least = side[0] / side[2];  // NaN if all nodes are in one place
     float edge = 1 / n_leaves;                                          // as a share of the longest side
     if (middle > edge) edge = std::sqrt(middle / n_leaves);
     if (least > edge) edge = static_cast<float>(cube_root(middle * least / n_leaves));
@@ -388,7 +388,7 @@ class NodeSorter {
     for (std::int32_t i = 0; i < n; ++i) to[part.begin + view(rank)[i]] = from[part.begin + i];
   }
 
-  // Sorts down to leaves on one thread.
+  // Sorts a part into leaves, on one thread.
   void sort_alone(const Part &part, Item *at, Item *other) {
     if (part.size() <= nodes_per_leaf) {
       if (at != items_.data()) std::copy(at + part.begin, at + part.end, items_.data() + part.begin);

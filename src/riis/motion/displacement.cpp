@@ -125,7 +125,7 @@ struct MaterialArcs {
 
   Vec3 middle(std::size_t k) const { return 0.5 * (base[k] + edge[k] + offset[k]); }
 
-  std::array<Vec3, n_material> base, edge, offset;  // of the warped curves
+  std::array<Vec3, n_material> base, edge, offset;  // values of the warped curves
   std::array<Vec3, n_material> mapped_base, mapped_edge, mapped_middle;
 };
 
@@ -138,7 +138,7 @@ class AtShares {
   AtShares(const std::array<std::array<double, n_material>, 4> &nodes, const OfSides &values) {
     for (std::size_t side = 0; side < at_.size(); ++side) {
       const Through<Vec3> through(nodes[side], values[side]);
-      at_[side] = values[side];  // right at the ends
+      at_[side] = values[side];  // the given vectors are right at the ends
       for (std::size_t k = 1; k < last; ++k) at_[side][k] = through.at(material_share(k));
     }
   }
@@ -150,7 +150,7 @@ class AtShares {
     return mix(v0[at_u], v1[at_u], v) + mix(u0[at_v], u1[at_v], u) -
            mix(mix(v0[0], v0[last], u), mix(v1[0], v1[last], u), v);
   }
-  // along_u and along_v return the change of the combination from the previous even share to the next even share.
+  // along_u and along_v return the change of the combination from the previous to the next evenly spaced share.
   Vec3 along_u(std::size_t at_u, std::size_t at_v) const {
     const auto &[v0, v1, u0, u1] = at_;
     return mix(v0[at_u + 1] - v0[at_u - 1], v1[at_u + 1] - v1[at_u - 1], material_share(at_v)) +

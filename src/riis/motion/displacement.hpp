@@ -79,18 +79,18 @@ class SideMaterial {
 struct PatchMaterial {
   explicit PatchMaterial(const MovedPatch &moved);
 
-  bool has_arcs;  // in one of the states
+  bool has_arcs;  // whether the patch has arcs in one of the states
   SideMaterial v0, v1, u0, u1;
 };
 
-// For the offsets of a patch of arcs, returns the motion by the map, minus the motion of the offsets of the warped curves. The
-// polynomial is 0 for a patch without a warp.
+// Returns how the map moves the offsets of a patch of arcs, minus how the offsets of the warped curves move. The polynomial is 0
+// for a patch without a warp.
 Through<Vec3> rest_of_offsets(const MovedPatch &moved, const SideMaterial &base, const SideMaterial &edge);
 
-// The map adds this part to the displacement inside a warped Coons patch. The added part is 0 at the sides. At the four inner
-// points with u and v of 1/3 or 2/3, the displacement belongs to the material point that the map moves there. The displacement
-// follows from the mapped points beside these points (MappedInside). The excess over the Coons combination of the sides is a
-// polynomial of degree 3 in u and in v.
+// The map adds this part to the displacement inside a warped Coons patch. The added part is 0 at the sides. There are four inner
+// points, with u and v of 1/3 or 2/3. The displacement at an inner point is that of the material point which the map moves there.
+// This displacement follows from the mapped points beside the inner points (MappedInside). The excess over the Coons combination
+// of the sides is a polynomial of degree 3 in u and in v.
 class RestInside {
  public:
   RestInside() = default;
@@ -175,7 +175,7 @@ Vector<Vec3> arc_offsets(const PatchSet &set, const Patch &patch, const CurvePoi
 
 // Returns the joints of a side in the patch's parameter.
 Vector<double> joints_of(const PatchSet &set, const Side &side);
-// Moves each grid line along with the two joints on either side of the line. If the number of joints changed, no line moves.
+// Moves each grid line with the two joints beside it. If the number of joints changed, no line moves.
 Vector<double> moved_with_joints(const Vector<double> &lines, const Vector<double> &from, const Vector<double> &to);
 
 // Returns whether each patch has the same images in both states.

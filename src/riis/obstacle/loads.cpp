@@ -20,10 +20,10 @@ namespace {
 
 constexpr std::int64_t nodes_per_block = 512;  // the search for nearest edges takes most of the time
 
-// The nodes of a leaflet lie nearly on a line if their root-mean-square distance from the line is less than a share of their
-// root-mean-square distance from their middle. For other nodes, the condition number of the equations for the moment is at most
-// the inverse square of this share, 1e4. If the nodes lie close together, their sums have lost digits. The nodes'
-// root-mean-square distance from the line must therefore also be at least a share of the frame's size.
+// The nodes of a leaflet lie nearly on a line if their root-mean-square distance from the line is less than `least_width` times
+// their root-mean-square distance from their middle. For other nodes, the condition number of the equations for the moment is at
+// most 1 / least_width^2, which is 1e4. If the nodes lie close together, their sums have lost digits. The nodes' root-mean-square
+// distance from the line must therefore also be at least `least_width_in_frame` times the frame's size.
 constexpr double least_width = 0.01, least_width_in_frame = 0.001;
 
 // The edges that hold a leaflet, and a frame for its nodes: the middle of the edges, and a size. Nodes within the radius are at
@@ -69,8 +69,8 @@ class Holds {
 
  private:
   const Loads &loads_;
-  NearestEdges own_;                 // by leaflet, if the edges have leaflets
-  std::optional<NearestEdges> all_;  // of all edges, if the edges have leaflets
+  NearestEdges own_;                 // the edges by leaflet, if the edges have leaflets
+  std::optional<NearestEdges> all_;  // all edges together, if the edges have leaflets
 };
 
 // Returns m w(d) of each node.

@@ -11,7 +11,7 @@
 
 namespace riis {
 
-inline constexpr std::int64_t n_load_sums = 11;  // of each leaflet
+inline constexpr std::int64_t n_load_sums = 11;  // the number of sums of each leaflet
 
 // The checked numbers of a riis_loads.
 struct Loads {

@@ -181,7 +181,7 @@ Vector<std::int64_t> nearest_edges(const Marks &marks, const Resistance &resista
 Resistance checked_resistance(const riis_resistance &resistance, const char *name, const Band &band,
                               double distance_limit) {
   check_range(name, "R", resistance.R, 0, 1e60);
-  // A constant in single precision that a caller passes as a double is such a number, and the band would not resist.
+  // R is that small if a caller passes a constant in single precision as a double. The band would then not resist.
   if (resistance.R > 0 && resistance.R < 1e-300)
     fail(RIIS_INVALID_ARGUMENT, name, ".R is ", resistance.R,
          "; it must be 0, or from 1e-300 to 1e+60. Is it a REAL*4 or a float?");

@@ -16,9 +16,9 @@
 
 namespace riis {
 
-// An arena is kept and used again, because TBB frees an arena only after the workers that it called have come and found no work.
-// On a busy machine the workers come too late for a short walk. New arenas for each walk would therefore make the process grow by
-// some kilobytes in each walk (TBB 2021.8).
+// An arena is kept and used again, because TBB frees an arena late. All workers that TBB has called must first come and find no
+// work. On a busy machine the workers come too late for a short walk. New arenas for each walk would therefore make the process
+// grow by some kilobytes in each walk (TBB 2021.8).
 struct PooledArena {
   explicit PooledArena(int n_slots) : n_threads(n_slots), arena(n_slots, 1) { arena.initialize(); }
 
@@ -37,8 +37,8 @@ void give_back(PooledArena *arena) noexcept;
 std::size_t n_arenas() noexcept;
 
 // Borrows an arena of up to n_threads threads, including the calling thread, during the life of this object. TBB has a limit on
-// the threads of the process. If the limit is below n_threads and the caller did not set it, this object raises the limit during
-// its life. An arena never exceeds the limit, because TBB would then print a message on stderr. An arena of one thread uses only
+// the threads of the process. If the limit is below n_threads, this object raises it during its life, unless the caller has set
+// the limit. An arena never exceeds the limit, because TBB would then print a message on stderr. An arena of one thread uses only
 // the calling thread.
 class Arena {
  public:

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Loops over a fixed number of blocks. The exhaustive search runs on OpenMP's threads. Loops of a time step also run on
-// OpenMP's threads. After a long wait for one of OpenMP's threads, the loops of a time step run on a team. Only parallel_for.cpp
-// uses OpenMP.
+// Loops over a fixed number of blocks. The exhaustive search and the loops of a time step run on OpenMP's threads. After a long
+// wait for one of these threads, the loops of a time step run on a team for some time. Only parallel_for.cpp uses OpenMP.
 #pragma once
 
 #include <cstdint>
@@ -19,8 +18,8 @@ int default_thread_count() noexcept;
 int processors_of_machine() noexcept;
 
 // By default a call uses one more thread for each 4096 triangles, 2048 points or 16,384 nodes, which take half a millisecond or
-// more. On a quiet machine, waking a thread and waiting for it takes a hundredth of half a millisecond. On a busy machine the
-// wait may last as long as another process keeps the processor.
+// more. On a quiet machine, waking a thread and waiting for it takes a hundredth of that time. On a busy machine the wait may
+// last as long as another process keeps the processor.
 constexpr std::int64_t triangles_per_thread = 4096, points_per_thread = 2048;
 constexpr std::int64_t nodes_per_thread = 16384;  // nodes of a mesh, or cells or faces
 
@@ -78,8 +77,7 @@ auto by_ranges(std::int64_t n, std::int64_t per_block, const Body &body) {
   };
 }
 
-// The next two functions run these loops over [0, n) in ranges of per_block numbers, with body(range, thread). The last range may
-// be shorter.
+// The next two functions call parallel_for and openmp_for with blocks that are ranges of per_block numbers in [0, n).
 template <class Body>
 int parallel_for_ranges(std::int64_t n, std::int64_t per_block, int n_threads, const Body &body) {
   return parallel_for((n + per_block - 1) / per_block, n_threads, by_ranges(n, per_block, body));

@@ -131,7 +131,7 @@ class Team {
     }
   }
 
-  // Subtracts up to n from the number of sleeping workers, and returns the difference.
+  // Subtracts up to n from the number of sleeping workers, and returns how many it subtracted.
   int take_asleep(int n) {
     int n_asleep = n_asleep_.load(), n_taken = 0;
     do n_taken = std::clamp(n, 0, n_asleep);

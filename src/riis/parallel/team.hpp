@@ -19,15 +19,16 @@ int run_by_team(int n_threads, void (*work)(void *context, int thread), void *co
 // Chooses between OpenMP's threads, a team and the calling thread. OpenMP's threads begin a loop sooner, and they also run the
 // caller's own loops. However, a loop of OpenMP waits for all its threads, even if another process keeps one of the processors
 // for long. After a long wait, teams run the loops for some time. If OpenMP then runs only a few loops before the next long wait,
-// the machine is busy, and the teams get twice the time. A team also waits if another process interrupts its thread inside a
-// block. The calling thread therefore begins a team's loop alone. The calling thread works alone for the time that recent loops
-// lost by calling their teams. If the team loses the same time again, the loop takes at most twice as long as with the better
-// choice. All times are in nanoseconds.
+// the machine is busy, and teams run the loops for twice the time. A team also waits if another process interrupts its thread
+// inside a block. The calling thread therefore begins a team's loop alone. It calls the team only after it has worked for as long
+// as recent loops lost by calling their teams. There are two alternatives: the calling thread alone, or the team from the
+// beginning. If this team loses no more time than recent teams, the loop takes at most twice as long as with either alternative.
+// All times are in nanoseconds.
 class LoopChoice {
  public:
   static constexpr std::int64_t long_wait = 2'000'000, first_pause = 250'000'000, longest_pause = 2'000'000'000;
   static constexpr int few_loops = 32;                          // about three time steps
-  static constexpr double loops_in_mean = 16, half_life = 1e9;  // of the mean loss
+  static constexpr double loops_in_mean = 16, half_life = 1e9;  // for the mean loss
   static constexpr double least_loss = 5'000;                   // a smaller mean loss counts as none
 
   bool takes_team(std::int64_t now) const noexcept { return now < until_.load(std::memory_order_relaxed); }

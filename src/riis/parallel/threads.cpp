@@ -23,7 +23,7 @@ void begin_child() {
 void stay_loaded([[maybe_unused]] const void *address) noexcept {
 #if defined(__APPLE__)
   // The library's file is opened a second time and never closed, so the loader keeps it. A program that contains a static riis
-  // does not need this, so it does no harm if the file cannot be opened.
+  // does not need this, so a file that cannot be opened does no harm.
   Dl_info file{};
   if (dladdr(address, &file) != 0) static_cast<void>(dlopen(file.dli_fname, RTLD_LAZY | RTLD_NOLOAD | RTLD_NODELETE));
 #endif

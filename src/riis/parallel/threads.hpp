@@ -26,8 +26,8 @@ class Threads {
 
   operator int() const { return n_; }  // NOLINT(google-explicit-constructor)
 
-  // Returns the number of threads for a part of the call that has n_items of work. A default number becomes 1 for fewer than
-  // `few` items.
+  // Returns the number of threads for a part of the call that has n_items of work. A number that the library chose becomes 1 for
+  // fewer than `few` items.
   int for_part(std::int64_t n_items, std::int64_t few) const { return is_default_ && n_items < few ? 1 : n_; }
 
  private:
@@ -36,8 +36,8 @@ class Threads {
 };
 
 // Returns whether this process may use several threads, and records the use. A child of fork() may not use several threads if the
-// library had used them before the fork. The child lacks these threads, so the run-times of OpenMP and TBB would wait for them
-// for ever.
+// library used several threads before the fork. The child lacks these threads, so the run-times of OpenMP and TBB would wait for
+// them for ever.
 bool begin_threads() noexcept;
 
 // Returns whether this process is a child of fork() that may not use several threads.

@@ -80,7 +80,7 @@ SurfaceSeconds make_surface(const Valve &valve, const EarlierValve *moved, const
   if (triangles.n_triangles() == 0) fail(RIIS_INVALID_PARAMETER, "the valve has no area");
   triangles.skirt = valve.has_skirt() ? skirt_leaflet(patches) : -1;
   const double seconds_triangles = stopwatch.lap();
-  // The other method for distances is made first, because it may be refused.
+  // A method that measures distances without the triangles is made first, because it may be refused.
   std::unique_ptr<const PatchDistance> distance;
   if (accuracy.measure != RIIS_MEASURE_TRIANGLES)
     distance = make_distance(patches, {accuracy.measure, accuracy.distance_error}, placement, request.flip_normals);
@@ -135,7 +135,7 @@ constexpr int n_openings = 33;
 constexpr int n_between = 7, n_trials = 4;
 // A limit on the number of patches, because the choice keeps the patches of all these openings in memory.
 constexpr std::size_t max_patches = 10'000;
-// A warp may change after the triangles were planned, and the error then changes too. The plan of a warped valve therefore uses
+// A warp may change after the triangles were planned, which also changes the error. The plan of a warped valve therefore uses
 // only `warped_share` of the allowed error.
 constexpr double warped_share = 0.6;
 

@@ -129,7 +129,7 @@ WantedData wanted_data(const SearchRequest &request, const MarkingRequest &asked
   return data;
 }
 
-// From a list with heights, copies the nodes in the band and their fields. The two lists may be the same list.
+// Copies the nodes in the band and their fields from a list with heights. Both arguments may be the same list.
 void take_marked(const Band &band, const FieldSet &fields, const ListedNodes &from, ListedNodes &to) {
   const std::int64_t n_from = from.nodes.size();
   const auto is_marked = [&](std::int64_t i) {

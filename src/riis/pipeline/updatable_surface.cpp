@@ -15,8 +15,8 @@
 namespace riis {
 namespace {
 
-// If there are more than `max_triangles_kept` new triangles, the memory of the old surface is freed, because keeping so much
-// memory would cost more than a new allocation. A triangle takes about 300 bytes.
+// If there are more than `max_triangles_kept` new triangles, the memory of the old surface is freed. Keeping so much memory would
+// cost more than a new allocation. A triangle takes about 300 bytes.
 constexpr std::int64_t max_triangles_kept = 1'000'000;
 
 }  // namespace

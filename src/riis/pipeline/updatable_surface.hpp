@@ -74,7 +74,7 @@ class UpdatableSurface {
                         const SurfaceRequest &request);
 
   std::unique_ptr<Surface> surface_, before_;        // before_ is kept to reuse its memory
-  std::uint64_t revision_ = 0;                       // of the valve of surface_; 0 without a valve
+  std::uint64_t revision_ = 0;                       // the revision of surface_'s valve; 0 without a valve
   std::unique_ptr<const FixedTriangulation> fixed_;  // null without RIIS_TRIANGULATION_FIXED
   SurfaceSeconds seconds_{};
   UserFaces faces_, faces_memory_;                  // faces of the last arrays; empty after a valve or keyframes

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Angle-weighted normals of vertices and edges. These normals tell on which side of a surface a point is, even if the closest
 // point lies on an edge or a vertex (J. A. Baerentzen, H. Aanaes, "Signed distance computation using the angle weighted
-// pseudonormal", IEEE TVCG 11(3), 2005). On an open surface, the side refers to the nearest piece of the surface. The same edges
-// and vertices also give the rim of the surface.
-// For any closest point, this file gives the normal, the normal's rate, and whether the point is on the rim.
+// pseudonormal", IEEE TVCG 11(3), 2005). On an open surface, the side refers to the nearest part of the surface. The same edges
+// and vertices also give the rim of the surface. For any closest point, this file gives the normal, the normal's rate, and
+// whether the point is on the rim.
 #pragma once
 
 #include <array>

@@ -41,11 +41,11 @@ class Surface {
   // Sets another method to measure distances. Without this call, distances are measured to the triangles.
   void measure_by(std::unique_ptr<const PatchDistance> other_distance, double triangle_error);
 
-  // Takes the valve that the triangles come from. A surface from arrays has no valve.
+  // Stores the valve that the triangles come from. A surface from arrays has no valve.
   void is_of_valve(const SourceValve &source) { source_valve_.emplace(source); }
   const std::optional<SourceValve> &source() const { return source_valve_; }
 
-  // Takes the patches that the triangles come from.
+  // Stores the patches that the triangles come from.
   void is_of_patches(PatchSet patches) { patches_.emplace(std::move(patches)); }
   // Returns the patches that the triangles come from, or null for a surface from arrays.
   const PatchSet *patches() const { return patches_ ? &*patches_ : nullptr; }
@@ -103,7 +103,7 @@ class Surface {
   mutable std::atomic<double> area_{not_known};
   std::optional<SourceValve> source_valve_;
   std::optional<PatchSet> patches_;
-  std::vector<std::vector<double>> rates_;  // of the directions; later entries only keep their memory
+  std::vector<std::vector<double>> rates_;  // the rates of the directions; later entries only keep their memory
   std::int64_t n_directions_ = 0;
   std::unique_ptr<const PatchDistance> other_distance_;
   double triangle_error_ = 0;

@@ -73,7 +73,7 @@ float inflated_radius(double distance, Vec3 q, double rounding) {
 struct TriangleScene::Implementation {
   TriangleGroups groups;
   double rounding = 0;  // TriangleScene::rounding_ in the frame's units
-  int n_threads = 1;    // of the tree
+  int n_threads = 1;    // the number of threads that build the tree
   std::shared_ptr<std::remove_pointer_t<RTCDevice>> device = shared_device();
   MadeOnce<Scene> scene;
   Geometry geometry;
@@ -153,7 +153,7 @@ bool visit_group(RTCPointQueryFunctionArguments *arguments) {
   const GroupBounds &bounds = groups.bounds[arguments->primID];
   float distance_sq[triangles_per_group];
   // In the frame's units, the closest triangle is at most sqrt(3) (query.largest + 1) away. Up to the distance query.largest + 1,
-  // the filter's error is at most half of this value. Up to nearly twice that distance, the error is at most this value.
+  // the filter's error is at most half of `error`. Up to nearly twice that distance, the filter's error is at most `error`.
   const float error =
       filter_error(1, 0, query.largest + 1, groups.longest_edge) + static_cast<float>(4 * query.in->rounding);
   const float point[3] = {static_cast<float>(query.q.x), static_cast<float>(query.q.y), static_cast<float>(query.q.z)};

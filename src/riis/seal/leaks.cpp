@@ -21,11 +21,11 @@ struct Edge {
   bool operator==(const Edge &other) const { return a == other.a && b == other.b; }
 };
 
-// Returns a length such that no edge of at most this length leaks. If such an edge meets the surface in a point, its nearer node
-// is at most half the length from that point. The nearer node is thus within the half thickness and marked. With an offset, only
-// nodes within a smaller distance are certainly in the band, so the length is smaller. The margins are several times the
-// rounding, so this also holds for computed distances. Returns -1 if marks may be missing, or if the marks do not come from the
-// distances to the triangles. If the result is -1, no edge counts as short.
+// Returns a length such that no edge of at most this length leaks. If such an edge meets the surface in a point, the nearer node
+// of the edge is at most half the length from that point. The nearer node is thus within the half thickness and marked. With an
+// offset, only nodes within a smaller distance are certainly in the band, so the length is smaller. The margins are several times
+// the rounding, so this also holds for computed distances. Returns -1 if marks may be missing, or if the marks do not come from
+// the distances to the triangles. If the result is -1, no edge counts as short.
 double length_that_cannot_leak(const Surface &surface, const Marks &marks) {
   if (surface.other_distance() || !marks.stats.complete) return -1;
   return 2 * surface.band().sure_distance() * (1 - 0x1p-40) - 4 * surface.scene().rounding();

@@ -18,8 +18,8 @@
 namespace riis {
 namespace {
 
-// The number of points that are sorted together. A large batch takes 2 MB of memory. Small batches suit points that are near
-// their predecessors: their leaves are as compact as those of large batches, and the points stay in the cache.
+// The number of points that are sorted together. A large batch takes 2 MB of memory. Small batches are better if consecutive
+// points are near each other. Their leaves are then as compact as the leaves of large batches, and the points stay in the cache.
 constexpr std::int64_t points_per_batch = 1 << 16, points_per_small_batch = 1 << 13;
 
 constexpr std::int64_t points_per_block = 2048;
@@ -41,8 +41,8 @@ class ClosestPoints {
         to_(to) {}
 
   void write() {
-    // The tree is built now, so that a failure comes before anything is written. The tree is needed for queries if memory runs
-    // out later.
+    // If memory runs out later, the points are queried one by one, which needs the tree. The tree is built now, so that a failure
+    // comes before anything is written.
     scene_.build_tree();
     const int n_threads = request_.n_threads;
     if (!are_enough_for_clusters(wanted_.n, surface_)) {
@@ -74,9 +74,9 @@ class ClosestPoints {
   }
   bool is_far(Vec3 p) const { return may_be_far_ && !(reach_of(p) <= far); }
 
-  // Returns whether consecutive points are near each other: whether a small batch from the middle has at most half the extent of
-  // all points along some axis. The batch comes from the middle because many meshes begin with the nodes of their boundary. The
-  // test needs enough points for a small batch.
+  // Returns whether consecutive points are near each other. They are if a small batch from the middle has, along some axis, at
+  // most half the extent of all points. The batch comes from the middle because many meshes begin with the nodes of their
+  // boundary. The function needs enough points for a small batch.
   bool follow_each_other() const {
     const std::int64_t begin = (wanted_.n - points_per_small_batch) / 2;
     Bounds bounds;

@@ -19,7 +19,7 @@ struct WantedPoints {
   std::int64_t n;  // the length of the list, or the number of all points
   const std::uint8_t *mask = nullptr;
   const std::int64_t *ids = nullptr;  // ascending
-  Bounds bounds = {};                 // of all points, or of the list's points
+  Bounds bounds = {};                 // the box of all points, or of the list's points
 
   // Returns the id of the k-th wanted point.
   std::int64_t id(std::int64_t k) const { return ids ? ids[k] : k; }

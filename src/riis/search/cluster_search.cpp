@@ -36,9 +36,9 @@ struct Placing {
 };
 
 #if defined(__SIZEOF_INT128__)
-// A number for each triangle, in the order of closest triangles (is_closer), for finite squares of distances. The first 64 bits
-// of the number are the bits of the square. Squares are not negative, so their bits have the same order. The last 64 bits are the
-// triangle, or the largest number if there is no triangle.
+// A number for each triangle. If the squares of the distances are finite, the numbers have the order of is_closer. The first 64
+// bits of the number are the bits of the square. Squares are not negative, so their bits have the same order. The last 64 bits
+// are the triangle, or the largest number if there is no triangle.
 __extension__ typedef unsigned __int128 Rank;
 Rank rank_of(const ClosestTriangle &closest) {
   std::uint64_t square;
@@ -161,7 +161,7 @@ class ClusterSearch {
       list_near_regions();
       n_near = view(own_.near_regions).size();
     } else {
-      n_near = nodes_.n_regions();  // the grid's box is around the surface
+      n_near = nodes_.n_regions();  // all regions are near, because the grid's box is around the surface
     }
     constexpr std::int64_t few = 64;  // searching this many regions takes a few tenths of a millisecond
     const int n_ran = parallel_for(n_near, request_.n_threads.for_part(n_near, few), [&](std::int64_t i, int thread) {
@@ -192,9 +192,9 @@ class ClusterSearch {
   // limit (docs/theory/clusters.md, "Every distance").
   void search_every_cluster() {
     const auto n = nodes_.n_clusters();
-    // If several threads share the clusters of a region, each thread must compare the region.
+    // If several threads share the clusters of a region, each thread must compare the region with the groups.
     const std::int64_t per_block = n < 64 * request_.n_threads ? 1 : Clusters::clusters_per_region;
-    constexpr std::int64_t few = 4;  // searching this many takes about half a millisecond
+    constexpr std::int64_t few = 4;  // searching this many clusters takes about half a millisecond
     n_threads_ =
         parallel_for_ranges(n, per_block, request_.n_threads.for_part(n, few), [&](const Range &range, int thread) {
           for (std::int64_t cluster = range.begin; cluster < range.end; ++cluster)

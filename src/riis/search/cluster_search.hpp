@@ -42,7 +42,7 @@ struct ClusterScratch {
     std::vector<double> pair_decided;        // squares of distances
     std::vector<ClosestTriangle> closest;    // closest triangles of a cluster's nodes
     std::vector<std::uint16_t> bits_within;  // for each near group, a bit for each leaf within the limit
-    std::int64_t region = -1;                // the region whose groups `bits` has, in a search with every distance
+    std::int64_t region = -1;                // the region whose groups are in `bits`, in a search with every distance
     std::int64_t n_queries = 0;
 
     std::int32_t *room_for_groups(std::size_t n_groups) {

@@ -54,7 +54,7 @@ void make_room(Threads &threads, const ListOf &list_of) {
 
 // One list for each thread. The order within a list has no meaning.
 struct FoundNodes {
-  Range numbers{0, 0};  // contains the nodes' numbers, which are counted from its beginning
+  Range numbers{0, 0};  // the range of the nodes' numbers, which are counted from its beginning
   std::vector<UnfilledVector<FoundNode>> by_thread;
   std::vector<Ties> ties_by_thread;  // stay empty unless the rule requests ties
 

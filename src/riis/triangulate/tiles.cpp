@@ -229,8 +229,8 @@ Tiles::Tiles(const PatchSet &set, const Triangulation &how, const Vector<Levelle
       const Seam *seam = seam_of(set, i, k);
       const PatchImage *twin = seam ? &set.patches[seam->patch_of_twin()].images[seam->twin] : nullptr;
       tiles_.push_back({i, &images[k], twin, seam, n_vertices_, room_, n_ids});
-      // At a seam, two equal vertices may be placed by different images. Vertices placed by different images differ by rounding,
-      // and their triangle may need room.
+      // At a seam, two equal vertices may be placed by different images. They then differ by rounding, so their triangle may have
+      // an area and need room.
       room_ += grids[i].n_triangles - (seam ? 0 : grids[i].n_collapsed);
       n_ids += grids[i].n_triangles;
       n_vertices_ += grids[i].n_vertices;

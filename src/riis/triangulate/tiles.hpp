@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes the triangles of grids, image by image. The adapted and the fixed triangulation share this code. From grids with the
-// levels of their quads, this file makes placed vertices and the triangles between them.
+// Makes the triangles of grids, image by image. The adapted and the fixed triangulation share this code. This file makes placed
+// vertices, and the triangles between them, from grids with the levels of their quads.
 #pragma once
 
 #include <cstddef>
@@ -25,7 +25,7 @@ struct Tile {
   std::int64_t first_id;         // the first triangle_id, which also counts triangles without area
   std::int64_t n_triangles = 0;  // the triangles that have an area; the range may have room for more
   Vector<LeftOut> left_out{};    // the triangles without area
-  bool is_whole = true;          // false if one of the omitted triangles is missed (is_missed)
+  bool is_whole = true;          // false if one of the triangles left out is missed (is_missed)
 };
 
 // The vertices of a patch before its images are placed: first the grid's vertices, then the vertices of subdivided quads.
@@ -89,7 +89,7 @@ class Tiles {
   std::int64_t n_vertices_ = 0, room_ = 0;
 };
 
-// Returns whether a triangle was left out that nothing in the set replaces.
+// Returns true if nothing in the set replaces this triangle, which was left out.
 bool is_missed(const TriangleSet &set, const LeftOut &triangle);
 
 // Returns the triangulation's request, with the allowed error reduced by the patches' own deviation. Fails if the remaining error

@@ -21,7 +21,7 @@ namespace riis {
 // patches of a valve at many openings. The plan's lines keep the allowed error at all these openings. Grids on these lines, with
 // their errors, can be made at any opening.
 struct PatchPlan {
-  bool has_arcs = false;  // whether the patch is one of arcs at some opening
+  bool has_arcs = false;  // whether the patch is a patch of arcs at some opening
 
   GridLines lines;  // the lines of a Coons patch
 

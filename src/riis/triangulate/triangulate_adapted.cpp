@@ -25,7 +25,7 @@ class QuadGroups {
   Vector<std::int32_t> make() {
     const Quads all{0, grid_.u.size() - 1, 0, grid_.v.size() - 1};
     const std::int64_t n = n_triangles(all);
-    constexpr std::int64_t fewest_in_group = triangles_per_group / 2;  // in most groups
+    constexpr std::int64_t fewest_in_group = triangles_per_group / 2;  // most groups have at least this number
     ends_.reserve(static_cast<std::size_t>(n / fewest_in_group + 1));
     group(all, n);
     return std::move(ends_);
@@ -100,7 +100,7 @@ class QuadGroups {
   Vector<std::int32_t> ends_;
 };
 
-// After the triangles of all tiles were moved together, joins the groups of all tiles. `ends` has the ends of each tile's groups.
+// Joins the groups of all tiles, after the triangles of all tiles were moved together. `ends` has the ends of each tile's groups.
 void join(const Vector<Tile> &tiles, const Vector<Vector<std::int32_t>> &ends, Grouping &joined) {
   std::int32_t n = 0;
   joined.end.clear();

@@ -82,8 +82,8 @@ void take_connectivity(const Connectivity &from, bool flip_normals, TriangleSet 
   set.connectivity = number;
 }
 
-// Places the vertices of these grids, and gives them the triangles of a plan. Returns false if triangles are missing, or if other
-// triangles have an area than in the plan.
+// Places the vertices of these grids, and gives them the triangles of a plan. Returns false if triangles are missing, or if the
+// triangles with an area are not the same as in the plan.
 bool take_planned_triangles(const PatchSet &set, const Triangulation &how, const Vector<LevelledGrid> &grids,
                             const Connectivity &planned, TriangleSet &triangles) {
   Tiles tiles(set, how, grids, triangles);
@@ -125,8 +125,8 @@ TriangleSet triangulate_fixed(const PatchSet &set, const Triangulation &asked, c
            " of the fixed triangulation may be off by ", grids[i].error_bound, " at this opening; it must be at most ",
            how.max_error, ", which is tolerance * half_thickness before scaling");
   if (!take_planned_triangles(patches, how, grids, plan.connectivity, memory)) {
-    // At this opening, other triangles have an area than in the plan. The groups of the plan therefore do not fit, and new groups
-    // are made.
+    // At this opening, the triangles with an area are not the same as in the plan. The plan's groups do not fit them, so new
+    // groups are made.
     Tiles tiles(patches, how, grids, memory);
     const Vector<std::size_t> vanished = make_triangles(tiles);
     if (!vanished.empty()) fail_for_vanished(set, vanished.front(), " in the fixed triangulation at this opening");

@@ -203,8 +203,8 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
   PatchSet set;
   for (std::size_t cusp = 0; cusp < n_cusps; ++cusp) {
     const HalfCusp closed_half = half_cusp(shape_of(closed.values, cusp));
-    // At opening 0, the open state of the valve's own parameters is not made, because a closed valve does not need an open state,
-    // and the open state might be refused.
+    // At opening 0, the open state of the valve's own parameters is not made. A closed valve does not need it, and it might be
+    // refused.
     const HalfCusp open_half = !has_own_open_state ? half_cusp(shape_of(open.values, cusp))
                                : opening != 0      ? own_open_half(closed.values, cusp)
                                                    : open_half_of(closed.values, cusp);

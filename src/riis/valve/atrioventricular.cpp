@@ -37,17 +37,18 @@ constexpr double u_of(std::size_t place) { return static_cast<double>(place) / n
 // The coaptation zone takes at least `least_coaptation` of a leaflet's length. A leaflet that is too short for this zone does not
 // reach its neighbours.
 constexpr double least_coaptation = 0.05;
-// A closed meridian's first inner control point lies below the annulus by `first_drop` of the drop to the coaptation line.
+// A closed meridian's first inner control point lies below the annulus by `first_drop` times the drop to the coaptation line.
 constexpr double first_drop = 0.2;
-// The heights of a closed free edge's control points from the middle to a commissure, as shares of the rise from the middle to
-// the commissure.
+// The heights of a closed free edge's control points, from the middle to a commissure. The unit is the height of the edge's end
+// over its middle.
 constexpr std::array<double, 4> edge_rise{0, 0, 0.6, 1};
-// A bump lifts a meridian's first inner control point by only `lift_of_start` of its lift.
+// A bump lifts a meridian's first inner control point by only `lift_of_start` times the bump's lift.
 constexpr double lift_of_start = 0.3;
 // Next to a commissure, bumps lift a leaflet at most `most_lift_by_commissure` * commissure_length farther than the commissure.
 // A steeper leaflet would go through its neighbour, because leaflets lie close together there.
 constexpr double most_lift_by_commissure = 0.5;
-// If a leaflet is too short, its end moves back in steps until the leaflet lacks less than this share of its length.
+// If a leaflet is too short, its end moves back in at most `most_steps` steps, until the leaflet lacks at most `rounding` times
+// its length.
 constexpr int most_steps = 60;
 constexpr double rounding = 1e-12, rounding_of_zone = 1e-6;
 // A leaflet has at least the share `least_ratio` of the annulus. The way from the middle of a leaflet's part of the annulus to
@@ -68,8 +69,8 @@ enum Parameter : std::size_t {
 };
 // clang-format on
 
-// A kind has two or three leaflets. Each leaflet has a length, and of three leaflets the anterior leaflet also has a share of the
-// annulus. The list of specs begins with these sizes.
+// A kind has two or three leaflets. Each leaflet has a length. In a kind with three leaflets, the anterior leaflet also has a
+// share of the annulus. The list of specs begins with these sizes.
 class Sizes {
  public:
   Sizes(const ParameterValues &values, std::size_t n_leaflets) : n_leaflets_(n_leaflets), values_(values) {}
@@ -128,7 +129,7 @@ class Annulus {
         leaflets_[leaflet][i] = {where, {point, 1 / hypotenuse(along.x, along.y) * Vec3{-along.y, along.x, 0}}};
       }
     }
-    // Neighbouring leaflets have the same commissure, even at the end of a lap.
+    // Neighbouring leaflets share their commissure, even at the end of a lap.
     leaflets_.back()[n_cells].hinge = leaflets_.front()[0].hinge;
   }
 
@@ -166,12 +167,12 @@ class Annulus {
 
 // The control points of a leaflet, as vectors from the hinges at their places.
 struct Leaflet {
-  AtPlaces<Vec3> edge, line;  // of the free edge and of the coaptation line, which ends above the commissure
+  AtPlaces<Vec3> edge, line;  // points of the free edge and of the coaptation line, which ends above the commissure
   AtPlaces<Vec3> start;       // the meridians' first inner control points
   AtPlaces<double> turn;      // the lengths of the meridians' end tangents
   AtPlaces<double> body;      // the lengths of the meridians down to the coaptation line
-  AtPlaces<double> whole;     // and down to the free edge
-  AtPlaces<double> lift;      // of the bumps, when closed
+  AtPlaces<double> whole;     // the lengths of the meridians down to the free edge
+  AtPlaces<double> lift;      // how far bumps lift the closed leaflet
 };
 
 // The control points are those of two cubics, which meet at the middle place. Returns the parts of the cubics between the places.
@@ -229,7 +230,7 @@ Vec3 end_of_edge(const Sizes &sizes, const Hinge &hinge) {
   return hinge.hang(sizes.of(commissure_length), sine_cosine_degrees(sizes.of(commissure_angle)));
 }
 
-// Returns the vectors from a closed meridian's ends to its inner control points.
+// The vectors from a closed meridian's ends to its inner control points.
 struct EndTangents {
   Vec3 start, end;
 };

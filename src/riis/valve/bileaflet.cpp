@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The bileaflet mechanical valve. Two rigid flat leaflets in a round housing turn about their hinges (docs/theory/bileaflet.md).
-// From the parameters of two states and the opening, this file makes the patches of the two leaflets. If ring_height is not 0, it
+// This file makes the patches of the two leaflets from the parameters of two states and the opening. If ring_height is not 0, it
 // also makes the patches of the housing's wall.
 #include <riis/riis.h>
 
@@ -122,7 +122,7 @@ class Turn {
   SineCosine closed_, now_;
 };
 
-// Every arc has `n_spans` spans. The distance of a quarter of a circle from the true circle is then at most 1e-9 of its radius.
+// Every arc has `n_spans` spans. A quarter of a circle then deviates from the true circle by at most 1e-9 of the radius.
 constexpr int n_spans = 8;
 
 // Bounds the distance of an arc's spans from the circle, in radii. For a span of the angle a, the distance is 2/27 sin^6(a/4) /

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bumps: disease at one place of a free edge (docs/theory/bumps.md). A bump changes only how far its place opens. The parameters
-// of the bumps determine, for each place of the edge, states between the valve's closed and open state.
+// of the bumps determine how far each place of the edge closes and opens.
 #pragma once
 
 #include <array>

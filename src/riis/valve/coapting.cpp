@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The coapting valves. The two to four cusps of a coapting valve lie side by side in a coaptation zone, and their free edges keep
+// The coapting valves. The two to four cusps of a coapting valve lie side by side in a coaptation zone. Their free edges keep
 // their length while the valve opens (docs/theory/coapting.md).
 #include <algorithm>
 #include <array>
@@ -40,10 +40,10 @@ constexpr double least_height = 0.05;
 constexpr std::array<double, 4> openings_of_folds{0.6, 0.75, 0.9, 1};
 // At the root, the leaflet must rise by at least `least_rise` times the rise of a leaflet without sag.
 constexpr double least_rise = 0.05;
-// If a cusp rises by less than `usual_rise`, its open edge leaves the commissures at a smaller slope. If the rise is less than
-// `usual_rise` by `rise_until_level` or more, the edge leaves the commissures level.
+// If a cusp rises by less than `usual_rise`, its open edge leaves the commissures at a smaller slope. If the rise is at most
+// usual_rise - rise_until_level, the edge leaves the commissures horizontally.
 constexpr double usual_rise = 0.1, rise_until_level = 0.15;
-// If a cusp needs a smaller slope because it would fold otherwise, the height of its edge above the root must stay at least
+// A cusp that would fold gets a smaller slope. The height of its edge above the root must then stay at least
 // `least_height_of_flat` times root_radius. In a lower leaflet, triangles would cross near the attachment.
 constexpr double least_height_of_flat = 0.08;
 // Fused commissures must leave an open orifice of at least `least_orifice` of the area inside the commissures.
@@ -229,8 +229,8 @@ CuspSizes ValveValues::sizes(std::size_t k, bool has_equal_halves) const {
   return made;
 }
 
-// Returns whether the free edge, whose middle is `depth` below the end of the first half, hangs lower than this height above the
-// root, times root_radius.
+// The middle of the free edge is `depth` below the end of the first half. Returns whether the middle is less than `height` times
+// root_radius above the root.
 bool hangs_lower(const CuspNumbers &cusp, double depth, double height) {
   return !(cusp.front().edge_top - depth >= height * cusp.front().root_radius);
 }
@@ -260,7 +260,7 @@ double least_rise_of(const Vector<Vector<HalfCusp>> &halves) {
   return least;
 }
 
-// The least rise at the root, over the openings at which cusps fold. Openings at which the edge hangs too low do not count.
+// The least rise at the root, over the openings at which cusps may fold. Openings at which the edge hangs too low do not count.
 struct RiseOnWay {
   double least = std::numeric_limits<double>::infinity();
   bool hangs_too_low = false;  // at one of these openings
@@ -284,9 +284,9 @@ struct CuspMotion {
 };
 
 // Returns the states between which a cusp moves. A long open edge hangs deep. If such an edge leaves the commissures steeply, the
-// leaflet folds beside its attachment. The nearer a cusp is to a fold, the flatter its edge therefore leaves the commissures.
-// Three equal cusps keep their usual edge, because their bits must not change. Fused cusps also keep it, because the patches
-// beside the fused part would become too narrow.
+// leaflet folds beside its attachment. The slope at the commissures therefore becomes smaller as the cusp comes nearer to a fold.
+// Three equal cusps keep their usual edge, because their bits must not change. Fused cusps also keep this edge, because the
+// patches beside the fused part would become too narrow.
 CuspMotion motion_of(const CuspSizes &closed, CuspSizes open) {
   EndStates usual = end_states(closed, open);
   const bool is_fused =

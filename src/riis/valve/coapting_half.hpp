@@ -9,8 +9,8 @@
 
 namespace riis {
 
-// The middle of the free edge hangs `depth` below the edge's end, at the height `low`. Depth and height are given, because the
-// two halves of a cusp must have the same height to the last bit. Returns one part or, if the half is fused, the free and the
+// The middle of the free edge hangs `depth` below the edge's end, at the height `low`. Both `depth` and `low` are given, because
+// the two halves of a cusp must have the same height to the last bit. Returns one part or, if the half is fused, the free and the
 // fused part.
 Vector<HalfCusp> coapting_half(const HalfNumbers &numbers, double depth, double low);
 

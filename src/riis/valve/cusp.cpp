@@ -71,7 +71,7 @@ SymmetrySides add_middle(PatchSet &set, const MovingHalf &half) {
 }
 
 // Adds the patches of all parts. The first part begins at `middle`. The last part ends at `commissure`, or at its own side.
-// `images` makes the images of the lower patch (0) or of the upper patch (1) of the part with a number.
+// images(0, number) makes the images of the lower patch of a part, and images(1, number) those of its upper patch.
 template <class Images>
 void add_parts(PatchSet &set, const MovingHalf &half, const SymmetrySides &middle,
                const std::optional<Side> &commissure, const Images &images) {

@@ -18,9 +18,9 @@ namespace {
 constexpr double used_of_edge = 0.97;
 // The open edge leaves the commissure like an arc of a circle, if it reaches `round_from` of the arc's height.
 constexpr double round_from = 0.7;
-// The edges of three equal cusps are always round. The edge of another cusp is the less round, the more the cosine of its half
-// sector differs from the cosine of 60 degrees. If the cosines differ by `not_of_three` or more, the sector does not make the
-// edge round.
+// The edges of three equal cusps are always round. Their half sectors are 60 degrees. The edge of another cusp becomes straighter
+// as the cosine of its half sector moves away from the cosine of 60 degrees. From a difference of `not_of_three` on, the sector
+// does not make the edge round.
 constexpr double not_of_three = 0.22;
 // If a cusp has a sector of more than `most_of_one_piece` degrees, its attachment has two pieces, because one cubic would leave
 // the cylinder.
@@ -140,8 +140,9 @@ HalfNumbers closed_half(const CuspSizes &sizes, const CuspSizes::Side &side) {
 }
 
 // Returns the numbers of the closed half with the free edge of the open half. Seen along the axis, the edge is round like an arc
-// of a circle. If an edge is too short for an arc, it leaves the commissure the straighter, the less it opens. A fused edge is
-// shorter than the arc, and its straight direction leads to the inner control point at the middle.
+// of a circle. An edge that is too short for an arc opens less, and leaves the commissure in a direction between the arc's
+// direction and a straight line. A fused edge is shorter than the arc, and its straight direction leads to the inner control
+// point at the middle.
 HalfNumbers with_open_edge(const CuspSizes &sizes, const CuspSizes::Side &side, const HalfNumbers &closed,
                            double ratio) {
   const HalfSector &sector = sizes.sector;
@@ -197,7 +198,7 @@ CuspNumbers closed_cusp(const CuspSizes &sizes) {
   return made;
 }
 
-// The symmetry curve is straight, and the coaptation zone has the same share of its length as in the closed state.
+// The symmetry curve is straight. The coaptation zone has the same share of the curve's length as in the closed state.
 CuspNumbers open_cusp(const CuspSizes &sizes) {
   const CuspNumbers closed = closed_cusp(sizes);
   const double ratio = reached_ratio(sizes, closed);

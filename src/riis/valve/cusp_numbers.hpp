@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The numbers that change as a coapting cusp opens, and the length of its free edge (docs/theory/coapting.md). The sizes of a
-// cusp give its numbers in the closed state, in the open state and between these states, and the depth of its free edge.
+// The numbers that change as a coapting cusp opens, and the length of its free edge (docs/theory/coapting.md). This file computes
+// the numbers from the sizes of a cusp, in the closed state, in the open state and between them. It also finds the depth of the
+// free edge.
 #pragma once
 
 #include <array>
@@ -57,7 +58,7 @@ struct CuspSizes {
     double commissure_height, fusion;
     std::array<LocalOpening, 4> local;  // at the control points of the free edge, from the middle
   };
-  Vector<Side> sides;  // y >= 0 and y < 0, or one side for both
+  Vector<Side> sides;  // the sides y >= 0 and y < 0, or one side for both
   // In the open free edge, the inner control points beside the commissures hang `open_sag` times as deep as the middle.
   double open_sag = usual_open_sag;
 };
@@ -66,8 +67,8 @@ struct CuspSizes {
 // the free edge to the commissure. The coaptation line begins below the end of the free edge.
 struct FusedPart {
   Bezier edge, line;
-  Vec3 commissure;  // of the closed valve
-  double share;     // of the free part, in the length of the closed edge
+  Vec3 commissure;  // the commissure of the closed valve
+  double share;     // the share of the free part in the length of the closed edge
 };
 
 // The numbers of half a cusp, y >= 0. The numbers are blended, and the curves follow from the numbers. Shares have the range 0 to
@@ -75,7 +76,7 @@ struct FusedPart {
 struct HalfNumbers {
   double root_radius;
   Vec3 commissure;
-  double attachment_width, attachment_drop;  // the lengths of the attachment's end tangents, or of its second piece's
+  double attachment_width, attachment_drop;  // lengths of the end tangents, for the attachment or its second piece
   std::array<double, 4> edge_x, edge_y;      // the free edge, seen along the axis
   std::array<double, 4> sag;                 // how far control points of the free edge hang, as shares of the sag
   double edge_top;                           // height of the free edge's end
@@ -84,7 +85,7 @@ struct HalfNumbers {
   double band_lean;   // in the middle, how much farther from the axis the coaptation line is than the free edge
   double belly_x;     // x of the first inner control point of the symmetry curve
   double belly_rise;  // height of that point, as a share of the height of the coaptation line's middle
-  double band_start;  // height from the second inner control point to the coaptation line, as the same share
+  double band_start;  // height from the second inner control point to the coaptation line, in the same unit
   std::optional<AttachmentArc> attachment_arc = {};
   std::optional<FusedPart> fused = {};
 };

@@ -66,8 +66,8 @@ struct AxisLine {
 struct Patch {
   Side v0, v1, u0, u1;
   Vector<PatchImage> images;
-  // The factor of a patch of arcs, or 0. With the factor 0, the patch is the Coons patch of its sides. With another factor it is
-  // the patch of arcs from v0 to v1 with this factor (geometry/bulge.hpp), and u0 and u1 must be arcs with this factor.
+  // The factor of a patch of arcs, or 0. With the factor 0, the patch is the Coons patch of its sides. With another factor, the
+  // patch consists of arcs from v0 to v1 (geometry/bulge.hpp). Its sides u0 and u1 must then be arcs with the same factor.
   double bulge = 0;
   AttachedSide attached = AttachedSide::none;
   AxisLine axis = {{0, 0, 0},
@@ -81,9 +81,8 @@ struct Patch {
 // The points that two images have in common.
 enum class SeamPlace : std::uint8_t { corner, side_v1, side_u1 };  // the corner is u = v = 1
 
-// Two images, of one patch or of two patches, that have points in common. Before both images are placed, these points are the
-// same points of the patches. The image `image` takes these points from the image `twin`, because turning both images separately
-// would round differently.
+// Two images, of one patch or of two patches, that have points in common. Both images place the same points of the patches there.
+// The image `image` takes the placed points from the image `twin`, because two separate turns would round differently.
 struct Seam {
   std::size_t patch, image, twin;
   SeamPlace place;
@@ -105,8 +104,8 @@ constexpr double material_share(std::size_t k) { return static_cast<double>(k) /
 struct MaterialPoints {
   std::array<Vec3, n_material> mapped;
   std::array<PointOnSpan, n_material> on_curve;
-  std::array<Vec3, n_material> point;    // of the warped curve
-  std::array<double, n_material> share;  // of the warped curve's length up to that point
+  std::array<Vec3, n_material> point;    // points of the warped curve
+  std::array<double, n_material> share;  // the share of the warped curve's length up to each point
 
   // Returns the points in the order of the reversed curve, which has n_spans spans.
   MaterialPoints reversed(std::size_t n_spans) const {

@@ -22,8 +22,8 @@ enum PatchRim : std::uint8_t { rim_v0 = 1, rim_v1 = 2, rim_u0 = 4, rim_u1 = 8, f
 // count as rim.
 Vector<std::uint8_t> rim_sides(const PatchSet &set);
 
-// From the u and v of a vertex, returns the sides of the patch on which the vertex lies. A vertex on a side has exactly the
-// side's parameter. An edge lies on a side if both its ends lie on the side.
+// Returns the sides of the patch on which a vertex with this u and v lies. A vertex on a side has exactly the side's parameter.
+// An edge lies on a side if both its ends lie on the side.
 inline std::uint8_t sides_of_place(const double *uv) {
   return static_cast<std::uint8_t>((uv[1] == 0 ? rim_v0 : 0) | (uv[1] == 1 ? rim_v1 : 0) | (uv[0] == 0 ? rim_u0 : 0) |
                                    (uv[0] == 1 ? rim_u1 : 0));

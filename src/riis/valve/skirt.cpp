@@ -20,18 +20,18 @@ namespace {
 constexpr std::size_t n_even_parts = 8;
 // Two ends of cusps that are not joined are neighbours if their distance is at most `most_between_ends` times the longest side.
 constexpr double most_between_ends = 0.5;
-// The line through two neighbouring ends has an angle to the outward direction. If the angle's sine is in this range, the skirts
-// lead along the line. The sine is positive if the ends have passed each other. Outside of this range, the skirts use a sine that
-// decreases to 0.
+// The line through two neighbouring ends has an angle to the outward direction. If the angle's sine is between these two numbers,
+// the skirts lead along the line. The sine is positive if the ends have passed each other. Outside of this range, the skirts use
+// a sine that decreases to 0.
 constexpr double most_apart_in_line = -0.5, most_past_in_line = 0.98;
 // The sine that is used also falls to 0 if the sine of the line's angle to the axis is below `least_sine_to_axis`.
 constexpr double least_sine_to_axis = 0.2;
 // If the sine of a side's angle to the plane across the axis is at least `least_rise`, the skirt leans as the side's tangent
 // does. Beside a flatter side the skirt leans less, and beside a side in the plane across the axis the skirt does not lean.
 constexpr double least_rise = 0.5;
-// If a skirt is turned at rest, small turns by the warp are added to its place at rest. If the warp turns the skirt by
-// `most_turn_as_at_rest` or more, the whole turn counts. For turns between small turns and `most_turn_as_at_rest`, the skirt
-// changes gradually from one rule to the other.
+// In some valves the skirt is not turned at rest, although its rule gives a turn there. If a warp hardly changes this turn, the
+// skirt is turned only by the change. If the warp changes the turn by `most_turn_as_at_rest` or more, the skirt is turned by the
+// whole new turn. In between, the turn passes gradually from one value to the other.
 constexpr double most_turn_as_at_rest = pi / 4;
 // A disc about the axis has `n_corners` corners when it is warped.
 constexpr int n_corners = 24;
@@ -50,7 +50,7 @@ struct Step {
   Vec3 at, by;
 };
 
-// Takes evenly spaced points of a curve.
+// Returns evenly spaced points of a curve, with the steps between them.
 Vector<Step> steps_of(const Curve &curve) {
   constexpr int n = 8;
   Vector<Step> steps;
@@ -113,8 +113,8 @@ AxisLine warped_axis(const AxisLine &axis, const Vector<Step> &steps, const Blen
   return {centre, size > 0 ? (1 / size) * area : Vec3{0, 0, 0}};
 }
 
-// Returns the line through the centroid of the attachment. If the axis is vertical, the line is vertical, otherwise it leads
-// along the attachment's vector area. The direction has length 0 if the attachment encloses no area, and otherwise length 1.
+// Returns the line through the centroid of the attachment. The line is vertical if `axis` says so. Otherwise it leads along the
+// attachment's vector area. The direction has the length 1, or 0 if the attachment encloses no area.
 AxisLine axis_of_attachment(const PatchSet &set, const Vector<HeldSide> &sides, SkirtAxis axis) {
   const Vector<Step> steps = steps_of_attachment(set, sides);
   double whole = 0;
@@ -189,8 +189,9 @@ class SkirtMaker {
     return found->second;
   }
 
-  // Returns the derivative of the length at one of the shares, per step between shares. Between two shares, the length then stays
-  // between the lengths at the shares, so a skirt does not overshoot at a corner of the wall (F. N. Fritsch, R. E. Carlson 1980).
+  // Returns the derivative of the length at one of the shares, per step between shares. The length between two shares then stays
+  // between the lengths at these shares, so a skirt does not overshoot at a corner of the wall (F. N. Fritsch, R. E. Carlson
+  // 1980).
   static double growth_at(const Vector<double> &lengths, std::size_t i) {
     const double before = i == 0 ? 0 : lengths[i] - lengths[i - 1];
     const double after = i + 1 == lengths.size() ? 0 : lengths[i + 1] - lengths[i];
@@ -265,7 +266,7 @@ class SkirtMaker {
   std::map<std::array<std::size_t, 2>, std::array<std::size_t, 2>> places_;  // key: a patch and its image
 };
 
-// An end of a held side of an image. `is_before` tells whether the side ends there, as seen along the axis.
+// An end of a held side of an image. `is_before` tells whether the side ends there, if it is followed around the axis.
 struct PlacedEnd {
   AttachedEnd end;
   Vec3 point;
@@ -287,8 +288,8 @@ double angle_about(const AxisLine &axis, Vec3 from, Vec3 to) {
   return arc_tangent(dot(cross(from, to), axis.direction), dot(from, to));
 }
 
-// Returns the angles by which the skirts at two neighbouring ends turn from the outward directions of their own axes, if both
-// skirts lead along direction_between.
+// Returns two angles, one for each of two neighbouring ends. The skirt at an end turns by this angle from the outward direction
+// of its own axis to direction_between.
 std::array<double, 2> turns_between(const AxisLine &axis_before, const SideEnd &before, const AxisLine &axis_after,
                                     const SideEnd &after) {
   const Vec3 direction = direction_between(between(axis_before, axis_after), before, after);

@@ -70,7 +70,7 @@ class SkirtDirections {
  private:
   struct End {
     bool is_turned;
-    Vec3 direction;               // to which the skirt is turned
+    Vec3 direction;               // the direction to which the skirt is turned
     std::optional<double> angle;  // in place of the direction, the angle by which the skirt is turned about the axis
   };
   Vector<AxisLine> axes_;

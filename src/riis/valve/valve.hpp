@@ -72,7 +72,7 @@ struct ValveKind {
   Vector<ParameterSpec> parameters;
   std::size_t opening;   // the position of the parameter "opening"
   bool opens_by_itself;  // one set of parameters defines both the closed and the open state
-  // Refuses values that do not fit together. NULL if all values fit together.
+  // Refuses values that do not fit together. NULL if the kind has nothing to check.
   void (*check_values)(const ParameterValues &values);
   // Makes the patches at an opening from 0, the closed state, to 1, the open state. Both states have been checked. The two states
   // are the same object if the valve was given no open state.
@@ -187,8 +187,8 @@ class Valve {
   void derive();
   PatchSet make_patches(FoldCheck check) const;
   BlendedWarp blended_warp() const;  // of a warped valve
-  // Returns where the warp's landmarks lie on the curves before the warp: landmarks of the closed map on the closed valve, and
-  // landmarks of the open map on the open valve. `now` has the patches at the current opening.
+  // Returns where the warp's landmarks lie on the curves before the warp. The landmarks of the closed map lie on the closed
+  // valve, and those of the open map on the open valve. `now` has the patches at the current opening.
   std::shared_ptr<const LandmarkCuts> landmark_cuts(const PatchSet &now) const;
   void check_open_values() const;
   static std::uint64_t next_revision();

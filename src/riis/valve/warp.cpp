@@ -291,8 +291,8 @@ double WarpLandmarks::solve(double lambda) {
 }
 
 // Returns the lambda at which the sum of squares of all residuals is a given share of its expected value. The noise gives the
-// expected value, 3 noise^2 for each free landmark. The sum of squares grows with lambda, so at most one lambda gives the
-// expected value. Returns infinity if even the affine map has a smaller sum.
+// expected value, 3 noise^2 for each free landmark. The sum of squares grows with lambda, so at most one lambda gives the wanted
+// share. Returns infinity if even the affine map has a smaller sum.
 double WarpLandmarks::smoothing_for_noise() {
   const double noise = noise_ / size_, wanted = residual_share * 3 * noise * noise * static_cast<double>(n_free_);
   if (wanted == 0) return 0;
@@ -305,7 +305,7 @@ double WarpLandmarks::smoothing_for_noise() {
   double low = 1e-16 * largest, high = 1e16 * largest;
   if (solve(low) >= wanted) return low;
   if (solve(high) <= wanted) return high;
-  const auto middle = [&] { return std::sqrt(low) * std::sqrt(high); };  // of the logarithms
+  const auto middle = [&] { return std::sqrt(low) * std::sqrt(high); };  // the geometric mean
   for (int i = 0; i < 60; ++i) (solve(middle()) < wanted ? low : high) = middle();
   return middle();
 }
@@ -335,7 +335,7 @@ void WarpLandmarks::fit(const Vector<Vec3> &targets, WarpMap &map, WarpQuality &
   const std::size_t n = size();
   displacement_.resize(n), reduced_.assign(n_free_, Vec3{0, 0, 0}), solution_.resize(n_free_), pivot_.resize(n_free_);
   for (std::size_t i = 0; i < n; ++i) displacement_[i] = (1 / size_) * (targets[i] - sources_[i]);
-  std::array<Vec3, 4> terms{};  // of the map's polynomial
+  std::array<Vec3, 4> terms{};  // the terms of the map's polynomial
   if (is_planar_) {
     // The map of the direction across the plane follows from the linear map that is nearest to the landmarks in the plane. The
     // stretch across the plane is the mean stretch of the plane.

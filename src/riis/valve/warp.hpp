@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A smooth map of space that landmarks determine (docs/theory/warp.md): an affine map plus a function |r|^3 for each landmark.
-// From the landmarks at rest and their present places, this file computes the map's values and derivatives.
+// This file computes the map's values and derivatives from the landmarks at rest and their present places.
 #pragma once
 
 #include <cstddef>
@@ -67,7 +67,7 @@ struct WarpQuality {
   double rms_residual, largest_residual;  // distances of mapped sources from their targets
   std::int64_t largest_landmark;
   double smoothing;          // lambda; infinite if the map is affine
-  double least_determinant;  // of the map's derivative, half way from each landmark to the nearest other one
+  double least_determinant;  // the derivative's least determinant, half way from each landmark to the nearest other one
   Vec3 least_point;          // where the determinant is least
   std::int64_t least_landmark;
 };

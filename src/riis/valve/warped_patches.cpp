@@ -27,8 +27,8 @@ constexpr std::size_t n_fold_cells = 3;
 // A cell is a sliver if the sine of the angle between its diagonals is below `sliver_sine`. A sliver is hardly wider than a line,
 // so it has no clear normal. Half-open coapting leaflets have slivers beside the attachment. The chords of a curve in a sliver do
 // not show the direction of the surface. In 20,000 states of valves with rough warps, cells with a sine up to 0.067 turned over
-// although no triangle did. Where triangles but no wider cells turned over, the triangles had at most 0.6 mm^2. One cell of the
-// default valve has the sine 0.041 at the opening 0.9.
+// although no triangle did. In some states triangles turned over, but no wider cell did. Those triangles had at most 0.6 mm^2.
+// One cell of the default valve has the sine 0.041 at the opening 0.9.
 constexpr double sliver_sine = 0.07;
 
 Bezier raised_to_cubic(const Bezier &span) {
@@ -348,8 +348,8 @@ void map_outer_points(const PatchSet &made, const Patch &patch, const LabelGrid 
     }
 }
 
-// Fails if a part of the warped patch is turned over relative to the mapped patch. Slivers are not checked: cells that are
-// slivers before the warp, after it, or when only their corners are mapped.
+// Fails if a part of the warped patch is turned over relative to the mapped patch. A cell is not checked if it is a sliver before
+// the warp, after the warp, or with only its corners mapped.
 void check_turns(const LabelGrid &before, const PatchImage &image, const LabelGrid &now, const MappedGrid &mapped) {
   const auto at_mapped = [&](std::size_t i, std::size_t j) -> const Vec3 & {
     return mapped[j * (n_fold_cells + 1) + i];

@@ -46,7 +46,7 @@ vtkSmartPointer<Array> named_array(const std::string &name, vtkIdType n_tuples, 
   return array;
 }
 
-// Returns a text such as "; there are: a, b", which ends a message. The message says that an array is missing.
+// Returns a text such as "; there are: a, b", for the end of a message about a missing array.
 std::string list_of_arrays(vtkFieldData *data);
 
 // Functions for the lines and words of files that are scanned before VTK reads them. Blanks and capitals are those of ASCII, even

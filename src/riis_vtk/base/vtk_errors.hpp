@@ -90,8 +90,8 @@ void destroy(Object **object) {
 }
 
 // As long as an object of this type exists, it replaces VTK's output window of the whole process. The object also silences VTK's
-// log on stderr, which would repeat every error. VTK tells only the highest level of all its logs. The destructor sets the log on
-// stderr to the highest level of all logs.
+// log on stderr, which would repeat every error. VTK cannot tell the level of this log, only the highest level of all its logs.
+// The destructor therefore sets the log on stderr to this highest level.
 class CaughtOutput {
  public:
   CaughtOutput();

@@ -17,7 +17,7 @@ class ElementParser : public vtkXMLParser {
   vtkTypeMacro(ElementParser, vtkXMLParser);
 
   const VisitElement *visit = nullptr;
-  std::exception_ptr failure;  // of the function below, which is called from C code
+  std::exception_ptr failure;  // the failure of the function below, which C code calls
 
  protected:
   void StartElement(const char *name, const char **attributes) override {

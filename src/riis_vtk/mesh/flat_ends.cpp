@@ -11,7 +11,7 @@
 namespace riis::vtk {
 namespace {
 
-constexpr double least_rest = 0.1;  // of the wall's area, without its flat ends
+constexpr double least_rest = 0.1;  // least area without the flat ends, as a share of the wall's area
 
 }  // namespace
 

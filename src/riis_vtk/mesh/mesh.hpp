@@ -52,7 +52,7 @@ struct riis_vtk_mesh {
   std::string foam_time = {};  // the folder of the time that the path of the mesh names, or ""
   // If the mesh has centres of cells, the centres are its nodes, and the data of nodes is data of cells.
   std::unique_ptr<const riis::vtk::CellCenters> centers = {};
-  std::vector<riis::vtk::RegionName> region_names = {};  // of gmsh's physical groups of volumes
+  std::vector<riis::vtk::RegionName> region_names = {};  // names of gmsh's physical groups of volumes
   riis::vtk::Regions regions = {};                       // as riis_vtk_mesh_find_regions found them
   // The ids of nodes and cells in the whole mesh, if only some cells were kept. The lists are empty if all cells were kept.
   std::vector<std::int64_t> whole_node_ids = {}, whole_cell_ids = {};
@@ -62,7 +62,7 @@ struct riis_vtk_mesh {
   // Returns whether axes give the nodes.
   bool is_of_axes() const { return axes && !centers; }
   vtkDataSetAttributes *node_data() const;
-  void make_points() const;           // of axes, unless they are made
+  void make_points() const;           // makes the points from the axes, unless they exist
   vtkUnstructuredGrid *grid() const;  // with points and cells
 };
 
@@ -90,8 +90,8 @@ struct CellShape {
     int n_corners;
   };
   int dimension = 0;
-  std::vector<Edge> edges;  // of a face or a volume
-  std::vector<Face> faces;  // of a volume
+  std::vector<Edge> edges;  // the edges of a face or a volume
+  std::vector<Face> faces;  // the faces of a volume
 };
 const CellShape &shape_of(int type);
 
@@ -106,7 +106,7 @@ VolumeCounts count_volumes(vtkUnstructuredGrid *grid, vtkUnsignedCharArray *ghos
 
 struct VolumeCells {
   std::vector<std::int64_t> node_ids;
-  std::vector<std::int64_t> offsets = {0};  // the number of cells plus one entries
+  std::vector<std::int64_t> offsets = {0};  // one entry more than there are cells
 };
 
 // Returns the tetrahedra, pyramids, wedges and hexahedra of the grid. Voxels become hexahedra. Other cells are left out.
@@ -119,7 +119,7 @@ struct VolumeEdges {
 };
 VolumeEdges volume_edges_of(vtkUnstructuredGrid *grid);
 
-// Returns the edges that are longer than a given length. The bounding box of an edge must also meet the box from lower to upper.
+// Chooses the edges that are longer than a given length, and whose bounding box meets the box from lower to upper.
 struct LongEdges {
   LongEdges(double longer_than, const double *box_lower, const double *box_upper)
       : least_square(longer_than * (1 - 1e-9) * (longer_than * (1 - 1e-9))), lower(box_lower), upper(box_upper) {}
@@ -135,7 +135,7 @@ VolumeEdges long_edges_of(vtkUnstructuredGrid *grid, const double *xyz, const Lo
 // Returns the median of the lengths, or 0 if there are no lengths.
 double median_of(std::vector<double> lengths);
 inline constexpr std::int64_t most_measured =
-    20'000;  // cells or pairs of cells that a median is of, at equal distances in the list
+    20'000;  // a median is taken over at most this many cells or pairs of cells, evenly spaced in the list
 
 // Returns the median length of the edges of faces and volumes, or 0 if no edge is known. An edge of several cells counts once for
 // each cell.

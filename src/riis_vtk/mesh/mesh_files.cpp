@@ -238,7 +238,7 @@ void set_unit(riis_vtk_mesh *mesh, const std::string &name, const std::string &u
   array->GetInformation()->Set(vtkDataArray::UNITS_LABEL(), unit.c_str());
 }
 
-// For each of the given fields, sets an array with a name such as PREFIX_normal.
+// Sets an array for each of the given fields, with a name such as PREFIX_normal.
 void set_fields(riis_vtk_mesh *mesh, const riis_marks *marks, std::int32_t fields, const std::string &prefix) {
   check_name("prefix", prefix);
   check_fields(fields);

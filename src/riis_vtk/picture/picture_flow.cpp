@@ -79,7 +79,8 @@ vtkSmartPointer<vtkActor> plain_actor(const Colour &colour) {
   return actor;
 }
 
-// Returns a strip of the given width along each line, in the plane of the view. OpenGL limits the width of lines.
+// Returns a strip of the given width along each line, in the plane of the view. Plain lines would not do, because OpenGL limits
+// their width.
 vtkSmartPointer<vtkPolyData> strips(vtkPolyData *lines, const View &view, double width) {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();

@@ -317,7 +317,7 @@ vtkSmartPointer<vtkImageData> transparent_from(vtkImageData *on_black, vtkImageD
   const auto *white = static_cast<const unsigned char *>(on_white->GetScalarPointer());
   auto *pixel = static_cast<unsigned char *>(clear->GetScalarPointer());
   for (vtkIdType i = 0; i < clear->GetNumberOfPoints(); ++i, black += 3, white += 3, pixel += 4) {
-    int lost = 255;  // of the background
+    int lost = 255;  // how much of the background is lost
     for (int k = 0; k < 3; ++k) lost = std::min(lost, std::max(0, white[k] - black[k]));
     const int opacity = 255 - lost;
     for (int k = 0; k < 3; ++k)

@@ -139,7 +139,7 @@ struct Style {
   explicit Style(const riis_vtk_picture_options &options);
   Colour background;
   bool is_transparent;
-  Colour ink, line;   // of texts, and of the wall's rims
+  Colour ink, line;   // colours of texts, and of the wall's rims
   double shell_grey;  // the brightness of the wall
   std::int32_t captions, panels;
 };
@@ -175,18 +175,18 @@ class Scene {
   Style style_;
   Axes axes_;                      // of the valve
   std::optional<Axes> long_axes_;  // of RIIS_VTK_VIEW_VALVE_LONG, which is the same in all frames of a movie
-  Layout layout_;                  // of a picture with one view
+  Layout layout_;                  // the layout of a picture with one view
   std::string unit_;               // "" if the caller gave none
   std::vector<std::string> leaflet_names_;
   vtkSmartPointer<vtkUnstructuredGrid> grid_;
   vtkSmartPointer<vtkPolyData> triangles_;
   SurfacePanel surface_;
-  std::optional<MarksPanel> marks_;  // not set without a mesh, with a flow, and if the picture shows only the surface
+  std::optional<MarksPanel> marks_;  // missing if there is no mesh, if there is a flow, or if only the surface is shown
   std::optional<FlowPanel> flow_;    // takes the place of the marks
   vtkSmartPointer<vtkPointSet> around_;  // the grid, or the wall of the options; NULL if there is neither
   std::optional<Shell> shell_;           // set if there is a grid or a wall
   std::vector<std::string> title_;
-  std::vector<PanelTexts> texts_;  // of the panels, without that of the flow
+  std::vector<PanelTexts> texts_;  // the texts of the panels, except the flow's panel
   vtkNew<vtkCamera> camera_;
   vtkNew<vtkRenderWindow> window_;
   vtkSmartPointer<vtkRenderer> behind_;

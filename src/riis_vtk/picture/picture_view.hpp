@@ -71,7 +71,7 @@ struct Sight {
 //   mesh    NULL if there is none
 //   aspect  the panel's width divided by its height
 //   least   the least half height of the panel, so that several views can have one scale
-//   reach   how much larger the surroundings are than usual
+//   reach   the size of the surroundings, as a multiple of their usual size
 Sight sight_of(const Extents &surface, const Extents *mesh, double aspect, double least = 0, double reach = 1);
 
 void aim_camera(vtkCamera *camera, const View &view, const Sight &sight);

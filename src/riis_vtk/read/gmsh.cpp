@@ -432,7 +432,7 @@ class GmshFile {
     for (Groups &groups : further_) groups.resize(physical_.size(), 0);
     if (is_new_ || !are_grouped) return 0;
     const std::int64_t n = view(physical_).size();
-    std::vector<std::pair<std::uint64_t, std::int64_t>> order;  // of the elements, by a hash of type and nodes
+    std::vector<std::pair<std::uint64_t, std::int64_t>> order;  // the elements in the order of a hash of type and nodes
     order.reserve(static_cast<std::size_t>(n));
     for (std::int64_t i = 0; i < n; ++i) {
       std::uint64_t hash = mesh_.types->GetValue(i);
@@ -490,7 +490,7 @@ class GmshFile {
   std::optional<NodeTags> tags_;
   std::map<std::array<std::int64_t, 2>, std::vector<std::int64_t>> groups_;  // by dimension and entity
   PlainGrid mesh_;
-  static constexpr std::size_t most_groups = 16;  // further ones of an element
+  static constexpr std::size_t most_groups = 16;  // further groups of an element
   Groups physical_;
   std::vector<Groups> further_;
   std::vector<std::string> names_;  // numbers and names of groups of volumes, in turn

@@ -148,8 +148,8 @@ class Scan {
     return text;
   }
 
-  // Returns the next word in lower case, or "" at the end of the file. Mostly, the format does not distinguish capital letters
-  // from small letters.
+  // Returns the next word in lower case, or "" at the end of the file. In most places, the format does not distinguish capital
+  // letters from small letters.
   std::string word() { return lower_case(word_as_it_is()); }
 
   // The next two functions return the next word, and fail at the end of the file.
@@ -392,7 +392,7 @@ class Scan {
     return true;
   }
 
-  // VTK allocates the stated number of arrays before it compares the number with the grid's number.
+  // VTK allocates memory for the stated number of tuples before it compares this number with the grid.
   void check_tuples(bool are_points) const {
     if (!lattice_) refuse("has data before DIMENSIONS");
     const std::int64_t n = are_points ? lattice_->n_points() : lattice_->n_cells();

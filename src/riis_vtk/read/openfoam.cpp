@@ -471,7 +471,7 @@ void add_cells(const std::string &path, const Faces &faces, PlainGrid &mesh) {
   }
 }
 
-// Returns whether the numbers of the file have single precision.
+// Reads the mesh of a folder. Returns whether its numbers have single precision.
 bool read_folder(const Folders &folders, PlainGrid &mesh) {
   FoamFile points(folders.points, "points");
   points.read_points(mesh.xyz);

@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 
 // A type of cells: its number in a list of mixed types, and its names in lower case without "_". If the number of nodes varies,
 // n_nodes is 0. If a type of cells has several names, the first name is written. If XDMF gives no number to a type of cells, the
-// number is 0. For example, dolfinx writes cells of order 3 with VTK's order of nodes.
+// number is 0. Cells of order 3 are an example: dolfinx writes them with VTK's order of nodes.
 struct Topology {
   int number, vtk_type, n_nodes;
   const char *written;

@@ -294,7 +294,7 @@ void append_faces(Faces &faces, const Faces &other) {
   if (joined.attached.empty() || added.attached.empty())
     joined.attached.clear();
   else
-    // If files are compiled in a batch, gcc 14 wrongly warns of this insert.
+    // A loop inserts the values, because gcc 14 wrongly warns of an insert if files are compiled in a batch.
     for (const auto is_attached : added.attached) joined.attached.push_back(is_attached);
   joined.leaflet_id.resize(joined.vertex_ids.size() / n_corners, joined.n_joined++);
   faces = std::move(joined);

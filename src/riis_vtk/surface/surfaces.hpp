@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads a surface from a file, or takes it from the core, and makes a data set of it. From the data set, makes plain arrays for
-// the core, with a leaflet id for each face. Also finds pieces of faces that are connected.
+// Reads a surface from a file, or takes it from the core, and makes a data set of it. Makes plain arrays for the core from the
+// data set, with a leaflet id for each face. Also finds pieces of faces that are connected.
 #pragma once
 
 #include <cmath>
