@@ -107,6 +107,20 @@ double share_until_pieces_meet(const std::vector<PieceVertex> &vertices, double 
   return share;
 }
 
+// Returns, for each vertex, the nearest vertex of another piece. The distance is below a share of the vertex's distance from its
+// centroid. A vertex without such a neighbour has its own number.
+std::vector<std::size_t> nearest_of_other_pieces(const std::vector<PieceVertex> &vertices, double share) {
+  std::vector<std::size_t> nearest;
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    double least = share * length(vertices[i].from_centroid);
+    nearest.push_back(i);
+    for (std::size_t k = 0; k < vertices.size(); ++k)
+      if (vertices[k].piece != vertices[i].piece && distance(vertices[k].at, vertices[i].at) < least)
+        least = distance(vertices[k].at, vertices[i].at), nearest.back() = k;
+  }
+  return nearest;
+}
+
 // Leaflets that end short of each other have no common attachment. Returns triangles whose pieces have grown about their
 // centroids until neighbours meet, with one place for vertices that are close to each other. Returns nothing if pieces touch
 // anyway, or if the boundary has too many vertices to compare each with each.
@@ -130,27 +144,21 @@ std::optional<TriangleSet> joined_pieces(const TriangleSet &set, const std::vect
   if (vertices.size() > most_vertices) return std::nullopt;
   const double share = share_until_pieces_meet(vertices, most_growth);
   if (share == 0) return std::nullopt;
+  for (PieceVertex &vertex : vertices) vertex.at = vertex.at + share * vertex.from_centroid;
+  const std::vector<std::size_t> nearest = nearest_of_other_pieces(vertices, closeness);
+  std::vector<std::optional<Vec3>> at_place(static_cast<std::size_t>(n_places));
+  for (std::size_t i = 0; i < vertices.size(); ++i)
+    if (const std::size_t other = nearest[i]; nearest[other] == i)
+      view(at_place)[view(place)[vertices[i].vertex]] = vertices[std::min(i, other)].at;
+  // Vertices inside a piece grow too, so that a vertex on the edge of a neighbouring triangle stays on this edge.
   TriangleSet joined = set;
-  const auto move = [&](std::int64_t vertex, Vec3 to) {
-    for (std::int64_t c = 0; c < 3; ++c) view(joined.xyz)[3 * vertex + c] = c == 0 ? to.x : c == 1 ? to.y : to.z;
-  };
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    vertices[i].at = vertices[i].at + share * vertices[i].from_centroid;
-    const double limit = closeness * length(vertices[i].from_centroid);
-    for (std::size_t k = 0; k < i; ++k)
-      if (vertices[k].piece != vertices[i].piece && distance(vertices[k].at, vertices[i].at) < limit) {
-        vertices[i].at = vertices[k].at;
-        break;
-      }
+  for (std::int64_t i = 0; i < set.n_vertices(); ++i) {
+    const std::int64_t where = view(place)[i], of = view(piece_at)[where];
+    if (of < 0) continue;
+    std::optional<Vec3> &to = view(at_place)[where];
+    if (!to) to = set.vertex(i) + share * (set.vertex(i) - view(boundary.centroids)[of]);
+    for (std::int64_t c = 0; c < 3; ++c) view(joined.xyz)[3 * i + c] = c == 0 ? to->x : c == 1 ? to->y : to->z;
   }
-  std::vector<Vec3> at_place(static_cast<std::size_t>(n_places));
-  std::vector<bool> is_moved(static_cast<std::size_t>(n_places), false);
-  for (const PieceVertex &vertex : vertices) {
-    const auto where = static_cast<std::size_t>(view(place)[vertex.vertex]);
-    at_place[where] = vertex.at, is_moved[where] = true;
-  }
-  for (std::int64_t i = 0; i < set.n_vertices(); ++i)
-    if (const auto where = static_cast<std::size_t>(view(place)[i]); is_moved[where]) move(i, at_place[where]);
   return joined;
 }
 
@@ -183,7 +191,7 @@ LeafletBoundary boundary_of_leaflets(const TriangleSet &set) {
   const LargestBoundary largest = largest_boundary(whole);
   boundary.perhaps_area = length(largest.area);
   for (const OpenEdge &edge : largest.edges)
-    boundary.perhaps_attached.push_back({whole.vertex(edge.from), whole.vertex(edge.to), 0});
+    boundary.perhaps_attached.push_back({whole.vertex(edge.from), whole.vertex(edge.to), view(piece)[edge.triangle]});
   return boundary;
 }
 
@@ -460,8 +468,79 @@ std::optional<FoundView> best_view(const LeafletBoundary &boundary, const Bounda
   return best;
 }
 
+// The high points of a crown, where neighbouring pieces meet, and the lowest point of each piece. A crown is a closed line in
+// which each piece has one run, from one high point to the next.
+struct Crown {
+  std::vector<Vec3> highs, lows;
+  double height;  // the least height of a high point above the lowest points of its two pieces
+};
+
+// Returns the crown of a closed line, or nothing if a piece has no run or several runs. The axis may point up or down.
+std::optional<Crown> crown_of(const std::vector<BoundaryEdge> &line, Vec3 axis) {
+  std::vector<std::size_t> begins;  // the first edges of the runs
+  std::vector<std::int64_t> pieces;
+  for (std::size_t i = 0; i < line.size(); ++i)
+    if (line[i].piece != line[(i + line.size() - 1) % line.size()].piece)
+      begins.push_back(i), pieces.push_back(line[i].piece);
+  std::sort(pieces.begin(), pieces.end());
+  if (begins.size() < 2 || std::adjacent_find(pieces.begin(), pieces.end()) != pieces.end()) return std::nullopt;
+  Crown crown{{}, {}, std::numeric_limits<double>::infinity()};
+  Vec3 above{0, 0, 0};  // from the line's middle to the middle of the high points
+  for (const std::size_t begin : begins) {
+    crown.highs.push_back(line[begin].from);
+    above = above + (1 / static_cast<double>(begins.size())) * (line[begin].from - line[0].from);
+  }
+  for (const BoundaryEdge &edge : line)
+    above = above - (1 / static_cast<double>(line.size())) * (edge.from - line[0].from);
+  const Vec3 upwards = dot(above, axis) < 0 ? -axis : axis;
+  for (std::size_t k = 0; k < begins.size(); ++k) {
+    const std::size_t end = begins[(k + 1) % begins.size()];
+    Vec3 low = line[begins[k]].from;
+    for (std::size_t i = begins[k]; i != end; i = (i + 1) % line.size())
+      if (dot(upwards, line[i].from) < dot(upwards, low)) low = line[i].from;
+    crown.lows.push_back(low);
+    for (const std::size_t high : {begins[k], end})
+      crown.height = std::min(crown.height, dot(upwards, line[high].from - low));
+  }
+  return crown;
+}
+
+// Adds the second moments of points about their mean, times a weight.
+void add_moments(const std::vector<Vec3> &points, double weight, std::vector<double> &moments) {
+  Vec3 mean{0, 0, 0};
+  for (const Vec3 point : points) mean = mean + (1 / static_cast<double>(points.size())) * (point - points[0]);
+  for (const Vec3 point : points) {
+    const Vec3 from_mean = point - points[0] - mean;
+    const std::array<double, 3> x{from_mean.x, from_mean.y, from_mean.z};
+    for (std::size_t i = 0; i < 9; ++i) moments[i] += weight * x[i / 3] * x[i % 3];
+  }
+}
+
+// Returns the axis of a line at which cusps are attached, or nothing if the line is no high crown. The axis is at right angles to
+// the plane of the lowest points. With two cusps, the high points determine the direction that the two lowest points leave free.
+// `axis` is a first axis, and `radius` the line's radius.
+std::optional<Vec3> axis_of_crown(const std::vector<BoundaryEdge> &line, Vec3 axis, double radius) {
+  constexpr double least_height = 0.5, weight_of_highs = 0.01, least_spread = 0.1, still = 1e-12;
+  constexpr int most_turns = 10;
+  for (int turn = 0; turn < most_turns; ++turn) {
+    const std::optional<Crown> crown = crown_of(line, axis);
+    if (!crown || !(crown->height > least_height * radius)) return std::nullopt;
+    std::vector<double> moments(9, 0);
+    add_moments(crown->lows, 1 / (radius * radius), moments);
+    add_moments(crown->highs, weight_of_highs / (radius * radius), moments);
+    const Eigen found = symmetric_eigen(moments, 3);
+    if (!(found.values[1] > least_spread * weight_of_highs)) return std::nullopt;  // all points are on one line
+    const Vec3 least{found.vectors[0], found.vectors[1], found.vectors[2]};
+    const Vec3 turned = dot(least, axis) < 0 ? -least : least;
+    if (distance(turned, axis) < still) break;
+    axis = turned;
+  }
+  return axis;
+}
+
 // Returns the view of triangles from arrays. The axis of the closed line that may be the attachment counts only if this line is
-// nearly as large and nearly as round as the outline of all edges. If triangles are turned over, the line's vector area is small.
+// nearly as large and nearly as round as the outline of all edges. The axis of the line is the axis of its crown, or else its
+// vector area. If triangles are turned over, the line's vector area is small.
 std::optional<FoundView> view_of_arrays(const LeafletBoundary &boundary, const BoundarySpread &spread) {
   constexpr double least_roundness = 0.95;  // as a share of the outline's roundness
   std::optional<FoundView> of_all = best_view(boundary, spread);
@@ -470,7 +549,9 @@ std::optional<FoundView> view_of_arrays(const LeafletBoundary &boundary, const B
   const std::optional<FoundView> of_held = best_view(held, spread_of(held));
   if (!of_held) return of_all;
   const AlongAxis &seen = of_held->parts.seen;
-  std::optional<FoundView> along = view_from(boundary, seen.axis(), {0, 0, 0}, seen.in_space({0, 0}), few_turns, true);
+  const std::optional<Vec3> crown = axis_of_crown(held.edges, seen.axis(), std::sqrt(boundary.perhaps_area / pi));
+  std::optional<FoundView> along =
+      view_from(boundary, crown ? *crown : seen.axis(), {0, 0, 0}, seen.in_space({0, 0}), few_turns, true);
   if (!along || !of_all) return along ? along : of_all;
   const bool is_round = of_held->roundness > least_roundness * of_all->roundness;
   const bool is_large = boundary.perhaps_area > least_attached_share * area_of_corners(corners_of(along->parts));
@@ -479,33 +560,59 @@ std::optional<FoundView> view_of_arrays(const LeafletBoundary &boundary, const B
 
 // Returns the factor by which the pieces must grow about their centroids until the first two neighbours meet. If the factor is
 // above 1.05, the pieces are probably apart on purpose, so the factor falls back until it is 1 at 1.1. A part of the outline at
-// less than 45 degrees to a ray from the centre is the end of a piece, and is not attached.
+// less than 45 degrees to a ray from the centre is the end of a piece, and is not attached. A ray through the gap between two
+// neighbours may meet a third piece, which is nearer to the centre. The end of a piece therefore meets the end that is closest
+// after the growth.
 double growth_of(const LeafletBoundary &boundary, const SeenParts &from) {
-  struct Held {
+  constexpr double most = 0.05, closeness = 0.15, widest_gap = 0.25;  // shares, and the tangent of an angle
+  struct Run {
     std::int64_t piece;
-    PlaneSegment ends;
+    PlanePoint begin, end;
   };
-  std::vector<Held> held;
+  std::vector<Run> runs;
+  const auto is_close = [&](const PlanePoint &a, const PlanePoint &b) {
+    const PlanePoint apart = difference(a, b);
+    return dot_of(apart, apart) < closeness * closeness * dot_of(a, a);
+  };
   for (const FarPart &part : from.parts) {
-    const PlaneSegment ends = ends_of(from, part);
-    const PlanePoint along = difference(ends[1], ends[0]), middle = between(ends[0], ends[1], 0.5);
-    if (cross_of(middle, along) > std::abs(dot_of(middle, along)))
-      held.push_back({view(boundary.edges)[static_cast<std::int64_t>(part.edge)].piece, ends});
+    const auto [begin, end] = ends_of(from, part);
+    const PlanePoint along = difference(end, begin), middle = between(begin, end, 0.5);
+    if (!(cross_of(middle, along) > std::abs(dot_of(middle, along)))) continue;
+    const std::int64_t piece = view(boundary.edges)[static_cast<std::int64_t>(part.edge)].piece;
+    if (!runs.empty() && runs.back().piece == piece && is_close(runs.back().end, begin))
+      runs.back().end = end;
+    else
+      runs.push_back({piece, begin, end});
   }
-  constexpr double most = 0.05;
+  const auto centroid = [&](const Run &of) { return from.seen(view(boundary.centroids)[of.piece]); };
   double least = 2 * most;
-  for (std::size_t i = 0; i < held.size(); ++i) {
-    const Held &one = held[i], &other = held[(i + 1) % held.size()];
-    if (one.piece == other.piece) continue;
-    const PlanePoint p = one.ends[1], q = other.ends[0], middle = between(p, q, 0.5);
-    const auto along = [&](const PlanePoint &a, const PlanePoint &b) { return cross_of(middle, difference(a, b)); };
-    const double gap = along(q, p);
-    const double reach = along(p, from.seen(view(boundary.centroids)[one.piece])) -
-                         along(q, from.seen(view(boundary.centroids)[other.piece]));
-    if (!(gap > 0)) return 1;
-    if (reach > 0) least = std::min(least, gap / reach);
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const PlanePoint &p = runs[i].end;
+    double closest = closeness * std::sqrt(dot_of(p, p)), wanted = 2 * most;
+    for (std::size_t step = 1; step < runs.size(); ++step) {
+      const Run &other = runs[(i + step) % runs.size()];
+      const PlanePoint &q = other.begin, apart = difference(q, p), middle = between(p, q, 0.5);
+      if (!(cross_of(p, q) <= widest_gap * dot_of(p, q))) break;
+      if (runs[i].piece == other.piece) continue;
+      const PlanePoint growth = difference(difference(q, centroid(other)), difference(p, centroid(runs[i])));
+      const double gap = cross_of(middle, apart), reach = -cross_of(middle, growth);
+      if (gap > 0 && !(reach > 0)) continue;
+      const double share = gap > 0 ? gap / reach : 0;
+      const PlanePoint left = {apart[0] + share * growth[0], apart[1] + share * growth[1]};
+      const double distance = std::sqrt(dot_of(left, left));
+      if (distance < closest) closest = distance, wanted = share;
+    }
+    least = std::min(least, wanted);
   }
   return 1 + (least > most ? 2 * most - least : least);
+}
+
+// Returns the boundary of pieces that have grown about their centroids.
+LeafletBoundary grown_by(double factor, const LeafletBoundary &boundary) {
+  LeafletBoundary grown = boundary;
+  for (BoundaryEdge &edge : grown.edges)
+    for (Vec3 *const end : {&edge.from, &edge.to}) *end = mix(view(boundary.centroids)[edge.piece], *end, factor);
+  return grown;
 }
 
 }  // namespace
@@ -520,12 +627,8 @@ std::optional<SeenOutline> outline_of_leaflets(const LeafletBoundary &boundary,
   if (!found) return std::nullopt;
   const SeenParts &parts = found->parts;
   const double growth = growth_of(boundary, parts);
-  std::vector<PlanePoint> corners;
-  for (const FarPart &part : parts.parts) {
-    const BoundaryEdge &edge = view(boundary.edges)[static_cast<std::int64_t>(part.edge)];
-    const PlanePoint centroid = parts.seen(view(boundary.centroids)[edge.piece]);
-    for (const PlanePoint &end : ends_of(parts, part)) corners.push_back(between(centroid, end, growth));
-  }
+  std::vector<PlanePoint> corners = corners_of(growth > 1 ? parts_of(grown_by(growth, boundary), parts.seen) : parts);
+  if (corners.empty()) return std::nullopt;
   corners.push_back(corners.front());
   std::optional<Outline> outline = closed_outline({corners}, parts.seen.rounding());
   if (!outline) return std::nullopt;
