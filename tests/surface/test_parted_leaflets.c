@@ -164,9 +164,7 @@ static riis_valve *valve_at(int kind, double opening) {
 static void check_sample(int kind, int opening, int share, int how) {
   static const double shares[n_shares] = {0, 0.002, 0.01, 0.03};
   const int owned_before = n_owned();
-  /* If single leaflets or triangles are reversed, the attachment is no closed line. The axis then follows from the farthest
-   * edges, which fails where free edges reach as far out as the attachment. */
-  const int turning = how % 2;
+  const int turning = how % n_turnings;
   const double most = orifice_of(new_surface(valve_at(kind, 1), NULL)).area;
   riis_surface_options options = surface_options(), placed = surface_options();
   options.triangulation = how % 2 ? RIIS_TRIANGULATION_FIXED : RIIS_TRIANGULATION_ADAPTED;

@@ -5,16 +5,12 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <unordered_map>
 #include <utility>
+#include <vector>
 
 #include "common/array_view.hpp"
 #include "common/elementary.hpp"
-#include "common/sets.hpp"
 #include "landmarks/fit.hpp"
-#include "scene/edges.hpp"
-#include "scene/pseudonormals.hpp"
 
 namespace riis {
 
@@ -29,191 +25,6 @@ AlongAxis::AlongAxis(Vec3 axis, Vec3 origin, Vec3 sideways) : axis_(axis), origi
 }
 
 namespace {
-
-// ---- Boundary ----
-
-// Returns, for each triangle, the lowest triangle of its piece. A piece is a part of a leaflet whose triangles are connected by
-// common vertices.
-std::vector<std::int64_t> pieces_of(const TriangleSet &set) {
-  std::int64_t n_positions = 0;
-  const auto position = distinct_positions(set, n_positions);
-  DisjointSets triangles(set.n_triangles());
-  std::unordered_map<std::int64_t, std::int64_t> first_at;  // by the leaflet and the position of a corner
-  first_at.reserve(static_cast<std::size_t>(n_positions));
-  for (std::int64_t i = 0; i < set.n_triangles(); ++i)
-    for (std::int64_t k = 0; k < 3; ++k) {
-      const std::int64_t corner = view(position)[view(set.vertex_id)[3 * i + k]];
-      const auto other = first_at.try_emplace(view(set.leaflet_id)[i] * n_positions + corner, i).first;
-      triangles.unite(other->second, i);
-    }
-  std::vector<std::int64_t> lowest;
-  for (std::int64_t i = 0; i < set.n_triangles(); ++i) lowest.push_back(triangles.root(i));
-  return lowest;
-}
-
-// Adds the centroids of the pieces and the normal. `piece` has the piece of each triangle, or -1 for a triangle that does not
-// count.
-void measure_pieces(const TriangleSet &set, const std::vector<std::int64_t> &piece, std::int64_t n_pieces,
-                    LeafletBoundary &boundary) {
-  std::vector<double> area(static_cast<std::size_t>(n_pieces), 0);
-  boundary.centroids.assign(area.size(), {0, 0, 0});
-  boundary.normal = {0, 0, 0};
-  for (std::int64_t i = 0; i < set.n_triangles(); ++i) {
-    const std::int64_t at = view(piece)[i];
-    if (at < 0) continue;
-    const auto [a, b, c] = set.corners(i);
-    const Vec3 normal = 0.5 * cross(b - a, c - a);
-    const double size = length(normal);
-    boundary.normal = boundary.normal + normal;
-    view(area)[at] += size;
-    // A running mean keeps the rounding small if the surface is far from the origin.
-    if (size > 0)
-      view(boundary.centroids)[at] = mix(view(boundary.centroids)[at], (1.0 / 3) * (a + b + c), size / view(area)[at]);
-  }
-}
-
-// Returns the position of each value among the sorted distinct values, and the number of distinct values.
-template <class Value>
-std::pair<std::vector<std::int64_t>, std::int64_t> numbered(const std::vector<Value> &values) {
-  std::map<Value, std::int64_t> number;
-  for (const Value value : values) number.emplace(value, 0);
-  std::int64_t n = 0;
-  for (auto &[value, place] : number) place = n++;
-  std::vector<std::int64_t> made;
-  made.reserve(values.size());
-  for (const Value value : values) made.push_back(number.at(value));
-  return {std::move(made), n};
-}
-
-// A vertex at the boundary of a piece, with its place relative to the piece's centroid.
-struct PieceVertex {
-  std::int64_t vertex, piece;
-  Vec3 at, from_centroid;
-};
-
-// Returns the share by which the pieces must grow about their centroids, so that two vertices of different pieces meet as closely
-// as possible. The share is at most `most`.
-double share_until_pieces_meet(const std::vector<PieceVertex> &vertices, double most) {
-  double share = 0, least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < vertices.size(); ++i)
-    for (std::size_t k = 0; k < i; ++k) {
-      if (vertices[i].piece == vertices[k].piece) continue;
-      const Vec3 gap = vertices[i].at - vertices[k].at, growth = vertices[i].from_centroid - vertices[k].from_centroid;
-      const double wanted = -dot(gap, growth) / dot(growth, growth);
-      if (!(wanted > 0 && wanted <= most)) continue;
-      const Vec3 left = gap + wanted * growth;
-      if (dot(left, left) < least) least = dot(left, left), share = wanted;
-    }
-  return share;
-}
-
-// Returns, for each vertex, the nearest vertex of another piece. The distance is below a share of the vertex's distance from its
-// centroid. A vertex without such a neighbour has its own number.
-std::vector<std::size_t> nearest_of_other_pieces(const std::vector<PieceVertex> &vertices, double share) {
-  std::vector<std::size_t> nearest;
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    double least = share * length(vertices[i].from_centroid);
-    nearest.push_back(i);
-    for (std::size_t k = 0; k < vertices.size(); ++k)
-      if (vertices[k].piece != vertices[i].piece && distance(vertices[k].at, vertices[i].at) < least)
-        least = distance(vertices[k].at, vertices[i].at), nearest.back() = k;
-  }
-  return nearest;
-}
-
-// Leaflets that end short of each other have no common attachment. Returns triangles whose pieces have grown about their
-// centroids until neighbours meet, with one place for vertices that are close to each other. Returns nothing if pieces touch
-// anyway, or if the boundary has too many vertices to compare each with each.
-std::optional<TriangleSet> joined_pieces(const TriangleSet &set, const std::vector<std::int64_t> &piece,
-                                         const LeafletBoundary &boundary) {
-  constexpr double most_growth = 0.05, closeness = 1e-3;
-  constexpr std::size_t most_vertices = 10000;
-  std::int64_t n_places = 0;
-  const auto place = distinct_positions(set, n_places);
-  std::vector<std::int64_t> piece_at(static_cast<std::size_t>(n_places), -1);
-  for (std::int64_t i = 0; i < 3 * set.n_triangles(); ++i) {
-    std::int64_t &at = view(piece_at)[view(place)[view(set.vertex_id)[i]]];
-    if (at >= 0 && at != view(piece)[i / 3]) return std::nullopt;
-    at = view(piece)[i / 3];
-  }
-  std::vector<PieceVertex> vertices;
-  for (const OpenEdge &edge : open_edges(set, false)) {
-    const std::int64_t of = view(piece)[edge.triangle];
-    vertices.push_back({edge.from, of, set.vertex(edge.from), set.vertex(edge.from) - view(boundary.centroids)[of]});
-  }
-  if (vertices.size() > most_vertices) return std::nullopt;
-  const double share = share_until_pieces_meet(vertices, most_growth);
-  if (share == 0) return std::nullopt;
-  for (PieceVertex &vertex : vertices) vertex.at = vertex.at + share * vertex.from_centroid;
-  const std::vector<std::size_t> nearest = nearest_of_other_pieces(vertices, closeness);
-  std::vector<std::optional<Vec3>> at_place(static_cast<std::size_t>(n_places));
-  for (std::size_t i = 0; i < vertices.size(); ++i)
-    if (const std::size_t other = nearest[i]; nearest[other] == i)
-      view(at_place)[view(place)[vertices[i].vertex]] = vertices[std::min(i, other)].at;
-  // Vertices inside a piece grow too, so that a vertex on the edge of a neighbouring triangle stays on this edge.
-  TriangleSet joined = set;
-  for (std::int64_t i = 0; i < set.n_vertices(); ++i) {
-    const std::int64_t where = view(place)[i], of = view(piece_at)[where];
-    if (of < 0) continue;
-    std::optional<Vec3> &to = view(at_place)[where];
-    if (!to) to = set.vertex(i) + share * (set.vertex(i) - view(boundary.centroids)[of]);
-    for (std::int64_t c = 0; c < 3; ++c) view(joined.xyz)[3 * i + c] = c == 0 ? to->x : c == 1 ? to->y : to->z;
-  }
-  return joined;
-}
-
-}  // namespace
-
-LeafletBoundary boundary_of_leaflets(const TriangleSet &set) {
-  if (!set.is_of_patches() && set.skirt >= 0) return boundary_of_leaflets(without_skirt(set));
-  const std::int32_t skirt = set.skirt;
-  LeafletBoundary boundary;
-  auto [piece, n_pieces] = set.is_of_patches() ? numbered(set.leaflet_id) : numbered(pieces_of(set));
-  std::map<std::int32_t, std::int64_t> piece_of_leaflet;
-  for (std::int64_t i = 0; i < set.n_triangles(); ++i) {
-    if (view(set.leaflet_id)[i] == skirt && skirt >= 0) view(piece)[i] = -1;
-    piece_of_leaflet[view(set.leaflet_id)[i]] = view(piece)[i];
-  }
-  measure_pieces(set, piece, n_pieces, boundary);
-  if (set.is_of_patches()) {
-    for (const SideLine &side : boundary_sides(set, skirt)) {
-      const auto found = piece_of_leaflet.find(side.leaflet_id);
-      if (found == piece_of_leaflet.end()) continue;  // the leaflet has no area
-      for (std::size_t k = 1; k < side.vertex_id.size(); ++k)
-        boundary.edges.push_back({set.vertex(side.vertex_id[k - 1]), set.vertex(side.vertex_id[k]), found->second});
-    }
-    return boundary;
-  }
-  for (const OpenEdge &edge : open_edges(set, false))
-    boundary.edges.push_back({set.vertex(edge.from), set.vertex(edge.to), view(piece)[edge.triangle]});
-  const std::optional<TriangleSet> joined = n_pieces > 1 ? joined_pieces(set, piece, boundary) : std::nullopt;
-  const TriangleSet &whole = joined ? *joined : set;
-  const LargestBoundary largest = largest_boundary(whole);
-  boundary.perhaps_area = length(largest.area);
-  for (const OpenEdge &edge : largest.edges)
-    boundary.perhaps_attached.push_back({whole.vertex(edge.from), whole.vertex(edge.to), view(piece)[edge.triangle]});
-  return boundary;
-}
-
-LeafletBoundary boundary_of_wall(const TriangleSet &wall) {
-  const std::vector<OpenEdge> edges = open_edges(wall, false);
-  DisjointSets lines(wall.n_vertices());
-  for (const OpenEdge &edge : edges) lines.unite(edge.from, edge.to);
-  const auto length_of = [&](const OpenEdge &edge) { return distance(wall.vertex(edge.from), wall.vertex(edge.to)); };
-  std::map<std::int64_t, double> length;
-  for (const OpenEdge &edge : edges) length[lines.root(edge.from)] += length_of(edge);
-  const auto longest =
-      std::max_element(length.begin(), length.end(), [](const auto &a, const auto &b) { return a.second < b.second; });
-  LeafletBoundary boundary{{}, {}, 0, {{0, 0, 0}}, {0, 0, 0}};
-  for (const OpenEdge &edge : edges)
-    if (lines.root(edge.from) == longest->first)
-      boundary.edges.push_back({wall.vertex(edge.from), wall.vertex(edge.to), 0});
-  return boundary;
-}
-
-namespace {
-
-// ---- Farthest edges ----
 
 // A part of an edge of the outline that is farther from the centre than all other edges in its directions. The ends are the
 // shares `from` and `to` of the edge. The part runs counter-clockwise.
@@ -538,24 +349,28 @@ std::optional<Vec3> axis_of_crown(const std::vector<BoundaryEdge> &line, Vec3 ax
   return axis;
 }
 
-// Returns the view of triangles from arrays. The axis of the closed line that may be the attachment counts only if this line is
-// nearly as large and nearly as round as the outline of all edges. The axis of the line is the axis of its crown, or else its
-// vector area. If triangles are turned over, the line's vector area is small.
+// Returns the view of triangles from arrays. A closed line that may be the attachment counts only if it is nearly as large and
+// nearly as round as the outline of all edges. The roundest line counts, because a line that follows the attachment of one
+// leaflet and the free edge of another is oblique. The axis of the line is the axis of its crown, or else its vector area.
 std::optional<FoundView> view_of_arrays(const LeafletBoundary &boundary, const BoundarySpread &spread) {
   constexpr double least_roundness = 0.95;  // as a share of the outline's roundness
   std::optional<FoundView> of_all = best_view(boundary, spread);
-  const LeafletBoundary held{boundary.perhaps_attached, {}, 0, {}, boundary.normal};
-  if (held.edges.empty()) return of_all;
-  const std::optional<FoundView> of_held = best_view(held, spread_of(held));
-  if (!of_held) return of_all;
-  const AlongAxis &seen = of_held->parts.seen;
-  const std::optional<Vec3> crown = axis_of_crown(held.edges, seen.axis(), std::sqrt(boundary.perhaps_area / pi));
-  std::optional<FoundView> along =
-      view_from(boundary, crown ? *crown : seen.axis(), {0, 0, 0}, seen.in_space({0, 0}), few_turns, true);
-  if (!along || !of_all) return along ? along : of_all;
-  const bool is_round = of_held->roundness > least_roundness * of_all->roundness;
-  const bool is_large = boundary.perhaps_area > least_attached_share * area_of_corners(corners_of(along->parts));
-  return is_round && is_large ? along : of_all;
+  std::optional<FoundView> best;
+  double most_round = of_all ? least_roundness * of_all->roundness : 0;
+  for (const ClosedLine &line : boundary.perhaps_attached) {
+    const LeafletBoundary held{line.edges, {}, {}, boundary.normal};
+    if (held.edges.empty()) continue;
+    const std::optional<FoundView> of_held = best_view(held, spread_of(held));
+    if (!of_held) continue;
+    const AlongAxis &seen = of_held->parts.seen;
+    const std::optional<Vec3> crown = axis_of_crown(line.edges, seen.axis(), std::sqrt(line.area / pi));
+    std::optional<FoundView> along =
+        view_from(boundary, crown ? *crown : seen.axis(), {0, 0, 0}, seen.in_space({0, 0}), few_turns, true);
+    if (!along) continue;
+    const bool is_large = line.area > least_attached_share * area_of_corners(corners_of(along->parts));
+    if (is_large && of_held->roundness > most_round) most_round = of_held->roundness, best = std::move(along);
+  }
+  return best ? best : of_all;
 }
 
 // Returns the factor by which the pieces must grow about their centroids until the first two neighbours meet. If the factor is
