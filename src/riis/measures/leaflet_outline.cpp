@@ -5,16 +5,12 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <unordered_map>
 #include <utility>
+#include <vector>
 
 #include "common/array_view.hpp"
 #include "common/elementary.hpp"
-#include "common/sets.hpp"
 #include "landmarks/fit.hpp"
-#include "scene/edges.hpp"
-#include "scene/pseudonormals.hpp"
 
 namespace riis {
 
@@ -29,183 +25,6 @@ AlongAxis::AlongAxis(Vec3 axis, Vec3 origin, Vec3 sideways) : axis_(axis), origi
 }
 
 namespace {
-
-// ---- Boundary ----
-
-// Returns, for each triangle, the lowest triangle of its piece. A piece is a part of a leaflet whose triangles are connected by
-// common vertices.
-std::vector<std::int64_t> pieces_of(const TriangleSet &set) {
-  std::int64_t n_positions = 0;
-  const auto position = distinct_positions(set, n_positions);
-  DisjointSets triangles(set.n_triangles());
-  std::unordered_map<std::int64_t, std::int64_t> first_at;  // by the leaflet and the position of a corner
-  first_at.reserve(static_cast<std::size_t>(n_positions));
-  for (std::int64_t i = 0; i < set.n_triangles(); ++i)
-    for (std::int64_t k = 0; k < 3; ++k) {
-      const std::int64_t corner = view(position)[view(set.vertex_id)[3 * i + k]];
-      const auto other = first_at.try_emplace(view(set.leaflet_id)[i] * n_positions + corner, i).first;
-      triangles.unite(other->second, i);
-    }
-  std::vector<std::int64_t> lowest;
-  for (std::int64_t i = 0; i < set.n_triangles(); ++i) lowest.push_back(triangles.root(i));
-  return lowest;
-}
-
-// Adds the centroids of the pieces and the normal. `piece` has the piece of each triangle, or -1 for a triangle that does not
-// count.
-void measure_pieces(const TriangleSet &set, const std::vector<std::int64_t> &piece, std::int64_t n_pieces,
-                    LeafletBoundary &boundary) {
-  std::vector<double> area(static_cast<std::size_t>(n_pieces), 0);
-  boundary.centroids.assign(area.size(), {0, 0, 0});
-  boundary.normal = {0, 0, 0};
-  for (std::int64_t i = 0; i < set.n_triangles(); ++i) {
-    const std::int64_t at = view(piece)[i];
-    if (at < 0) continue;
-    const auto [a, b, c] = set.corners(i);
-    const Vec3 normal = 0.5 * cross(b - a, c - a);
-    const double size = length(normal);
-    boundary.normal = boundary.normal + normal;
-    view(area)[at] += size;
-    // A running mean keeps the rounding small if the surface is far from the origin.
-    if (size > 0)
-      view(boundary.centroids)[at] = mix(view(boundary.centroids)[at], (1.0 / 3) * (a + b + c), size / view(area)[at]);
-  }
-}
-
-// Returns the position of each value among the sorted distinct values, and the number of distinct values.
-template <class Value>
-std::pair<std::vector<std::int64_t>, std::int64_t> numbered(const std::vector<Value> &values) {
-  std::map<Value, std::int64_t> number;
-  for (const Value value : values) number.emplace(value, 0);
-  std::int64_t n = 0;
-  for (auto &[value, place] : number) place = n++;
-  std::vector<std::int64_t> made;
-  made.reserve(values.size());
-  for (const Value value : values) made.push_back(number.at(value));
-  return {std::move(made), n};
-}
-
-// A vertex at the boundary of a piece, with its place relative to the piece's centroid.
-struct PieceVertex {
-  std::int64_t vertex, piece;
-  Vec3 at, from_centroid;
-};
-
-// Returns the share by which the pieces must grow about their centroids, so that two vertices of different pieces meet as closely
-// as possible. The share is at most `most`.
-double share_until_pieces_meet(const std::vector<PieceVertex> &vertices, double most) {
-  double share = 0, least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < vertices.size(); ++i)
-    for (std::size_t k = 0; k < i; ++k) {
-      if (vertices[i].piece == vertices[k].piece) continue;
-      const Vec3 gap = vertices[i].at - vertices[k].at, growth = vertices[i].from_centroid - vertices[k].from_centroid;
-      const double wanted = -dot(gap, growth) / dot(growth, growth);
-      if (!(wanted > 0 && wanted <= most)) continue;
-      const Vec3 left = gap + wanted * growth;
-      if (dot(left, left) < least) least = dot(left, left), share = wanted;
-    }
-  return share;
-}
-
-// Leaflets that end short of each other have no common attachment. Returns triangles whose pieces have grown about their
-// centroids until neighbours meet, with one place for vertices that are close to each other. Returns nothing if pieces touch
-// anyway, or if the boundary has too many vertices to compare each with each.
-std::optional<TriangleSet> joined_pieces(const TriangleSet &set, const std::vector<std::int64_t> &piece,
-                                         const LeafletBoundary &boundary) {
-  constexpr double most_growth = 0.05, closeness = 1e-3;
-  constexpr std::size_t most_vertices = 10000;
-  std::int64_t n_places = 0;
-  const auto place = distinct_positions(set, n_places);
-  std::vector<std::int64_t> piece_at(static_cast<std::size_t>(n_places), -1);
-  for (std::int64_t i = 0; i < 3 * set.n_triangles(); ++i) {
-    std::int64_t &at = view(piece_at)[view(place)[view(set.vertex_id)[i]]];
-    if (at >= 0 && at != view(piece)[i / 3]) return std::nullopt;
-    at = view(piece)[i / 3];
-  }
-  std::vector<PieceVertex> vertices;
-  for (const OpenEdge &edge : open_edges(set, false)) {
-    const std::int64_t of = view(piece)[edge.triangle];
-    vertices.push_back({edge.from, of, set.vertex(edge.from), set.vertex(edge.from) - view(boundary.centroids)[of]});
-  }
-  if (vertices.size() > most_vertices) return std::nullopt;
-  const double share = share_until_pieces_meet(vertices, most_growth);
-  if (share == 0) return std::nullopt;
-  TriangleSet joined = set;
-  const auto move = [&](std::int64_t vertex, Vec3 to) {
-    for (std::int64_t c = 0; c < 3; ++c) view(joined.xyz)[3 * vertex + c] = c == 0 ? to.x : c == 1 ? to.y : to.z;
-  };
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    vertices[i].at = vertices[i].at + share * vertices[i].from_centroid;
-    const double limit = closeness * length(vertices[i].from_centroid);
-    for (std::size_t k = 0; k < i; ++k)
-      if (vertices[k].piece != vertices[i].piece && distance(vertices[k].at, vertices[i].at) < limit) {
-        vertices[i].at = vertices[k].at;
-        break;
-      }
-  }
-  std::vector<Vec3> at_place(static_cast<std::size_t>(n_places));
-  std::vector<bool> is_moved(static_cast<std::size_t>(n_places), false);
-  for (const PieceVertex &vertex : vertices) {
-    const auto where = static_cast<std::size_t>(view(place)[vertex.vertex]);
-    at_place[where] = vertex.at, is_moved[where] = true;
-  }
-  for (std::int64_t i = 0; i < set.n_vertices(); ++i)
-    if (const auto where = static_cast<std::size_t>(view(place)[i]); is_moved[where]) move(i, at_place[where]);
-  return joined;
-}
-
-}  // namespace
-
-LeafletBoundary boundary_of_leaflets(const TriangleSet &set) {
-  if (!set.is_of_patches() && set.skirt >= 0) return boundary_of_leaflets(without_skirt(set));
-  const std::int32_t skirt = set.skirt;
-  LeafletBoundary boundary;
-  auto [piece, n_pieces] = set.is_of_patches() ? numbered(set.leaflet_id) : numbered(pieces_of(set));
-  std::map<std::int32_t, std::int64_t> piece_of_leaflet;
-  for (std::int64_t i = 0; i < set.n_triangles(); ++i) {
-    if (view(set.leaflet_id)[i] == skirt && skirt >= 0) view(piece)[i] = -1;
-    piece_of_leaflet[view(set.leaflet_id)[i]] = view(piece)[i];
-  }
-  measure_pieces(set, piece, n_pieces, boundary);
-  if (set.is_of_patches()) {
-    for (const SideLine &side : boundary_sides(set, skirt)) {
-      const auto found = piece_of_leaflet.find(side.leaflet_id);
-      if (found == piece_of_leaflet.end()) continue;  // the leaflet has no area
-      for (std::size_t k = 1; k < side.vertex_id.size(); ++k)
-        boundary.edges.push_back({set.vertex(side.vertex_id[k - 1]), set.vertex(side.vertex_id[k]), found->second});
-    }
-    return boundary;
-  }
-  for (const OpenEdge &edge : open_edges(set, false))
-    boundary.edges.push_back({set.vertex(edge.from), set.vertex(edge.to), view(piece)[edge.triangle]});
-  const std::optional<TriangleSet> joined = n_pieces > 1 ? joined_pieces(set, piece, boundary) : std::nullopt;
-  const TriangleSet &whole = joined ? *joined : set;
-  const LargestBoundary largest = largest_boundary(whole);
-  boundary.perhaps_area = length(largest.area);
-  for (const OpenEdge &edge : largest.edges)
-    boundary.perhaps_attached.push_back({whole.vertex(edge.from), whole.vertex(edge.to), 0});
-  return boundary;
-}
-
-LeafletBoundary boundary_of_wall(const TriangleSet &wall) {
-  const std::vector<OpenEdge> edges = open_edges(wall, false);
-  DisjointSets lines(wall.n_vertices());
-  for (const OpenEdge &edge : edges) lines.unite(edge.from, edge.to);
-  const auto length_of = [&](const OpenEdge &edge) { return distance(wall.vertex(edge.from), wall.vertex(edge.to)); };
-  std::map<std::int64_t, double> length;
-  for (const OpenEdge &edge : edges) length[lines.root(edge.from)] += length_of(edge);
-  const auto longest =
-      std::max_element(length.begin(), length.end(), [](const auto &a, const auto &b) { return a.second < b.second; });
-  LeafletBoundary boundary{{}, {}, 0, {{0, 0, 0}}, {0, 0, 0}};
-  for (const OpenEdge &edge : edges)
-    if (lines.root(edge.from) == longest->first)
-      boundary.edges.push_back({wall.vertex(edge.from), wall.vertex(edge.to), 0});
-  return boundary;
-}
-
-namespace {
-
-// ---- Farthest edges ----
 
 // A part of an edge of the outline that is farther from the centre than all other edges in its directions. The ends are the
 // shares `from` and `to` of the edge. The part runs counter-clockwise.
@@ -460,52 +279,155 @@ std::optional<FoundView> best_view(const LeafletBoundary &boundary, const Bounda
   return best;
 }
 
-// Returns the view of triangles from arrays. The axis of the closed line that may be the attachment counts only if this line is
-// nearly as large and nearly as round as the outline of all edges. If triangles are turned over, the line's vector area is small.
+// The high points of a crown, where neighbouring pieces meet, and the lowest point of each piece. A crown is a closed line in
+// which each piece has one run, from one high point to the next.
+struct Crown {
+  std::vector<Vec3> highs, lows;
+  double height;  // the least height of a high point above the lowest points of its two pieces
+};
+
+// Returns the crown of a closed line, or nothing if a piece has no run or several runs. The axis may point up or down.
+std::optional<Crown> crown_of(const std::vector<BoundaryEdge> &line, Vec3 axis) {
+  std::vector<std::size_t> begins;  // the first edges of the runs
+  std::vector<std::int64_t> pieces;
+  for (std::size_t i = 0; i < line.size(); ++i)
+    if (line[i].piece != line[(i + line.size() - 1) % line.size()].piece)
+      begins.push_back(i), pieces.push_back(line[i].piece);
+  std::sort(pieces.begin(), pieces.end());
+  if (begins.size() < 2 || std::adjacent_find(pieces.begin(), pieces.end()) != pieces.end()) return std::nullopt;
+  Crown crown{{}, {}, std::numeric_limits<double>::infinity()};
+  Vec3 above{0, 0, 0};  // from the line's middle to the middle of the high points
+  for (const std::size_t begin : begins) {
+    crown.highs.push_back(line[begin].from);
+    above = above + (1 / static_cast<double>(begins.size())) * (line[begin].from - line[0].from);
+  }
+  for (const BoundaryEdge &edge : line)
+    above = above - (1 / static_cast<double>(line.size())) * (edge.from - line[0].from);
+  const Vec3 upwards = dot(above, axis) < 0 ? -axis : axis;
+  for (std::size_t k = 0; k < begins.size(); ++k) {
+    const std::size_t end = begins[(k + 1) % begins.size()];
+    Vec3 low = line[begins[k]].from;
+    for (std::size_t i = begins[k]; i != end; i = (i + 1) % line.size())
+      if (dot(upwards, line[i].from) < dot(upwards, low)) low = line[i].from;
+    crown.lows.push_back(low);
+    for (const std::size_t high : {begins[k], end})
+      crown.height = std::min(crown.height, dot(upwards, line[high].from - low));
+  }
+  return crown;
+}
+
+// Adds the second moments of points about their mean, times a weight.
+void add_moments(const std::vector<Vec3> &points, double weight, std::vector<double> &moments) {
+  Vec3 mean{0, 0, 0};
+  for (const Vec3 point : points) mean = mean + (1 / static_cast<double>(points.size())) * (point - points[0]);
+  for (const Vec3 point : points) {
+    const Vec3 from_mean = point - points[0] - mean;
+    const std::array<double, 3> x{from_mean.x, from_mean.y, from_mean.z};
+    for (std::size_t i = 0; i < 9; ++i) moments[i] += weight * x[i / 3] * x[i % 3];
+  }
+}
+
+// Returns the axis of a line at which cusps are attached, or nothing if the line is no high crown. The axis is at right angles to
+// the plane of the lowest points. With two cusps, the high points determine the direction that the two lowest points leave free.
+// `axis` is a first axis, and `radius` the line's radius.
+std::optional<Vec3> axis_of_crown(const std::vector<BoundaryEdge> &line, Vec3 axis, double radius) {
+  constexpr double least_height = 0.5, weight_of_highs = 0.01, least_spread = 0.1, still = 1e-12;
+  constexpr int most_turns = 10;
+  for (int turn = 0; turn < most_turns; ++turn) {
+    const std::optional<Crown> crown = crown_of(line, axis);
+    if (!crown || !(crown->height > least_height * radius)) return std::nullopt;
+    std::vector<double> moments(9, 0);
+    add_moments(crown->lows, 1 / (radius * radius), moments);
+    add_moments(crown->highs, weight_of_highs / (radius * radius), moments);
+    const Eigen found = symmetric_eigen(moments, 3);
+    if (!(found.values[1] > least_spread * weight_of_highs)) return std::nullopt;  // all points are on one line
+    const Vec3 least{found.vectors[0], found.vectors[1], found.vectors[2]};
+    const Vec3 turned = dot(least, axis) < 0 ? -least : least;
+    if (distance(turned, axis) < still) break;
+    axis = turned;
+  }
+  return axis;
+}
+
+// Returns the view of triangles from arrays. A closed line that may be the attachment counts only if it is nearly as large and
+// nearly as round as the outline of all edges. The roundest line counts, because a line that follows the attachment of one
+// leaflet and the free edge of another is oblique. The axis of the line is the axis of its crown, or else its vector area.
 std::optional<FoundView> view_of_arrays(const LeafletBoundary &boundary, const BoundarySpread &spread) {
   constexpr double least_roundness = 0.95;  // as a share of the outline's roundness
   std::optional<FoundView> of_all = best_view(boundary, spread);
-  const LeafletBoundary held{boundary.perhaps_attached, {}, 0, {}, boundary.normal};
-  if (held.edges.empty()) return of_all;
-  const std::optional<FoundView> of_held = best_view(held, spread_of(held));
-  if (!of_held) return of_all;
-  const AlongAxis &seen = of_held->parts.seen;
-  std::optional<FoundView> along = view_from(boundary, seen.axis(), {0, 0, 0}, seen.in_space({0, 0}), few_turns, true);
-  if (!along || !of_all) return along ? along : of_all;
-  const bool is_round = of_held->roundness > least_roundness * of_all->roundness;
-  const bool is_large = boundary.perhaps_area > least_attached_share * area_of_corners(corners_of(along->parts));
-  return is_round && is_large ? along : of_all;
+  std::optional<FoundView> best;
+  double most_round = of_all ? least_roundness * of_all->roundness : 0;
+  for (const ClosedLine &line : boundary.perhaps_attached) {
+    const LeafletBoundary held{line.edges, {}, {}, boundary.normal};
+    if (held.edges.empty()) continue;
+    const std::optional<FoundView> of_held = best_view(held, spread_of(held));
+    if (!of_held) continue;
+    const AlongAxis &seen = of_held->parts.seen;
+    const std::optional<Vec3> crown = axis_of_crown(line.edges, seen.axis(), std::sqrt(line.area / pi));
+    std::optional<FoundView> along =
+        view_from(boundary, crown ? *crown : seen.axis(), {0, 0, 0}, seen.in_space({0, 0}), few_turns, true);
+    if (!along) continue;
+    const bool is_large = line.area > least_attached_share * area_of_corners(corners_of(along->parts));
+    if (is_large && of_held->roundness > most_round) most_round = of_held->roundness, best = std::move(along);
+  }
+  return best ? best : of_all;
 }
 
 // Returns the factor by which the pieces must grow about their centroids until the first two neighbours meet. If the factor is
 // above 1.05, the pieces are probably apart on purpose, so the factor falls back until it is 1 at 1.1. A part of the outline at
-// less than 45 degrees to a ray from the centre is the end of a piece, and is not attached.
+// less than 45 degrees to a ray from the centre is the end of a piece, and is not attached. A ray through the gap between two
+// neighbours may meet a third piece, which is nearer to the centre. The end of a piece therefore meets the end that is closest
+// after the growth.
 double growth_of(const LeafletBoundary &boundary, const SeenParts &from) {
-  struct Held {
+  constexpr double most = 0.05, closeness = 0.15, widest_gap = 0.25;  // shares, and the tangent of an angle
+  struct Run {
     std::int64_t piece;
-    PlaneSegment ends;
+    PlanePoint begin, end;
   };
-  std::vector<Held> held;
+  std::vector<Run> runs;
+  const auto is_close = [&](const PlanePoint &a, const PlanePoint &b) {
+    const PlanePoint apart = difference(a, b);
+    return dot_of(apart, apart) < closeness * closeness * dot_of(a, a);
+  };
   for (const FarPart &part : from.parts) {
-    const PlaneSegment ends = ends_of(from, part);
-    const PlanePoint along = difference(ends[1], ends[0]), middle = between(ends[0], ends[1], 0.5);
-    if (cross_of(middle, along) > std::abs(dot_of(middle, along)))
-      held.push_back({view(boundary.edges)[static_cast<std::int64_t>(part.edge)].piece, ends});
+    const auto [begin, end] = ends_of(from, part);
+    const PlanePoint along = difference(end, begin), middle = between(begin, end, 0.5);
+    if (!(cross_of(middle, along) > std::abs(dot_of(middle, along)))) continue;
+    const std::int64_t piece = view(boundary.edges)[static_cast<std::int64_t>(part.edge)].piece;
+    if (!runs.empty() && runs.back().piece == piece && is_close(runs.back().end, begin))
+      runs.back().end = end;
+    else
+      runs.push_back({piece, begin, end});
   }
-  constexpr double most = 0.05;
+  const auto centroid = [&](const Run &of) { return from.seen(view(boundary.centroids)[of.piece]); };
   double least = 2 * most;
-  for (std::size_t i = 0; i < held.size(); ++i) {
-    const Held &one = held[i], &other = held[(i + 1) % held.size()];
-    if (one.piece == other.piece) continue;
-    const PlanePoint p = one.ends[1], q = other.ends[0], middle = between(p, q, 0.5);
-    const auto along = [&](const PlanePoint &a, const PlanePoint &b) { return cross_of(middle, difference(a, b)); };
-    const double gap = along(q, p);
-    const double reach = along(p, from.seen(view(boundary.centroids)[one.piece])) -
-                         along(q, from.seen(view(boundary.centroids)[other.piece]));
-    if (!(gap > 0)) return 1;
-    if (reach > 0) least = std::min(least, gap / reach);
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const PlanePoint &p = runs[i].end;
+    double closest = closeness * std::sqrt(dot_of(p, p)), wanted = 2 * most;
+    for (std::size_t step = 1; step < runs.size(); ++step) {
+      const Run &other = runs[(i + step) % runs.size()];
+      const PlanePoint &q = other.begin, apart = difference(q, p), middle = between(p, q, 0.5);
+      if (!(cross_of(p, q) <= widest_gap * dot_of(p, q))) break;
+      if (runs[i].piece == other.piece) continue;
+      const PlanePoint growth = difference(difference(q, centroid(other)), difference(p, centroid(runs[i])));
+      const double gap = cross_of(middle, apart), reach = -cross_of(middle, growth);
+      if (gap > 0 && !(reach > 0)) continue;
+      const double share = gap > 0 ? gap / reach : 0;
+      const PlanePoint left = {apart[0] + share * growth[0], apart[1] + share * growth[1]};
+      const double distance = std::sqrt(dot_of(left, left));
+      if (distance < closest) closest = distance, wanted = share;
+    }
+    least = std::min(least, wanted);
   }
   return 1 + (least > most ? 2 * most - least : least);
+}
+
+// Returns the boundary of pieces that have grown about their centroids.
+LeafletBoundary grown_by(double factor, const LeafletBoundary &boundary) {
+  LeafletBoundary grown = boundary;
+  for (BoundaryEdge &edge : grown.edges)
+    for (Vec3 *const end : {&edge.from, &edge.to}) *end = mix(view(boundary.centroids)[edge.piece], *end, factor);
+  return grown;
 }
 
 }  // namespace
@@ -520,12 +442,8 @@ std::optional<SeenOutline> outline_of_leaflets(const LeafletBoundary &boundary,
   if (!found) return std::nullopt;
   const SeenParts &parts = found->parts;
   const double growth = growth_of(boundary, parts);
-  std::vector<PlanePoint> corners;
-  for (const FarPart &part : parts.parts) {
-    const BoundaryEdge &edge = view(boundary.edges)[static_cast<std::int64_t>(part.edge)];
-    const PlanePoint centroid = parts.seen(view(boundary.centroids)[edge.piece]);
-    for (const PlanePoint &end : ends_of(parts, part)) corners.push_back(between(centroid, end, growth));
-  }
+  std::vector<PlanePoint> corners = corners_of(growth > 1 ? parts_of(grown_by(growth, boundary), parts.seen) : parts);
+  if (corners.empty()) return std::nullopt;
   corners.push_back(corners.front());
   std::optional<Outline> outline = closed_outline({corners}, parts.seen.rounding());
   if (!outline) return std::nullopt;

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The outline of the leaflets, which bounds the orifice. The outline consists of the farthest edges around a centre, seen along
-// an axis that follows from these edges (docs/theory/measures.md, "Outline"). From the triangles of a valve or of arrays, this
-// file finds a polygon in a plane, and the axis along which the polygon is seen.
+// an axis that follows from these edges (docs/theory/measures.md, "Outline"). From the leaflets' boundary, this file
+// finds a polygon in a plane, and the axis along which the polygon is seen.
 #pragma once
 
-#include <cstdint>
 #include <optional>
-#include <vector>
 
 #include "geometry/vec3.hpp"
+#include "measures/leaflet_boundary.hpp"
 #include "measures/plane_cover.hpp"
-#include "triangulate/triangle_set.hpp"
 
 namespace riis {
 
@@ -36,29 +34,8 @@ class AlongAxis {
   Vec3 x_axis_{}, y_axis_{}, axis_, origin_;
 };
 
-// A straight part of the leaflets' boundary.
-struct BoundaryEdge {
-  Vec3 from, to;
-  std::int64_t piece;  // the connected part of a leaflet that it belongs to, from 0
-};
-
-// The boundary of the leaflets.
-struct LeafletBoundary {
-  std::vector<BoundaryEdge> edges;
-  std::vector<BoundaryEdge> perhaps_attached;  // a closed line of triangles from arrays
-  double perhaps_area = 0;                     // the size of the line's vector area
-  std::vector<Vec3> centroids;                 // of the pieces
-  Vec3 normal;                                 // the sum of the triangles' areas times their normals
-};
-
 // A line of open edges may be the attachment if it encloses at least this share of the area of the leaflets' outline.
 inline constexpr double least_attached_share = 0.8;
-
-// Returns the sides of the patches that bound leaflets, or the open edges of triangles from arrays. A skirt does not count.
-LeafletBoundary boundary_of_leaflets(const TriangleSet &set);
-
-// Returns the longest connected line of open edges of a wall, as a boundary without centroids and normal.
-LeafletBoundary boundary_of_wall(const TriangleSet &wall);
 
 // An outline with the axis along which it is seen.
 struct SeenOutline {

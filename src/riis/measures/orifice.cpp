@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "common/array_view.hpp"
+#include "measures/leaflet_boundary.hpp"
 #include "measures/leaflet_outline.hpp"
 #include "measures/plane_cover.hpp"
 

@@ -10,6 +10,7 @@
 
 #include "base/errors.hpp"
 #include "common/array_view.hpp"
+#include "measures/leaflet_boundary.hpp"
 #include "measures/leaflet_outline.hpp"
 #include "scene/edges.hpp"
 #include "scene/pseudonormals.hpp"

@@ -232,10 +232,10 @@ std::vector<OpenEdge> open_edges(const TriangleSet &set, bool by_leaflet) {
   return made;
 }
 
-std::vector<std::vector<OpenEdge>> closed_boundaries(const TriangleSet &set) {
-  const std::vector<std::int64_t> place = first_with_place(set);
-  const std::vector<OpenEdge> edges = Cancelling(set, edges_of_one_triangle(set, place, false)).left();
-  const std::vector<std::optional<std::size_t>> next = next_edges(set, place, edges);
+namespace {
+
+std::vector<std::vector<OpenEdge>> closed_lines(const TriangleSet &set, const std::vector<OpenEdge> &edges) {
+  const std::vector<std::optional<std::size_t>> next = next_edges(set, first_with_place(set), edges);
   std::vector<bool> is_done(edges.size(), false);
   std::vector<std::vector<OpenEdge>> closed;
   for (std::size_t first = 0; first < edges.size(); ++first) {
@@ -252,8 +252,6 @@ std::vector<std::vector<OpenEdge>> closed_boundaries(const TriangleSet &set) {
   return closed;
 }
 
-namespace {
-
 Vec3 vector_area_of(const TriangleSet &set, const std::vector<OpenEdge> &line) {
   const Vec3 origin = set.vertex(line.front().from);
   Vec3 area{0, 0, 0};
@@ -264,9 +262,15 @@ Vec3 vector_area_of(const TriangleSet &set, const std::vector<OpenEdge> &line) {
 
 }  // namespace
 
-LargestBoundary largest_boundary(const TriangleSet &set) {
+std::vector<std::vector<OpenEdge>> closed_boundaries(const TriangleSet &set) {
+  return closed_lines(set, open_edges(set, false));
+}
+
+LargestBoundary largest_boundary(const TriangleSet &set) { return largest_boundary(set, open_edges(set, false)); }
+
+LargestBoundary largest_boundary(const TriangleSet &set, const std::vector<OpenEdge> &edges) {
   LargestBoundary best;
-  for (std::vector<OpenEdge> &line : closed_boundaries(set)) {
+  for (std::vector<OpenEdge> &line : closed_lines(set, edges)) {
     const Vec3 area = vector_area_of(set, line);
     const double size = length(area), largest = length(best.area);
     best.second_area = std::max(best.second_area, std::min(size, largest));

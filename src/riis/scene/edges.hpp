@@ -34,6 +34,8 @@ struct LargestBoundary {
   double second_area = 0;
 };
 LargestBoundary largest_boundary(const TriangleSet &set);
+// Takes the open edges from the caller. Triangles count as turned over where the caller has reversed their open edges.
+LargestBoundary largest_boundary(const TriangleSet &set, const std::vector<OpenEdge> &edges);
 // Returns the edges of the longest closed line of open edges, or nothing if there is no closed line.
 std::vector<OpenEdge> longest_boundary(const TriangleSet &set);
 

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// The boundary of leaflets, from the triangles of a valve or of arrays, and the closed lines of open edges at which the leaflets of
+// arrays may be attached (docs/theory/measures.md, "Outline").
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "geometry/vec3.hpp"
+#include "triangulate/triangle_set.hpp"
+
+namespace riis {
+
+// A straight part of the leaflets' boundary.
+struct BoundaryEdge {
+  Vec3 from, to;
+  std::int64_t piece;  // the connected part of a leaflet that it belongs to, from 0
+};
+
+// A closed line of open edges, in order.
+struct ClosedLine {
+  std::vector<BoundaryEdge> edges;
+  double area;  // the size of its vector area
+};
+
+// The boundary of the leaflets.
+struct LeafletBoundary {
+  std::vector<BoundaryEdge> edges;
+  std::vector<ClosedLine> perhaps_attached;  // for triangles from arrays, a line for each winding of the pieces
+  std::vector<Vec3> centroids;               // of the pieces
+  Vec3 normal;                               // the sum of the triangles' areas times their normals
+};
+
+// Returns the sides of the patches that bound leaflets, or the open edges of triangles from arrays. A skirt does not count.
+LeafletBoundary boundary_of_leaflets(const TriangleSet &set);
+
+// Returns the longest connected line of open edges of a wall, as a boundary without centroids and normal.
+LeafletBoundary boundary_of_wall(const TriangleSet &wall);
+
+}  // namespace riis
