@@ -33,8 +33,8 @@ KeyedEdge edge_between(NodeKey p, NodeKey q, double length);
 
 // Returns the half thickness that a surface needs. Returns nothing if its own half thickness closes all leaks.
 using Left = std::function<std::optional<double>(const riis_surface *)>;
-// Returns lengths that close the leaks of a surface, which need the half thickness `needed`. For a surface from a file, `valve` is
-// null.
+// Returns lengths that close the leaks of a surface. The leaks need the half thickness `needed`. For a surface from a file,
+// `valve` is null.
 Closing closing_of(const MarkOptions &options, const riis_surface *surface, const riis_valve *valve, double needed,
                    const Left &left);
 // Returns the beginning of an advice, such as "--half-thickness 0.2 or --skirt 0.4 closes ".

@@ -281,8 +281,8 @@ std::vector<SharedNode> in_one_list(std::vector<std::vector<SharedNode>> by_piec
   return all;
 }
 
-// Distributes nodes among the ranks by `id`, the first part of a node's key. Global ids are dense, so a hash of the id chooses the
-// rank, and the ranks get about equal numbers of nodes.
+// Distributes nodes among the ranks by `id`, the first part of a node's key. Global ids are dense, so a hash of the id chooses
+// the rank, and the ranks get about equal numbers of nodes.
 template <class Node, class Id>
 std::vector<Node> shared_out(std::vector<Node> nodes, const Id &id) {
   const auto n_ranks = static_cast<std::uint64_t>(ranks::n_ranks());
