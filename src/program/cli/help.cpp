@@ -291,13 +291,13 @@ previous time. At the first time, velocities are means over a step that is as lo
 no velocities. Without --all-cells the meshes have only the cells near the valve's whole motion. The arrays riis_node_id and
 riis_cell_id of these meshes have the ids of the input, counted from 0. All times have the same cells.
 A line on stderr gives the size of all files before they are written. Ctrl-C ends a series after the present step. A line then
-gives the number of steps written, and the .pvd lists these steps. If the process is killed, the list is at most a second behind
-the files. If an earlier run of riis wrote further steps under the same name, the files of these steps are removed. The run is
-refused if such a file is named by no list, or by a list that riis did not write. --series-table has a line for each time:
-opening, marked nodes, the largest speed of the surface, and the seconds for surface and marks. --picture draws the first time.
---movie draws all times with one camera, and needs the program ffmpeg. The check for leaks runs at the time when the valve is
-least open. With --surface the check runs at the first time. The numbers of --stats belong to the time of this check, and
-"times" has the openings, marks and speeds of all times. Orifices are measured at the largest opening.
+gives the number of steps written, and the .pvd lists these steps. If the process is killed, the list lacks at most one file. If
+an earlier run of riis wrote further steps under the same name, the files of these steps are removed. The run is refused if such a
+file is named by no list, or by a list that riis did not write. --series-table has a line for each time: opening, marked nodes,
+the largest speed of the surface, and the seconds for surface and marks. --picture draws the first time. --movie draws all times
+with one camera, and needs the program ffmpeg. The check for leaks runs at the time when the valve is least open. With --surface
+the check runs at the first time. The numbers of --stats belong to the time of this check, and "times" has the openings, marks and
+speeds of all times. Orifices are measured at the largest opening.
 )"},
     {"cases", "several valves in one mesh, from a file",
      R"(

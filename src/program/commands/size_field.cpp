@@ -16,7 +16,6 @@
 #include "program/input/case.hpp"
 #include "program/input/face_faults.hpp"
 #include "program/input/valve_source.hpp"
-#include "program/mark/mesh_marking.hpp"
 #include "program/mark/moving_valve.hpp"
 #include "program/mark/warnings.hpp"
 #include "program/output/outputs.hpp"

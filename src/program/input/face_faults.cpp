@@ -11,7 +11,7 @@
 #include "common/sets.hpp"
 #include "program/base/handles.hpp"
 #include "program/base/units.hpp"
-#include "program/mark/mesh_marking.hpp"
+#include "program/mark/mesh_pieces.hpp"
 #include "program/mark/warnings.hpp"
 #include "program/output/report.hpp"
 

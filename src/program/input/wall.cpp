@@ -13,7 +13,7 @@
 #include "program/input/json.hpp"
 #include "program/input/mesh_reading.hpp"
 #include "program/input/valve_source.hpp"
-#include "program/mark/mesh_marking.hpp"
+#include "program/mark/mesh_pieces.hpp"
 #include "program/mark/warnings.hpp"
 #include "program/output/report.hpp"
 

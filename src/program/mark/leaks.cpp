@@ -10,11 +10,9 @@
 #include "common/array_view.hpp"
 #include "common/number_from_chars.hpp"
 #include "program/base/handles.hpp"
-#include "program/base/ranks.hpp"
 #include "program/base/refusal.hpp"
 #include "program/base/text.hpp"
 #include "program/input/valve_source.hpp"
-#include "program/mark/mesh_marking.hpp"
 #include "program/mark/warnings.hpp"
 
 namespace riis::program {
@@ -22,19 +20,6 @@ namespace riis::program {
 KeyedEdge edge_between(NodeKey p, NodeKey q, double length) {
   if (q < p) std::swap(p, q);
   return {p, q, length, 0, {0, 0, 0}};
-}
-
-std::vector<KeyedEdge> gathered(const std::vector<KeyedEdge> &own) {
-  std::vector<KeyedEdge> all = ranks::gather(own);
-  std::sort(all.begin(), all.end());
-  all.erase(std::unique(all.begin(), all.end()), all.end());
-  return all;
-}
-
-Surface with_half_thickness(const MarkOptions &options, const riis_valve *valve, double half_thickness) {
-  riis_surface_options surface_options = options.surface_options;
-  surface_options.half_thickness = half_thickness;
-  return create<Surface>(riis_surface_create, valve, &surface_options);
 }
 
 namespace {
@@ -53,43 +38,40 @@ double rounded_up(double x) {
 
 }  // namespace
 
-// Each half thickness must be tried, because the triangles of a valve depend on the half thickness. The triangles of a file do
-// not depend on the half thickness.
-double closing_half_thickness(const riis_valve *valve, double half_thickness, const Left &left) {
+Closing closing_of(const MarkOptions &options, const riis_surface *surface, const riis_valve *valve, double needed,
+                   const Left &left) {
   constexpr int n_tries = 8;
-  double wanted = rounded_up(half_thickness);
-  if (!valve) return wanted;
+  double wanted = rounded_up(needed);
+  Closing closing;
   try {
-    for (int i = 0; i < n_tries; ++i) {
-      const std::optional<double> needed = left(wanted);
-      if (!needed) return wanted;
-      wanted = rounded_up(std::max(*needed, 1.01 * wanted));
+    // The triangles of a valve depend on the half thickness, so each half thickness must be tried.
+    for (int i = 0; valve && i < n_tries && closing.half_thickness == 0; ++i) {
+      riis_surface_options how = options.surface_options;
+      how.half_thickness = wanted;
+      const std::optional<double> more = left(create<Surface>(riis_surface_create, valve, &how));
+      if (!more) closing.half_thickness = wanted;
+      wanted = rounded_up(std::max(more.value_or(0), 1.01 * wanted));
+    }
+    if (valve) return closing;
+    // The triangles of a file do not depend on the half thickness. A skirt is about as long as the gaps to the wall.
+    closing.half_thickness = wanted;
+    if (options.surface.empty() || options.skirt) return closing;
+    for (const double factor : {1.0, 1.5, 2.0}) {
+      const double skirt = rounded_up(factor * wanted);
+      if (left(joined_surface({surface}, with_band_of(surface), skirt))) continue;
+      closing.skirt = skirt;
+      break;
     }
   } catch (const Refusal &) {
-    // A warning without advice is still valid. There is no advice if the half thickness allows no surface, or if the thicker band
-    // contains an end of the passage.
+    // A warning without advice is still valid. There is no advice if the half thickness or the skirt allows no surface, or if the
+    // thicker band contains an end of the passage.
   }
-  return 0;
+  return closing;
 }
 
-double closing_skirt(const MarkOptions &options, const riis_surface *surface, double half_thickness,
-                     const std::function<bool(const riis_surface *)> &closes) {
-  if (options.surface.empty() || options.skirt || half_thickness <= 0) return 0;
-  JoinedTriangles triangles;
-  triangles.add(triangles_of(surface), 0);
-  riis_surface_arrays arrays = triangles.arrays();
-  auto how = defaults<riis_surface_options>();
-  how.half_thickness = info_of(surface).half_thickness;
-  how.offset = info_of(surface).offset;
-  for (const double factor : {1.0, 1.5, 2.0}) {
-    arrays.skirt_length = rounded_up(factor * half_thickness);
-    try {
-      if (closes(create<Surface>(riis_surface_create_from_arrays, &arrays, &how))) return arrays.skirt_length;
-    } catch (const Refusal &) {
-      return 0;  // an unknown attachment, or a surface too small for such a skirt, gets no advice
-    }
-  }
-  return 0;
+std::string text_of(const Closing &closing) {
+  return "--half-thickness " + shortest(closing.half_thickness) +
+         (closing.skirt > 0 ? " or --skirt " + shortest(closing.skirt) : "") + " closes ";
 }
 
 namespace {
@@ -123,10 +105,7 @@ void warn_of_leaks(const MarkOptions &options, const LeakReport &report, const s
   // sharply (docs/theory/marks.md, "Offset").
   const double offset = options.surface_options.offset, safe = 2 * std::sqrt((1 - offset) * (1 + offset));
   std::string advice = "; ";
-  if (report.closing_half_thickness > 0)
-    advice += "--half-thickness " + shortest(report.closing_half_thickness) +
-              (report.closing_skirt > 0 ? " or --skirt " + shortest(report.closing_skirt) : "") + " closes " +
-              (is_one ? "it; " : "them; ");
+  if (report.closing.half_thickness > 0) advice += text_of(report.closing) + (is_one ? "it; " : "them; ");
   advice += "edges of at most ";
   advice += offset == 0 ? "two half thicknesses (" + shortest(2 * half_thickness) + ") do not leak"
                         : shown(safe) + " half thicknesses (" + shown(safe * half_thickness) + ") seldom leak";
@@ -135,43 +114,42 @@ void warn_of_leaks(const MarkOptions &options, const LeakReport &report, const s
 
 }  // namespace
 
-MeshLeaks::MeshLeaks(const MarkOptions &options, const MeshPieces &mesh, const riis_surface *surface,
-                     const riis_valve *valve, std::string name)
-    : options_(options),
+MeshLeaks::MeshLeaks(const MovingValve &valve, const MeshPieces &mesh, std::string name)
+    : valve_(valve),
+      options_(valve.options()),
       mesh_(mesh),
-      surface_(surface),
-      valve_(valve),
       name_(std::move(name)),
-      info_(info_of(surface)) {
-  resize(boxes_, view(mesh.files()).size());
-  std::fill(boxes_.begin(), boxes_.end(), empty_box());
-}
+      info_(info_of(valve.surface())),
+      boxes_(mesh.files().size(), empty_box()) {}
 
 void MeshLeaks::add(Piece &piece, riis_marks *marks) {
   view(boxes_)[piece.number] = piece.nodes.box();
   if (!piece.nodes.box().meets(box_of(info_))) return;
-  add(piece, surface_, marks, info_.half_thickness, stats_of(marks).complete != 0, found_);
+  add(piece, valve_.surface(), marks, found_);
 }
 
-void MeshLeaks::add(Piece &piece, const riis_surface *surface, riis_marks *marks, double half_thickness,
-                    bool is_complete, std::vector<KeyedEdge> &to) const {
+void MeshLeaks::add(Piece &piece, const riis_surface *surface, riis_marks *marks, std::vector<KeyedEdge> &to) const {
   // Short edges may also leak if the search can miss nodes, or if distances are not measured to the triangles.
-  const bool is_exact = is_complete && options_.surface_options.measure == RIIS_MEASURE_TRIANGLES;
+  const bool is_exact = stats_of(marks).complete && options_.surface_options.measure == RIIS_MEASURE_TRIANGLES;
+  const double half_thickness = info_of(surface).half_thickness;
   const std::int32_t n_threads = options_.mark_options.n_threads;
   Adjacency adjacency;
-  if (!piece.mesh->is_grid())
+  if (!piece.nodes.is_grid())
     adjacency = create<Adjacency>(riis_vtk_mesh_create_long_edges, piece.file, surface,
                                   is_exact ? 2 * (1 - std::abs(info_.offset)) * half_thickness : 0, n_threads, nullptr);
-  const FileNodes::Lent lent(*piece.mesh, adjacency ? get<riis_csr>(riis_adjacency_get_csr, adjacency) : riis_csr{});
+  const riis_csr rows = adjacency ? get<riis_csr>(riis_adjacency_get_csr, adjacency) : riis_csr{};
   const auto leaks = create<Leaks>(riis_leaks_create);
-  const riis_mark_options how = surface == surface_ ? options_.mark_options : how_to_mark_again(options_);
-  check(riis_find_leaks(surface, piece.mesh->mesh(), marks, &how, leaks));
+  const riis_mark_options how = surface == valve_.surface() ? options_.mark_options : how_to_mark_again(options_);
+  piece.nodes.lend_neighbors(&rows);
+  const riis_status status = riis_find_leaks(surface, piece.nodes.mesh(), marks, &how, leaks);
+  piece.nodes.lend_neighbors(nullptr);
+  check(status);
   const auto list = get<riis_leak_list>(riis_leaks_get_list, leaks);
   for (std::int64_t i = 0; i < list.n_edges; ++i) {
     const std::int64_t a = list.node_id[2 * i], b = list.node_id[2 * i + 1];
     KeyedEdge edge = edge_between(piece.nodes.key(a), piece.nodes.key(b), list.length[i]);
     edge.distance = list.distance[i];
-    const NodePoints::Point p = piece.nodes.point(a), q = piece.nodes.point(b);
+    const FileNodes::Point p = piece.nodes.point(a), q = piece.nodes.point(b);
     for (std::size_t k = 0; k < 3; ++k) edge.middle[k] = 0.5 * (p[k] + q[k]);
     to.push_back(edge);
   }
@@ -188,14 +166,9 @@ void MeshLeaks::judge(ValveReport &report) {
       for (const NodeKey &end : {edge.p, edge.q}) leaks.edges.push_back(static_cast<std::int64_t>(end[0]));
   if (options_.check_leaks) return;
   if (leaks.found.n_edges > 0) {
-    if (report.marks.complete) {
-      leaks.closing_half_thickness = closing_half_thickness(valve_, leaks.found.half_thickness, [&](double wanted) {
-        return left(with_half_thickness(options_, valve_, wanted), wanted);
-      });
-      leaks.closing_skirt =
-          closing_skirt(options_, surface_, leaks.closing_half_thickness,
-                        [&](const riis_surface *surface) { return !left(surface, info_.half_thickness); });
-    }
+    if (report.marks.complete)
+      leaks.closing = closing_of(options_, valve_.surface(), valve_.source().valve, leaks.found.half_thickness,
+                                 [&](const riis_surface *surface) { return left(surface); });
     warn_of_leaks(options_, leaks, name_, report.surface.half_thickness);
   }
   if (!leaks.has_all_edges())
@@ -203,13 +176,13 @@ void MeshLeaks::judge(ValveReport &report) {
          " are unknown: " + why_unknown(leaks, options_.mesh));
 }
 
-// Marks the pieces near the surface a second time, with another half thickness.
-std::optional<double> MeshLeaks::left(const riis_surface *surface, double half_thickness) const {
+// Marks the pieces near the surface a second time, with another surface.
+std::optional<double> MeshLeaks::left(const riis_surface *surface) const {
   const riis_surface_info info = info_of(surface);
   std::vector<KeyedEdge> found;
   const auto mark_again = [&](Piece &piece) {
-    const Marks marks = marks_of(surface, piece.mesh->mesh(), how_to_mark_again(options_));
-    add(piece, surface, marks, half_thickness, true, found);
+    const Marks marks = marks_of(surface, piece.nodes.mesh(), how_to_mark_again(options_));
+    add(piece, surface, marks, found);
   };
   mesh_.for_each_own(mark_again, nullptr,
                      [&](std::int64_t number) { return view(boxes_)[number].meets(box_of(info)); });
@@ -221,8 +194,7 @@ std::optional<double> MeshLeaks::left(const riis_surface *surface, double half_t
 
 std::vector<std::int64_t> BandMeasures::add(const Piece &piece, const riis_marks *marks,
                                             const riis_mark_options &options) {
-  const FileNodes::Lent lent(*piece.mesh);
-  riis_mesh *const mesh = piece.mesh->mesh();
+  riis_mesh *const mesh = piece.nodes.mesh();
   if (piece.nodes.is_whole())
     of_whole_ = get<riis_cells_across>(riis_marks_get_cells_across, marks, mesh);
   else
@@ -242,7 +214,7 @@ void BandMeasures::add_lengths(const Piece &piece, const riis_mark_list &marked)
   for (std::int64_t i = 0; i < marked.n_nodes; ++i) view(is_marked)[marked.node_id[i]] = 1;
   for (std::int64_t i = 0; i < nodes.n(); ++i) {
     if (nodes.is_ghost(i)) continue;
-    piece.mesh->for_each_neighbor(i, [&](std::int64_t j) {
+    piece.nodes.for_each_neighbor(i, [&](std::int64_t j) {
       if (j < i || nodes.is_ghost(j) || !(view(is_marked)[i] || view(is_marked)[j])) return;
       const double length = distance_between(nodes.point(i).data(), nodes.point(j).data());
       if (!(length > 0)) return;
@@ -270,9 +242,6 @@ std::string percent(double share) { return printed(share < 0.1 ? "%.2g %%" : "%.
 
 }  // namespace
 
-LeafletsOutside::LeafletsOutside(const MovingValve &valve)
-    : LeafletsOutside(valve.options(), valve.surface(), valve.opening()) {}
-
 LeafletsOutside::LeafletsOutside(const MarkOptions &options, const riis_surface *surface, std::optional<double> opening)
     : options_(options),
       info_(info_of(surface)),
@@ -288,32 +257,22 @@ void LeafletsOutside::add(const Piece &piece) {
           piece.path);
 }
 
-double LeafletsOutside::share_of(const std::vector<std::uint8_t> &is_outside) const {
-  double all = 0, outside = 0;
-  for (std::size_t i = 0; i < is_outside.size(); ++i) {
-    all += view(samples_.area)[i];
-    if (view(is_outside)[i] != 0) outside += view(samples_.area)[i];
-  }
-  return all > 0 ? outside / all : 0;
-}
-
 OutsideReport LeafletsOutside::report() const {
   struct Area {
     double all = 0, outside = 0;
-  };
+  } whole;
   std::map<std::int32_t, Area> by_leaflet;
   const std::vector<std::uint8_t> of_ranks = ranks::gather(is_outside_);
   const std::size_t n = is_outside_.size();
-  std::vector<std::uint8_t> is_outside(n, 1);
   for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t at = i; at < of_ranks.size(); at += n) is_outside[i] &= of_ranks[at];
-    Area &area = by_leaflet[samples_.leaflet[i]];
-    area.all += samples_.area[i];
-    if (is_outside[i] != 0) area.outside += samples_.area[i];
+    bool is_outside = true;
+    for (std::size_t at = i; at < of_ranks.size(); at += n) is_outside = is_outside && of_ranks[at] != 0;
+    for (Area *const area : {&whole, &by_leaflet[samples_.leaflet[i]]}) {
+      area->all += samples_.area[i];
+      if (is_outside) area->outside += samples_.area[i];
+    }
   }
-  OutsideReport made;
-  made.share = share_of(is_outside);
-  made.opening = opening_;
+  OutsideReport made{whole.all > 0 ? whole.outside / whole.all : 0, {}, opening_};
   for (const auto &[leaflet, area] : by_leaflet)
     if (area.outside > 0) made.leaflets.push_back({name_of_leaflet(options_, info_, leaflet), area.outside / area.all});
   return made;

@@ -30,28 +30,21 @@ struct KeyedEdge {
   bool operator==(const KeyedEdge &other) const { return p == other.p && q == other.q; }
 };
 KeyedEdge edge_between(NodeKey p, NodeKey q, double length);
-// Returns the edges of all ranks in ascending order, and each edge only once.
-std::vector<KeyedEdge> gathered(const std::vector<KeyedEdge> &own);
 
-// Returns the half thickness that the surface needs. Returns nothing if the given half thickness closes all leaks.
-using Left = std::function<std::optional<double>(double half_thickness)>;
-// Returns a half thickness that closes all leaks, or 0 if none was found. For a surface from a file, `valve` is null.
-double closing_half_thickness(const riis_valve *valve, double half_thickness, const Left &left);
-// Makes the surface of a valve with another half thickness.
-Surface with_half_thickness(const MarkOptions &options, const riis_valve *valve, double half_thickness);
-
-// Returns the length of a skirt that closes the leaks of a surface from a file, or 0 if no tried length closes them. The given
-// half thickness closes the leaks, and is about as large as the gaps to the wall. `closes` tells whether a surface has no leak.
-// Returns 0 for a parametric valve, and for a surface that has a skirt.
-double closing_skirt(const MarkOptions &options, const riis_surface *surface, double half_thickness,
-                     const std::function<bool(const riis_surface *)> &closes);
+// Returns the half thickness that a surface needs. Returns nothing if its own half thickness closes all leaks.
+using Left = std::function<std::optional<double>(const riis_surface *)>;
+// Returns lengths that close the leaks of a surface. The leaks need the half thickness `needed`. For a surface from a file,
+// `valve` is null.
+Closing closing_of(const MarkOptions &options, const riis_surface *surface, const riis_valve *valve, double needed,
+                   const Left &left);
+// Returns the beginning of an advice, such as "--half-thickness 0.2 or --skirt 0.4 closes ".
+std::string text_of(const Closing &closing);
 
 // The leaks of one surface. All calls must use the same surface.
 class MeshLeaks {
  public:
   // In the warning, `name` names the surface.
-  MeshLeaks(const MarkOptions &options, const MeshPieces &mesh, const riis_surface *surface, const riis_valve *valve,
-            std::string name);
+  MeshLeaks(const MovingValve &valve, const MeshPieces &mesh, std::string name);
   // Adds the leaks of a piece. The piece must already be marked with the surface.
   void add(Piece &piece, riis_marks *marks);
   // Puts the leaks of all ranks into the report. Warns of leaks, and also if leaks are unknown. Leaves the warning to
@@ -59,15 +52,13 @@ class MeshLeaks {
   void judge(ValveReport &report);
 
  private:
-  // Adds the leaks of a marking with the given half thickness.
-  void add(Piece &piece, const riis_surface *surface, riis_marks *marks, double half_thickness, bool is_complete,
-           std::vector<KeyedEdge> &to) const;
-  std::optional<double> left(const riis_surface *surface, double half_thickness) const;
+  // Adds the leaks of a marking with the given surface.
+  void add(Piece &piece, const riis_surface *surface, riis_marks *marks, std::vector<KeyedEdge> &to) const;
+  std::optional<double> left(const riis_surface *surface) const;
 
+  const MovingValve &valve_;
   const MarkOptions &options_;
   const MeshPieces &mesh_;
-  const riis_surface *surface_;
-  const riis_valve *valve_;
   std::string name_;
   riis_surface_info info_;
   std::vector<Box> boxes_;  // by piece, empty for the pieces of other ranks
@@ -77,11 +68,16 @@ class MeshLeaks {
 // The input is a mesh and two points. The result says whether unmarked nodes join the points, where the widest passage is, and
 // which half thickness closes it.
 
-// The end of a passage: the node that is nearest to a point of the user. Nodes without a neighbour do not count.
-struct PieceEnd {
+// A node on the way from one end of a passage to the other.
+struct PassageNode {
   NodeKey key;
-  double point[3], distance, longest_edge;  // distance to the user's point
   std::int64_t piece, node, id;
+  double point[3];
+  double distance;  // of an end: to the user's point; of other nodes: the least half thickness that marks the node
+};
+// The end of a passage: the node that is nearest to a point of the user. Nodes without a neighbour do not count.
+struct PassageEnd : PassageNode {
+  double longest_edge;
 };
 
 // Checks whether unmarked nodes of all pieces join the two points of options.check_leaks. Without the two points, the check does
@@ -97,17 +93,23 @@ class PassageCheck {
              Report &report);
 
  private:
-  // Of the nodes of all pieces, returns the node nearest to an end. The longest edge at the node may be in another piece.
-  std::optional<PieceEnd> nearest(int end, bool has_ids) const;
+  // Sets an end to the nearest node of all pieces. The longest edge at the node may be in another piece.
+  void find_end(int end, const MeshCounts &counts, const std::string &unknown);
+  // Refuses an end that lies in the band.
+  void check_ends_are_open(const riis_surface *surface) const;
   PassageReport find(const riis_surface *surface) const;
-  double longest_edge_at(const riis_passage &found, const MeshCounts &counts) const;
+  PassageReport find_in_whole(const riis_surface *surface) const;
+  PassageReport find_in_pieces(const riis_surface *surface) const;
+  // Returns nothing if the passage is wider than the given limit.
+  std::optional<PassageReport> find_within(const riis_surface *surface, double limit) const;
   // Finds the opening at which unmarked nodes first join the two ends. All pieces are read again for each opening.
   riis_first_passage first_of(const riis_valve *valve) const;
 
   const MarkOptions &options_;
   const MeshPieces &mesh_;
-  std::vector<PieceEnd> found_ends_[2];  // the nearest node of each piece
-  PieceEnd ends_[2] = {};
+  std::vector<PassageEnd> found_ends_[2];  // the nearest node of each piece
+  PassageEnd ends_[2] = {};
+  std::string names_[2];  // of the ends
 };
 
 // The inputs are the marked pieces of a mesh. The results are measures of one valve's band for a flow: the number of mesh edges
@@ -135,20 +137,13 @@ class BandMeasures {
 // thickness from the mesh. Skirts and the housing of a bileaflet valve do not count, because they may reach beyond the wall.
 class LeafletsOutside {
  public:
-  // Takes the surface at the valve's present position.
-  explicit LeafletsOutside(const MovingValve &valve);
-  // Takes another surface of a valve with the given options.
+  // The surface may move after the call.
   LeafletsOutside(const MarkOptions &options, const riis_surface *surface, std::optional<double> opening);
   void add(const Piece &piece);
-  std::optional<double> opening() const { return opening_; }
-  // Returns the share of the area that is outside all pieces of this rank so far.
-  double share_so_far() const { return share_of(is_outside_); }
   // Returns the shares of the area that are outside the pieces of all ranks.
   OutsideReport report() const;
 
  private:
-  double share_of(const std::vector<std::uint8_t> &is_outside) const;
-
   const MarkOptions &options_;
   riis_surface_info info_;
   std::optional<double> opening_;

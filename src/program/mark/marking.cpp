@@ -7,14 +7,10 @@
 #include <optional>
 #include <utility>
 
-#include "common/array_view.hpp"
 #include "program/base/handles.hpp"
 #include "program/base/progress.hpp"
 #include "program/base/ranks.hpp"
-#include "program/base/refusal.hpp"
 #include "program/input/wall.hpp"
-#include "program/mark/mesh_marking.hpp"
-#include "program/mark/warnings.hpp"
 #include "program/svmultiphysics/uris_solver.hpp"
 
 namespace riis::program {
@@ -24,27 +20,26 @@ namespace {
 // thicknesses or offsets.
 Surface joined_for_passage(const Case &all, const std::vector<MovingValve> &valves) {
   if (valves.size() == 1) return nullptr;
-  const MovingValve &first = valves[0];
-  auto together = defaults<riis_surface_options>();
-  together.half_thickness = info_of(first.surface()).half_thickness;
-  together.offset = info_of(first.surface()).offset;
+  const riis_surface_options together = with_band_of(valves[0].surface());
   for (const MovingValve &valve : valves) {
     const auto demand_equal = [&](const std::string &what, double of_first, double own) {
       if (own == of_first) return;
-      all.options.check_leaks->refuse("the valves must have one " + what + "; that of " + first.options().prefix +
+      all.options.check_leaks->refuse("the valves must have one " + what + "; that of " + valves[0].options().prefix +
                                       " is " + shown(of_first) + ", that of " + valve.options().prefix + " " +
                                       shown(own));
     };
-    demand_equal("offset", together.offset, info_of(valve.surface()).offset);
-    demand_equal("half thickness", together.half_thickness, info_of(valve.surface()).half_thickness);
+    const riis_surface_options own = with_band_of(valve.surface());
+    demand_equal("offset", together.offset, own.offset);
+    demand_equal("half thickness", together.half_thickness, own.half_thickness);
   }
-  return joined_surface(valves, &together);
+  return joined_surface(surfaces_of(valves), together);
 }
 
 // Adds the numbers of a piece or of a rank to the sums. The nodes are counted by NodeCounts.
 void combine(riis_mark_stats &all, const riis_mark_stats &stats) {
+  if (stats.n_threads == 0) return;  // a rank without pieces
+  all.complete = (all.n_threads == 0 || all.complete) && stats.complete;
   if (all.n_threads == 0) all.search = stats.search;
-  all.complete = all.complete && stats.complete;
   all.n_unreached += stats.n_unreached;
   all.n_threads = std::max(all.n_threads, stats.n_threads);
 }
@@ -101,17 +96,8 @@ void check_new_arrays(const MarkOptions &options, const std::vector<std::string>
   }
 }
 
-// Returns the names PREFIX_marked, PREFIX_distance, PREFIX_leaflet, and the names of the arrays of the given fields.
-std::vector<std::string> names_of_marks(const std::string &prefix, int32_t fields) {
-  std::vector<std::string> names = {prefix + "_marked", prefix + "_distance", prefix + "_leaflet"};
-  if (fields & RIIS_FIELD_NORMAL) names.push_back(prefix + "_normal");
-  if (fields & RIIS_FIELD_SIDE) names.push_back(prefix + "_side");
-  if (fields & RIIS_FIELD_VELOCITY) names.push_back(prefix + "_velocity");
-  return names;
-}
-
 // Moves each valve to the time with the least or the largest opening, as `order` says. Among times with equal openings, chooses
-// the first time.
+// the first time. Leaks are judged when a valve is least open, because an open valve is not meant to stop the flow.
 template <class Order>
 void move_to_first(const std::vector<double> &times, std::vector<MovingValve> &valves, Order order) {
   for (MovingValve &valve : valves) {
@@ -122,12 +108,6 @@ void move_to_first(const std::vector<double> &times, std::vector<MovingValve> &v
 }
 
 }  // namespace
-
-riis_mark_stats no_stats() {
-  riis_mark_stats none{};
-  none.complete = 1;
-  return none;
-}
 
 Marking::Marking(Case &all, const MeshPieces &mesh)
     : all_(all),
@@ -142,13 +122,12 @@ Marking::Marking(Case &all, const MeshPieces &mesh)
   report_.times = options().series.times;
   report_.seconds = all.seconds;
   report_.prints_flow = options().measures || options().check_leaks;
-  move_to_least_openings();
+  move_to_first(times_, valves_, std::less<>());
   for (std::size_t i = 0; i < valves_.size(); ++i) {
     if (valves_[i].opening() == 0.0)
       warn_of_bridged_gap(valves_[i].options(), valves_[i].source().valve, all_.part_of(i));
     report_.valves.push_back(report_of(i));
-    sums_.push_back(
-        {MeshLeaks(valves_[i].options(), mesh, valves_[i].surface(), valves_[i].source().valve, all.surface_of(i))});
+    sums_.push_back({MeshLeaks(valves_[i], mesh, all.surface_of(i))});
   }
   if (!options().mesh.empty()) take_states_for_outside();
 }
@@ -164,14 +143,17 @@ std::int32_t Marking::fields() const {
 
 std::vector<std::string> Marking::names_of_arrays() const {
   std::vector<std::string> names;
+  const auto add = [&](const std::string &prefix, const std::vector<const char *> &ends) {
+    for (const char *const end : ends) names.push_back(prefix + end);
+  };
   for (const ValveSource &valve : all_.valves) {
-    const std::vector<std::string> own = names_of_marks(valve.options.prefix, fields());
-    names.insert(names.end(), own.begin(), own.end());
+    add(valve.options.prefix, {"_marked", "_distance", "_leaflet"});
+    if (all_.is_series()) add(valve.options.prefix, {"_normal", "_side"});
+    if (has_velocities()) add(valve.options.prefix, {"_velocity"});
   }
-  if (all_.has_resistance()) names.push_back(options().prefix + "_K");
-  if (all_.has_resistance() && has_velocities()) names.push_back(options().prefix + "_K_u_surface");
-  if (all_.is_series() && !options().series.all_cells && options().cells_where.empty())
-    names.emplace_back("riis_node_id");
+  if (all_.has_resistance()) add(options().prefix, {"_K"});
+  if (all_.has_resistance() && has_velocities()) add(options().prefix, {"_K_u_surface"});
+  if (all_.is_series() && !options().series.all_cells && options().cells_where.empty()) add("riis_node_id", {""});
   return names;
 }
 
@@ -197,38 +179,24 @@ ValveReport Marking::report_of(std::size_t i) {
 
 // ---- Times ----
 
-// Leaks are judged when a valve is least open. An open valve is not meant to stop the flow.
-void Marking::move_to_least_openings() { move_to_first(times_, valves_, std::less<>()); }
-
 // The leaflets of the closed valve or of the open valve may reach beyond the wall.
 void Marking::take_states_for_outside() {
-  for (std::size_t i = 0; i < valves_.size(); ++i) sums_[i].outside.emplace_back(valves_[i]);
+  const auto take = [&](std::size_t i) {
+    sums_[i].outside.emplace_back(valves_[i].options(), valves_[i].surface(), valves_[i].opening());
+  };
+  for (std::size_t i = 0; i < valves_.size(); ++i) take(i);
   if (!all_.is_series()) return;
   move_to_first(times_, valves_, std::greater<>());
   for (std::size_t i = 0; i < valves_.size(); ++i)
-    if (valves_[i].opening() != report_.valves[i].opening) sums_[i].outside.emplace_back(valves_[i]);
-  move_to_least_openings();
-}
-
-LeafletsOutside *Marking::closed_state(std::size_t i) {
-  ValveSums &sums = sums_[i];
-  if (!sums.outside_closed && sums.outside.front().opening().value_or(0) > 0) {
-    const MarkOptions &of_valve = valves_[i].options();
-    const Valve copy = copy_of(valves_[i].source().valve);
-    if (const Surface closed = surface_at(copy, 0, of_valve.surface_options))
-      sums.outside_closed.emplace(of_valve, closed, 0);
-  }
-  return sums.outside_closed ? &*sums.outside_closed : nullptr;
+    if (valves_[i].opening() != report_.valves[i].opening) take(i);
+  move_to_first(times_, valves_, std::less<>());
 }
 
 void Marking::move_to_step(std::size_t step) {
   const double time = times_[step];
-  for (MovingValve &valve : valves_) {
-    if (has_velocities())
-      valve.move_to(time, step == 0 ? time - (times_[1] - time) : times_[step - 1]);
-    else
-      valve.move_to(time);
-  }
+  std::optional<double> since;
+  if (has_velocities()) since = step == 0 ? time - (times_[1] - time) : times_[step - 1];
+  for (MovingValve &valve : valves_) valve.move_to(time, since);
 }
 
 void Marking::mark_step(FileNodes &nodes, riis_vtk_mesh *file, std::size_t step) {
@@ -242,33 +210,26 @@ void Marking::mark_step(FileNodes &nodes, riis_vtk_mesh *file, std::size_t step)
 void Marking::measure(Piece &piece) {
   counts_.add(piece);
   loose_.add(piece.nodes);
-  if (!piece.mesh) return;
+  if (piece.nodes.n() == 0) return;
   check_new_arrays(options(), names_, piece.file.get());
   find_neighbors_for_search(piece);
   for (MovingValve &valve : valves_) valve.forget_marks();
   mark_at_all_times(piece);
   if (all_.is_series()) {
-    move_to_least_openings();
-    for (MovingValve &valve : valves_) valve.mark(*piece.mesh, 0);
+    move_to_first(times_, valves_, std::less<>());
+    for (MovingValve &valve : valves_) valve.mark(piece.nodes, 0);
   }
   const Stage stage("looking for leaks", options().quiet);
   // The neighbours are used only if all edges of the piece are known.
   const riis_vtk_sharing &cells = piece.nodes.counts();
   const bool has_edges = cells.n_cells_left_out == 0 && (cells.n_volume_cells > 0 || !mesh_.is_whole());
   if (options().check_leaks || (wants_measures_ && has_edges))
-    piece.mesh->find_neighbors(options().mark_options.n_threads);
+    piece.nodes.find_neighbors(options().mark_options.n_threads);
   for (std::size_t i = 0; i < valves_.size(); ++i) {
     ValveSums &sums = sums_[i];
     combine(sums.marks, valves_[i].stats());
     sums.leaks.add(piece, valves_[i].result());
     for (LeafletsOutside &state : sums.outside) state.add(piece);
-    // The closed valve is judged only if the open valve is outside the mesh. If the mesh is in pieces, only the last piece tells
-    // whether the open valve is outside.
-    const bool may_be_outside =
-        !mesh_.is_whole() || std::any_of(sums.outside.begin(), sums.outside.end(), [](const LeafletsOutside &state) {
-          return state.share_so_far() > most_outside;
-        });
-    if (LeafletsOutside *const closed = may_be_outside ? closed_state(i) : nullptr) closed->add(piece);
     node_counts_.add(piece.nodes, list_of(valves_[i].result(), RIIS_LIST_WITHIN_LIMIT), within_limit(i));
     std::vector<std::int64_t> regions;
     if (wants_measures_ && piece.nodes.is_whole() && is_closed(valves_[i]))
@@ -284,12 +245,12 @@ void Marking::measure(Piece &piece) {
 
 void Marking::find_neighbors_for_search(Piece &piece) {
   if (!needs_adjacency(options().mark_options.search)) return;
-  if (piece.mesh->is_grid())
+  if (piece.nodes.is_grid())
     refuse_usage(
         "--search: " + options().mesh +
         " is a grid, whose nodes are not stored, so this search cannot walk from node to node; leave --search out");
   const Stage stage("finding the nodes' neighbours", options().quiet);
-  piece.mesh->find_neighbors(options().mark_options.n_threads);
+  piece.nodes.find_neighbors(options().mark_options.n_threads);
   report_.seconds.adjacency += stage.seconds();
 }
 
@@ -303,7 +264,7 @@ void Marking::mark_at_all_times(Piece &piece) {
     if (progress) progress->begin(step);
     for (std::size_t i = 0; i < valves_.size(); ++i) {
       valves_[i].move_to(times_[step]);
-      valves_[i].mark(*piece.mesh, 0);
+      valves_[i].mark(piece.nodes, 0);
       node_counts_.add(piece.nodes, list_of(valves_[i].result(), RIIS_LIST_MARKED), marked_at(step, i));
       if (!all_.is_series()) continue;
       const riis_mark_list within = list_of(valves_[i].result(), RIIS_LIST_WITHIN_LIMIT);
@@ -320,8 +281,7 @@ void Marking::mark_at_all_times(Piece &piece) {
 void Marking::set_arrays(riis_vtk_mesh *file) const {
   std::int64_t n_nodes = 0;
   check(riis_vtk_mesh_get_nodes(file, &n_nodes, nullptr, nullptr));
-  ResistanceSum resistance(n_nodes,
-                           has_velocities() ? ResistanceSum::WithVelocity::yes : ResistanceSum::WithVelocity::no);
+  ResistanceSum resistance(n_nodes, has_velocities());
   for (const MovingValve &valve : valves_) {
     const MarkOptions &own = valve.options();
     check(riis_vtk_mesh_set_marks(file, valve.result(), own.far_distance, own.prefix.c_str()));
@@ -348,7 +308,7 @@ void Marking::judge() {
   mesh_.warn_of_regions();
   warn_of_marks(n_nodes, counts);
   for (std::size_t i = 0; i < valves_.size(); ++i) report_outside(i, counts);
-  if (all_.is_series()) move_to_least_openings();
+  if (all_.is_series()) move_to_first(times_, valves_, std::less<>());
   const Stage stage("looking for leaks", options().quiet);
   for (std::size_t i = 0; i < valves_.size(); ++i) sums_[i].leaks.judge(report_.valves[i]);
   for (std::size_t i = 0; wants_measures_ && i < valves_.size(); ++i) {
@@ -370,7 +330,7 @@ void Marking::judge() {
 void Marking::report_marks(std::size_t i, std::int64_t n_nodes, const MeshCounts &counts) {
   ValveReport &report = report_.valves[i];
   const MovingValve &valve = valves_[i];
-  riis_mark_stats &stats = report.marks = no_stats();
+  riis_mark_stats &stats = report.marks;
   for (const riis_mark_stats &of_rank : ranks::gather(std::vector<riis_mark_stats>{sums_[i].marks}))
     combine(stats, of_rank);
   stats.n_nodes = n_nodes;
@@ -418,6 +378,7 @@ void Marking::warn_of_marks(std::int64_t n_nodes, const MeshCounts &counts) {
 
 // Reports the state with the largest share outside the mesh. Warns only if at least a part of the valve is in the mesh.
 void Marking::report_outside(std::size_t i, const MeshCounts &counts) {
+  if (counts.n_volume_cells == 0) return;
   std::optional<OutsideReport> &report = report_.valves[i].outside;
   std::optional<OutsideReport> closed;
   for (const LeafletsOutside &state : sums_[i].outside) {
@@ -425,10 +386,16 @@ void Marking::report_outside(std::size_t i, const MeshCounts &counts) {
     if (found.opening == 0.0) closed = found;
     if (!report || found.share > report->share) report = found;
   }
-  if (counts.n_volume_cells == 0) report.reset();
-  if (!report) return;
-  if (report->share > most_outside)
-    if (const LeafletsOutside *const state = closed_state(i)) closed = state->report();
+  // A valve that is always open may stand inside the mesh where it is closed. Its sizes may allow no closed valve.
+  const MovingValve &valve = valves_[i];
+  if (report->share > most_outside && !closed && valve.source().valve) {
+    const Valve copy = copy_of(valve.source().valve);
+    if (const Surface surface = surface_at(copy, 0, valve.options().surface_options)) {
+      LeafletsOutside state(valve.options(), surface, 0);
+      mesh_.for_each_own([&](const Piece &piece) { state.add(piece); });
+      closed = state.report();
+    }
+  }
   if (report->opening == report_.valves[i].opening) report->opening.reset();
   if (n_marked_[marked_at(most_steps_[i], i)] > 0)
     warn_of_outside(*report, closed, report_.valves[i].surface.half_thickness, all_.surface_of(i));
@@ -444,14 +411,11 @@ Surface surface_in_unit(const MovingValve &valve, const PossibleUnit &unit) {
   how.half_thickness = unit.half_thickness;
   for (double &shift : how.translation) shift *= unit.placement;
   if (valve.source().valve) return create<Surface>(riis_surface_create, valve.source().valve, &how);
-  JoinedTriangles triangles;
-  triangles.add(triangles_of(valve.surface()), 0);
-  const riis_surface_arrays arrays = triangles.arrays();
   auto from_present = defaults<riis_surface_options>();
   from_present.scale = factor;
   from_present.half_thickness = unit.half_thickness;
   for (int k = 0; k < 3; ++k) from_present.translation[k] = how.translation[k] - factor * how.translation[k];
-  return create<Surface>(riis_surface_create_from_arrays, &arrays, &from_present);
+  return joined_surface({valve.surface()}, from_present);
 }
 
 }  // namespace
@@ -464,8 +428,8 @@ void Marking::compare_units(std::size_t i, const std::vector<PossibleUnit> &unit
     const Surface surface = surface_in_unit(valves_[i], units[k]);
     const riis_mark_options how = how_to_mark_again(options());
     mesh_.for_each_own([&](Piece &piece) {
-      if (!piece.mesh) return;
-      const Marks marks = marks_of(surface, piece.mesh->mesh(), how);
+      if (piece.nodes.n() == 0) return;
+      const Marks marks = marks_of(surface, piece.nodes.mesh(), how);
       counts.add(piece.nodes, list_of(marks, RIIS_LIST_MARKED), k);
     });
   }

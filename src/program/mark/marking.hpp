@@ -12,16 +12,12 @@
 #include "program/base/units.hpp"
 #include "program/input/case.hpp"
 #include "program/mark/leaks.hpp"
-#include "program/mark/mesh_marking.hpp"
 #include "program/mark/mesh_pieces.hpp"
 #include "program/mark/moving_valve.hpp"
 #include "program/mark/warnings.hpp"
 #include "program/output/report.hpp"
 
 namespace riis::program {
-
-// Returns the numbers of a marking that has marked nothing.
-riis_mark_stats no_stats();
 
 class Marking {
  public:
@@ -54,12 +50,11 @@ class Marking {
   // The sums of one valve over all pieces.
   struct ValveSums {
     MeshLeaks leaks;
-    riis_mark_stats marks = no_stats();
+    riis_mark_stats marks{};
     BandMeasures band{};
     std::optional<double> closed_area{};
-    std::vector<std::vector<SharedNode>> shared{};    // by piece, with the open regions of this valve
-    std::vector<LeafletsOutside> outside{};           // at the least opening, and in a series at the largest
-    std::optional<LeafletsOutside> outside_closed{};  // of a valve that is always open, once it matters
+    std::vector<std::vector<SharedNode>> shared{};  // by piece, with the open regions of this valve
+    std::vector<LeafletsOutside> outside{};         // at the least opening, and in a series at the largest
   };
 
   const MarkOptions &options() const { return all_.options; }
@@ -73,11 +68,7 @@ class Marking {
   std::size_t marked_at(std::size_t step, std::size_t valve) const { return step * valves_.size() + valve; }
   std::size_t within_limit(std::size_t valve) const { return marked_at(times_.size(), valve); }
 
-  void move_to_least_openings();
   void take_states_for_outside();
-  // Returns the closed state of a valve that is always open. Returns NULL if the valve closes at some time, or if its sizes allow
-  // no closed valve.
-  LeafletsOutside *closed_state(std::size_t i);
   void find_neighbors_for_search(Piece &piece);
   void mark_at_all_times(Piece &piece);
   void set_arrays(riis_vtk_mesh *file) const;

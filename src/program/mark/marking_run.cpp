@@ -8,12 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "common/array_view.hpp"
 #include "program/base/progress.hpp"
 #include "program/base/ranks.hpp"
-#include "program/input/case.hpp"
 #include "program/input/mesh_reading.hpp"
-#include "program/mark/mesh_marking.hpp"
 #include "program/output/marked_files.hpp"
 #include "program/output/outputs.hpp"
 #include "program/output/pictures.hpp"
@@ -21,38 +18,33 @@
 namespace riis::program {
 namespace {
 
-// Refuses options that need the whole mesh in memory.
-void check_options_of_pieces(const MarkOptions &options) {
-  const auto refuse_if = [&](bool is_given, const std::string &option, const std::string &why) {
-    if (is_given) refuse_usage(option + ": " + why + ", and " + options.mesh + " is read in pieces");
+// Refuses options that a run of these valves, times and pieces cannot follow.
+void check_options(const Case &all) {
+  const MarkOptions &options = all.options;
+  const auto refuse_if = [](bool is_given, const std::string &why) {
+    if (is_given) refuse_usage(why);
   };
-  refuse_if(!options.pictures.empty(), "--picture", "a picture needs the whole mesh");
-  refuse_if(!options.series.movie.empty(), "--movie", "a movie needs the whole mesh");
-  refuse_if(options.at_cells, "--cells", "cells at the border of a piece have neighbours in another piece");
-  refuse_if(options.n_steps > 0, "--steps", "steps are timed in the whole mesh");
-  refuse_if(options.mark_options.search == RIIS_SEARCH_PAPER, "--search paper",
-            "this search walks through the whole mesh");
-}
-
-// If there is no series, refuses the options that have an effect only in a series.
-void check_one_time(const MarkOptions &options) {
-  const SeriesOptions &series = options.series;
-  const auto refuse_if = [&](bool is_given, const std::string &option) {
-    if (is_given) refuse_usage(option + " needs times: " + series.case_file + " has none, and --times is not given");
+  const auto needs_times = [&](bool is_given, const std::string &option) {
+    refuse_if(is_given && !all.is_series(),
+              option + " needs times: " + options.series.case_file + " has none, and --times is not given");
   };
-  refuse_if(!series.movie.empty(), "--movie");
-  refuse_if(!series.table.empty(), "--series-table");
-  refuse_if(series.all_cells && !options.at_cells, "--all-cells");
-}
-
-// Refuses --first-passage for several valves, and for a valve that cannot open.
-void check_first_passage(const Case &all) {
-  if (!all.options.first_passage) return;
-  if (!all.valves[0].options.surface.empty())
-    refuse_usage("--first-passage needs a valve, because a surface from a file does not open");
-  if (all.valves.size() > 1)
-    refuse_usage(
-        "--first-passage takes one valve, because one of several valves may close the passage through another");
+  needs_times(!options.series.movie.empty(), "--movie");
+  needs_times(!options.series.table.empty(), "--series-table");
+  needs_times(options.series.all_cells && !options.at_cells, "--all-cells");
+  if (options.first_passage) {
+    refuse_if(!all.valves[0].options.surface.empty(),
+              "--first-passage needs a valve, because a surface from a file does not open");
+    refuse_if(all.valves.size() > 1,
+              "--first-passage takes one valve, because one of several valves may close the passage through another");
+  }
+  if (!is_in_pieces(options.mesh)) return;
+  const std::string in_pieces = ", and " + options.mesh + " is read in pieces";
+  refuse_if(!options.pictures.empty(), "--picture: a picture needs the whole mesh" + in_pieces);
+  refuse_if(!options.series.movie.empty(), "--movie: a movie needs the whole mesh" + in_pieces);
+  refuse_if(options.at_cells, "--cells: cells at the border of a piece have neighbours in another piece" + in_pieces);
+  refuse_if(options.n_steps > 0, "--steps: steps are timed in the whole mesh" + in_pieces);
+  refuse_if(options.mark_options.search == RIIS_SEARCH_PAPER,
+            "--search paper: this search walks through the whole mesh" + in_pieces);
 }
 
 MeshFile part_of(const riis_vtk_mesh *file, const std::vector<std::int64_t> &node_ids) {
@@ -75,11 +67,7 @@ StepTimes time_steps(const MarkOptions &options, const riis_valve *valve, const 
   const Stage stage("timing " + std::to_string(options.n_steps) + " steps", options.quiet);
   const riis_mark_options &how = options.mark_options;
   FileNodes nodes(file, options.mesh);
-  std::optional<FileNodes::Lent> lent;
-  if (needs_adjacency(how.search)) {
-    nodes.find_neighbors(how.n_threads);
-    lent.emplace(nodes);
-  }
+  if (needs_adjacency(how.search)) nodes.find_neighbors(how.n_threads);
   const Valve moved = copy_of(valve);
   const auto surface = create<Surface>(riis_surface_create, moved, &options.surface_options);
   const Marks result = new_result();
@@ -118,27 +106,35 @@ class MarkingRun {
         report_(marking_.report()),
         files_(all, mesh),
         surfaces_(all.is_series() ? all.options.surface_output : "", ".vtp", times_.size()),
+        table_(all.options.series.table, csv_head_of(report_), ""),
         seconds_(times_.size()) {}
 
   // Returns whether all steps are complete. A signal stops a series.
   bool run() {
-    if (all_.options.mesh.empty()) {
-      write_surface();
-      draw(nullptr);
-      return true;
+    MeshFile drawn;
+    if (!all_.options.mesh.empty()) {
+      find_earlier();
+      if (!mesh_.is_whole()) begin_writing();
+      mesh_.for_each_own(
+          [&](Piece &piece) {
+            if (UnbrokenWrite::has_signal()) return;
+            marking_.measure(piece);
+            // Warnings about a whole mesh are printed before its files are written, because writing may take long.
+            if (mesh_.is_whole()) marking_.judge();
+            all_.is_series() ? write_steps(piece) : write(piece);
+            if (mesh_.is_whole()) drawn = std::move(piece.file);
+          },
+          &report_.seconds);
+      if (!mesh_.is_whole() && !finish_pieces()) return false;
     }
-    find_earlier();
-    if (!mesh_.is_whole()) begin_writing();
-    mesh_.for_each_own(
-        [&](Piece &piece) {
-          if (UnbrokenWrite::has_signal()) return;
-          marking_.measure(piece);
-          // Warnings about a whole mesh are printed before its files are written, because writing may take long.
-          if (mesh_.is_whole()) marking_.judge();
-          write(piece);
-        },
-        &report_.seconds);
-    return mesh_.is_whole() ? n_done_ == times_.size() : finish_pieces();
+    const bool has_steps = all_.is_series() && !all_.options.mesh.empty();
+    if (!has_steps) write_surface();
+    table_.finish();
+    files_.report(report_);
+    surfaces_.report(report_);
+    if (!all_.options.series.table.empty()) report_.written.push_back(all_.options.series.table);
+    if (!has_steps) draw(std::move(drawn));
+    return !has_steps || n_done_ == times_.size();
   }
 
   const Report &report() const { return report_; }
@@ -156,8 +152,8 @@ class MarkingRun {
   }
 
   void begin_writing() {
-    // In a series, a signal such as Ctrl-C takes effect at the end of a step. Even after a signal, the lists are therefore
-    // written and the movie's frames are removed.
+    // In a series, a signal such as Ctrl-C takes effect at the end of a step. Even after a signal, the movie's frames are
+    // therefore removed.
     if (all_.is_series()) unbroken_.emplace();
     if (ranks::is_first()) {
       files_.make_folder();
@@ -167,25 +163,19 @@ class MarkingRun {
   }
 
   void write(Piece &piece) {
-    if (all_.is_series()) return write_steps(piece);
-    if (piece.mesh) piece.mesh->forget_neighbors();
+    piece.nodes.release();
     if (all_.options.n_steps > 0)
       report_.step = time_steps(valves_[0].options(), valves_[0].source().valve, piece.file.get());
-    if (mesh_.is_whole()) write_surface();
     const Stage stage("writing", all_.options.quiet);
     files_.write(piece.number, 0, piece.file.get());
     report_.seconds.write += stage.seconds();
-    if (!mesh_.is_whole()) return;
-    files_.report(report_);
-    n_done_ = 1;
-    draw(std::move(piece.file));
   }
 
   void write_surface() {
     if (all_.options.surface_output.empty()) return;
     const Stage stage("writing", all_.options.quiet);
     const UnbrokenWrite unbroken;
-    const Surface joined = valves_.size() > 1 ? joined_surface(valves_) : nullptr;
+    const Surface joined = valves_.size() > 1 ? joined_surface(surfaces_of(valves_)) : nullptr;
     if (ranks::is_first())
       check(riis_vtk_surface_write(joined ? joined : valves_[0].surface(), all_.options.surface_output.c_str()));
     report_.written.push_back(all_.options.surface_output);
@@ -206,10 +196,12 @@ class MarkingRun {
 
   // Writes the piece's file for each time. If no valve comes near a piece, the piece has no files.
   void write_steps(Piece &piece) {
-    if (!mesh_.is_whole() && !(files_.is_wanted() && piece.mesh)) return;
-    if (!unbroken_) unbroken_.emplace();
+    if (mesh_.is_whole())
+      begin_writing();
+    else if (!files_.is_wanted() || piece.nodes.n() == 0)
+      return;
     const std::int64_t n_of_piece = piece.nodes.n();
-    piece.mesh.reset();
+    piece.nodes.release();
     MeshFile file =
         all_.options.series.all_cells ? std::move(piece.file) : part_of(piece.file.get(), marking_.near_nodes());
     std::optional<RunPictures> pictures;
@@ -219,39 +211,24 @@ class MarkingRun {
                        marking_.swept());
     piece.file.reset();
     FileNodes nodes(file.get(), piece.path);
-    if (mesh_.is_whole()) {
+    if (mesh_.is_whole())
       announce(nodes, file.get(), n_of_piece);
-      begin_writing();
-      lists_.emplace([this](bool is_last) { write_lists(is_last); });
-    } else if (nodes.n() == 0) {
+    else if (nodes.n() == 0)
       return;
-    }
-    try {
-      write_steps(piece.number, nodes, file.get(), pictures ? &*pictures : nullptr);
-    } catch (...) {
-      if (lists_) lists_->end();
-      throw;
-    }
-    if (!mesh_.is_whole()) return;
-    lists_->end();
-    if (pictures && !UnbrokenWrite::has_signal()) pictures->encode(report_);
-    report_files();
-  }
-
-  void write_steps(std::int64_t piece, FileNodes &nodes, riis_vtk_mesh *file, RunPictures *pictures) {
     StepProgress progress("writing", times_.size(), all_.options.quiet);
     for (std::size_t step = 0; step < times_.size() && !UnbrokenWrite::has_signal(); ++step) {
       progress.begin(step);
       const Stage stage("", true);
-      marking_.mark_step(nodes, file, step);
+      marking_.mark_step(nodes, file.get(), step);
       const double marking = stage.seconds();
-      files_.write(piece, step, file);
+      files_.write(piece.number, step, file.get());
       seconds_[step] += marking;
       report_.seconds.search += marking;
       report_.seconds.write += stage.seconds() - marking;
       if (mesh_.is_whole()) finish_step(step);
       if (pictures) pictures->draw(step, valves_, report_);
     }
+    if (pictures && !UnbrokenWrite::has_signal()) pictures->encode(report_);
   }
 
   // Prints the estimated size of all files. The first step's file gives the estimate.
@@ -268,32 +245,18 @@ class MarkingRun {
                files_.folder());
   }
 
-  // Writes the surfaces of a step, and notes that the step is complete. The valves must already be at this step.
+  // Writes the surfaces of a step, and lists its files. The valves must already be at this step.
   void finish_step(std::size_t step) {
-    for (std::size_t i = 0; surfaces_.is_wanted() && i < valves_.size(); ++i)
-      if (ranks::is_first())
-        check(riis_vtk_surface_write(valves_[i].surface(), surfaces_.path_of(step, all_.part_of(i)).c_str()));
-    const auto note = [&] {
-      files_.add(step);
-      for (std::size_t i = 0; i < valves_.size(); ++i) {
-        if (surfaces_.is_wanted()) surfaces_.add(times_[step], i, surfaces_.path_of(step, all_.part_of(i)));
-        report_.valves[i].times.push_back(
-            {times_[step], valves_[i].opening(), marking_.n_marked(step, i), valves_[i].largest_speed()});
-      }
-      report_.seconds_of_steps.push_back(seconds_[step]);
-    };
-    if (lists_)
-      lists_->add(note);
-    else
-      note();
+    files_.add(step);
+    for (std::size_t i = 0; i < valves_.size(); ++i) {
+      const std::string path = surfaces_.path_of(step, all_.part_of(i));
+      if (surfaces_.is_wanted() && ranks::is_first()) check(riis_vtk_surface_write(valves_[i].surface(), path.c_str()));
+      surfaces_.add(times_[step], i, path);
+      report_.valves[i].times.push_back(
+          {times_[step], valves_[i].opening(), marking_.n_marked(step, i), valves_[i].largest_speed()});
+    }
+    table_.add(csv_line_of(report_, seconds_[step]));
     ++n_done_;
-  }
-
-  void write_lists(bool is_last) const {
-    files_.write_list();
-    surfaces_.write_list();
-    const std::string &table = all_.options.series.table;
-    if (!table.empty() && (is_last || can_be_replaced(table))) write_text(table, csv_of(report_));
   }
 
   // Judges and lists the files. All ranks must have written their pieces. Returns whether all pieces are written.
@@ -303,29 +266,12 @@ class MarkingRun {
     const Stage stage("writing", all_.options.quiet);
     files_.list_pieces();
     report_.seconds.write += stage.seconds();
-    if (is_stopped) {
-      files_.write_list();
-      return false;
-    }
-    if (!all_.is_series()) {
-      write_surface();
-      report_files();
-      return true;
-    }
-    for (std::size_t step = 0; step < times_.size(); ++step) {
+    for (std::size_t step = 0; all_.is_series() && !is_stopped && step < times_.size(); ++step) {
       marking_.move_to_step(step);
       finish_step(step);
     }
     ranks::agree();
-    write_lists(true);
-    report_files();
-    return true;
-  }
-
-  void report_files() {
-    files_.report(report_);
-    surfaces_.report(report_);
-    if (!all_.options.series.table.empty()) report_.written.push_back(all_.options.series.table);
+    return !is_stopped;
   }
 
   Case &all_;
@@ -336,26 +282,11 @@ class MarkingRun {
   Report &report_;
   std::optional<UnbrokenWrite> unbroken_;  // lives until the summary is printed
   MarkedFiles files_;
-  SeriesFiles surfaces_;  // of a series
-  std::optional<SeriesLists> lists_;
+  SeriesFiles surfaces_;         // of a series
+  GrowingText table_;            // of a series
   std::vector<double> seconds_;  // of marking, by step
   std::size_t n_done_ = 0;       // number of complete steps
 };
-
-void write_report(const MarkOptions &options, const Report &report) {
-  write_stats(options, report);
-  if (!options.quiet && options.stats != "-") write_text("-", take_notes() + table_of(report));
-}
-
-}  // namespace
-
-Report mark_case(Case &all, const MeshPieces &mesh) {
-  MarkingRun run(all, mesh);
-  run.run();
-  return run.report();
-}
-
-namespace {
 
 // Returns whether the checks prove that no flow passes the valves.
 bool is_sealed(const Report &report) {
@@ -373,11 +304,20 @@ bool has_fault(const MarkOptions &options, const Report &report) {
   return (options.check_crossing && crosses) || (options.demand_sealed && !is_sealed(report));
 }
 
-ExitCode run_case(Case &all) {
+}  // namespace
+
+Report mark_case(Case &all, const MeshPieces &mesh) {
+  MarkingRun run(all, mesh);
+  run.run();
+  return run.report();
+}
+
+ExitCode run_mark(const MarkOptions &given) {
+  // The movie's options are checked before the case is read, because reading a case with many files takes long.
+  check_movie(given.series.movie);
+  Case all = given.series.case_file.empty() ? case_of_command_line(given) : read_case(given);
   MarkOptions &options = all.options;
-  if (!all.is_series()) check_one_time(options);
-  check_first_passage(all);
-  if (is_in_pieces(options.mesh)) check_options_of_pieces(options);
+  check_options(all);
   const MeshPieces mesh(options);
   std::optional<ranks::Alone> alone;  // only a mesh in pieces gives work to more than one rank
   if (mesh.is_whole()) {
@@ -390,24 +330,15 @@ ExitCode run_case(Case &all) {
   const OutputLocks locks = check_outputs(options, all.files);
   read_surfaces(all);
   MarkingRun run(all, mesh);
-  if (run.run()) {
-    write_report(options, run.report());
-  } else {
-    print_line("interrupted: " + (mesh.is_whole() ? std::to_string(run.n_done()) + " of " +
-                                                        std::to_string(all.times().size()) + " written"
-                                                  : "not all pieces are written"));
+  if (!run.run()) {
+    print_line("interrupted: " + std::to_string(run.n_done()) + " of " + std::to_string(all.times().size()) +
+               " written");
+    return exit_fine;  // the signal that was waiting then ends the process
   }
+  write_stats(options, run.report());
+  if (!options.quiet && options.stats != "-") write_text("-", take_notes() + table_of(run.report()));
   if (!options.mesh.empty() && !options.allow_none && !run.has_marks()) return exit_none_marked;
   return has_fault(options, run.report()) ? exit_warned : exit_fine;
-}
-
-}  // namespace
-
-ExitCode run_mark(const MarkOptions &options) {
-  // The movie's options are checked before the case is read, because reading a case with many files takes long.
-  check_movie(options.series.movie);
-  Case all = options.series.case_file.empty() ? case_of_command_line(options) : read_case(options);
-  return run_case(all);
 }
 
 }  // namespace riis::program

@@ -3,20 +3,74 @@
 
 #include <algorithm>
 #include <cstring>
+#include <tuple>
 
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
 
 #include "common/array_view.hpp"
+#include "common/elementary.hpp"
 #include "program/base/progress.hpp"
-#include "program/base/ranks.hpp"
 #include "program/base/refusal.hpp"
 #include "program/base/text.hpp"
 #include "program/input/mesh_reading.hpp"
 #include "program/mark/warnings.hpp"
 
 namespace riis::program {
+
+double distance_between(const double *p, const double *q) { return hypotenuse(p[0] - q[0], p[1] - q[1], p[2] - q[2]); }
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+FileNodes::FileNodes(const riis_vtk_mesh *file, std::string path)
+    : file_(file), path_(std::move(path)), axes_(get<riis_grid>(riis_vtk_mesh_get_axes, file)) {
+  check(riis_vtk_mesh_get_nodes(file, &n_, nullptr, is_grid() ? nullptr : &xyz_));
+  std::size_t axis = 0;
+  for (const void *const x : {axes_.x, axes_.y, axes_.z}) x_[axis++] = static_cast<const double *>(x);
+  mesh_ = is_grid() ? create_for<Mesh>(path_, riis_mesh_create_grid, &axes_)
+                    : create_for<Mesh>(path_, riis_mesh_create, n_, xyz_, xyz_ + 1, xyz_ + 2, 3);
+}
+
+void FileNodes::find_neighbors(std::int32_t n_threads) {
+  if (neighbors_ || is_grid()) return;
+  neighbors_ = create_for<Adjacency>(path_, riis_vtk_mesh_create_adjacency, file_, n_threads);
+  rows_ = get<riis_csr>(riis_adjacency_get_csr, neighbors_);
+  lend_neighbors(nullptr);
+}
+
+void FileNodes::release() {
+  mesh_.reset();
+  neighbors_.reset();
+}
+
+void FileNodes::lend_neighbors(const riis_csr *rows) {
+  if (!is_grid()) check(riis_mesh_set_adjacency(mesh_, rows ? rows : neighbors_ ? &rows_ : nullptr), path_);
+}
+
+double FileNodes::longest_edge(std::int64_t node) const {
+  double longest = 0;
+  for_each_neighbor(node, [&](std::int64_t other) {
+    longest = std::max(longest, distance_between(point(node).data(), point(other).data()));
+  });
+  return longest;
+}
+
+namespace {
+
+// Returns this process's free memory to the system. Without this call, the freed memory of large pieces would remain between the
+// shared nodes.
+void release_free_memory() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+}
+
+}  // namespace
 
 bool is_in_pieces(const std::string &mesh) { return has_ending(mesh, ".pvtu"); }
 
@@ -58,7 +112,8 @@ void MeshPieces::for_each_own(const std::function<void(Piece &)> &work, Seconds 
     const Stage stage("reading " + file_path, options_.quiet);
     MeshFile file = read(number);
     const double reading = stage.seconds();
-    auto piece = std::make_unique<Piece>(number, file_path, std::move(file), options_, is_whole_);
+    PieceNodes nodes(file, file_path, options_, is_whole_);
+    auto piece = std::make_unique<Piece>(Piece{number, file_path, std::move(file), std::move(nodes)});
     if (seconds) {
       seconds->read += reading;
       seconds->mesh += stage.seconds() - reading;
@@ -94,7 +149,7 @@ std::uint64_t mixed(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
-std::uint64_t hash_of(const NodePoints::Point &point, std::uint64_t seed) {
+std::uint64_t hash_of(const FileNodes::Point &point, std::uint64_t seed) {
   std::uint64_t hash = seed;
   for (int k = 0; k < 3; ++k) {
     const double x = view(point)[k] + 0.0;  // -0 becomes 0
@@ -108,69 +163,35 @@ std::uint64_t hash_of(const NodePoints::Point &point, std::uint64_t seed) {
 }  // namespace
 
 PieceNodes::PieceNodes(const riis_vtk_mesh *file, const std::string &path, const MarkOptions &how, bool is_whole)
-    : NodePoints(file), is_whole_(is_whole) {
+    : FileNodes(file, path), is_whole_(is_whole) {
   check(riis_vtk_mesh_get_nodes(file, nullptr, &counts_.n_cells, nullptr));
   if (is_whole_) {
     // The neighbours of all centres are known.
     std::int64_t *const n_left_out = how.at_cells ? nullptr : &counts_.n_cells_left_out;
     check(riis_vtk_mesh_get_volume_cells(file, &counts_.n_volume_cells, n_left_out));
-    find_box_and_moments();
-    return;
+  } else {
+    find_roles(file, path);
   }
+  // Of a grid, two opposite nodes give the box, and the box gives the size.
+  for (std::int64_t i = 0; i < n(); i += is_grid() ? std::max<std::int64_t>(n() - 1, 1) : 1) {
+    if (is_ghost(i)) continue;
+    const FileNodes::Point here = point(i);
+    box_.grow(here.data());
+    if (!is_grid()) moments_.add(here.data());
+  }
+}
+
+void PieceNodes::find_roles(const riis_vtk_mesh *file, const std::string &path) {
   role_.resize(static_cast<std::size_t>(n()));
-  riis_status status = riis_vtk_mesh_get_sharing(file, n(), role_.data(), nullptr, &counts_, sizeof counts_);
+  const riis_status status = riis_vtk_mesh_get_sharing(file, n(), role_.data(), nullptr, &counts_, sizeof counts_);
   if (status == RIIS_FILE_ERROR) refuse_data(path + ": " + riis_last_error());
   check(status);
   if (has_ids()) {
     ids_.resize(role_.size());
     check(riis_vtk_mesh_get_sharing(file, n(), role_.data(), ids_.data(), &counts_, sizeof counts_));
   }
-  find_box_and_moments();
   if (std::find(role_.begin(), role_.end(), RIIS_VTK_NODE_GHOST) == role_.end()) return;
-  mask_.resize(role_.size());
-  std::transform(role_.begin(), role_.end(), mask_.begin(),
-                 [](std::uint8_t role) { return static_cast<std::uint8_t>(role != RIIS_VTK_NODE_GHOST); });
-}
-
-namespace {
-
-// Returns the moments of a grid's nodes, computed from sums along the grid's axes.
-Moments moments_of(const riis_grid &axes) {
-  const std::array<std::int64_t, 3> sizes = {axes.ni, axes.nj, axes.nk};
-  const std::array<const void *, 3> x = {axes.x, axes.y, axes.z};
-  std::array<Moments, 3> along{};
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    for (std::int64_t i = 0; i < sizes[axis]; ++i) {
-      const double point[3] = {static_cast<const double *>(x[axis])[i], 0, 0};
-      along[axis].add(point);
-    }
-  Moments all;
-  all.n = along[0].n * along[1].n * along[2].n;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    all.sum[axis] = all.n / along[axis].n * along[axis].sum[0];
-    all.squares[axis] = all.n / along[axis].n * along[axis].squares[0];
-  }
-  all.squares[3] = along[0].sum[0] * along[1].sum[0] * along[2].n;
-  all.squares[4] = along[0].sum[0] * along[2].sum[0] * along[1].n;
-  all.squares[5] = along[1].sum[0] * along[2].sum[0] * along[0].n;
-  return all;
-}
-
-}  // namespace
-
-void PieceNodes::find_box_and_moments() {
-  if (axes()) {
-    box_.grow(point(0).data());
-    box_.grow(point(n() - 1).data());
-    moments_ = moments_of(*axes());
-    return;
-  }
-  for (std::int64_t i = 0; i < n(); ++i) {
-    if (is_ghost(i)) continue;
-    const NodePoints::Point here = point(i);
-    box_.grow(here.data());
-    moments_.add(here.data());
-  }
+  for (const std::uint8_t role : role_) mask_.push_back(role != RIIS_VTK_NODE_GHOST);
 }
 
 NodeKey PieceNodes::key(std::int64_t node) const {
@@ -178,11 +199,6 @@ NodeKey PieceNodes::key(std::int64_t node) const {
   const std::uint64_t first = hash_of(point(node), 0x243f6a8885a308d3);
   if (has_ids()) return {static_cast<std::uint64_t>(id(node)), first};
   return {first, hash_of(point(node), 0x13198a2e03707344)};
-}
-
-Piece::Piece(std::int64_t its_number, std::string its_path, MeshFile its_file, const MarkOptions &how, bool is_whole)
-    : number(its_number), path(std::move(its_path)), file(std::move(its_file)), nodes(file.get(), path, how, is_whole) {
-  if (is_whole || nodes.n() > 0) mesh.emplace(file.get(), path);
 }
 
 // ---- Counts ----
@@ -245,7 +261,7 @@ std::vector<SharedNode> shared_nodes_of(const Piece &piece, const std::vector<st
   for (std::int64_t i = 0; i < nodes.n(); ++i) {
     const std::int64_t region = regions.empty() ? -1 : view(regions)[i];
     if (nodes.is_shared(i))
-      shared.push_back({nodes.key(i), static_cast<std::int32_t>(region), static_cast<std::int32_t>(piece.number)});
+      shared.push_back({nodes.key(i), {static_cast<std::int32_t>(piece.number), static_cast<std::int32_t>(region)}});
   }
   return shared;
 }
@@ -265,18 +281,12 @@ std::vector<SharedNode> in_one_list(std::vector<std::vector<SharedNode>> by_piec
   return all;
 }
 
-// Distributes nodes among the ranks by their keys. Global ids are dense, so a hash of the id chooses the rank, and the ranks get
-// about equal numbers of nodes.
-template <class Node>
-std::vector<Node> shared_out(std::vector<Node> nodes) {
+// Distributes nodes among the ranks by `id`, the first part of a node's key. Global ids are dense, so a hash of the id chooses
+// the rank, and the ranks get about equal numbers of nodes.
+template <class Node, class Id>
+std::vector<Node> shared_out(std::vector<Node> nodes, const Id &id) {
   const auto n_ranks = static_cast<std::uint64_t>(ranks::n_ranks());
-  return ranks::exchange(std::move(nodes), [=](const Node &node) { return mixed(node.key[0]) % n_ranks; });
-}
-
-template <class T>
-void sort_unique(std::vector<T> &values) {
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
+  return ranks::exchange(std::move(nodes), [&](const Node &node) { return mixed(id(node)) % n_ranks; });
 }
 
 }  // namespace
@@ -284,9 +294,10 @@ void sort_unique(std::vector<T> &values) {
 MatchedNodes match_nodes(std::vector<std::vector<SharedNode>> by_piece, bool has_ids,
                          const std::vector<std::string> &files) {
   constexpr std::size_t few = 1 << 16;
-  std::vector<SharedNode> nodes = shared_out(in_one_list(std::move(by_piece)));
+  std::vector<SharedNode> nodes =
+      shared_out(in_one_list(std::move(by_piece)), [](const SharedNode &node) { return node.key[0]; });
   std::sort(nodes.begin(), nodes.end(), [](const SharedNode &p, const SharedNode &q) {
-    return std::tie(p.key, p.piece, p.region) < std::tie(q.key, q.piece, q.region);
+    return std::tie(p.key, p.where) < std::tie(q.key, q.where);
   });
   MatchedNodes own;
   std::size_t n_kept = few;
@@ -294,17 +305,17 @@ MatchedNodes match_nodes(std::vector<std::vector<SharedNode>> by_piece, bool has
     const SharedNode &first = nodes[begin];
     bool in_several = false;
     for (end = begin + 1; end < nodes.size() && nodes[end].key == first.key; ++end) {
-      const SharedNode &before = nodes[end - 1], &node = nodes[end];
-      in_several |= node.piece != before.piece;
-      if (node.region < 0 || before.region < 0) continue;
-      const PieceRegion p{before.piece, before.region}, q{node.piece, node.region};
-      const JoinedRegions joined{p, q};
-      if (!(p == q) && (own.joined.empty() || !(own.joined.back() == joined))) own.joined.push_back(joined);
+      const JoinedRegions joined{nodes[end - 1].where, nodes[end].where};
+      const auto &[p, q] = joined;
+      in_several |= p[0] != q[0];
+      if (p[1] < 0 || q[1] < 0 || p == q) continue;
+      if (own.joined.empty() || own.joined.back() != joined) own.joined.push_back(joined);
     }
     if (has_ids && end < nodes.size() && nodes[end].key[0] == first.key[0])
       refuse_data(
           "the node with the global id " + std::to_string(static_cast<std::int64_t>(first.key[0])) +
-          " is at one place in " + view(files)[first.piece] + " and at another in " + view(files)[nodes[end].piece] +
+          " is at one place in " + view(files)[first.where[0]] + " and at another in " +
+          view(files)[nodes[end].where[0]] +
           "; on each rank, dolfinx writes the nodes of a function with other last digits: use VTKFile.write_mesh");
     ++own.n_nodes;
     own.n_in_several += in_several;
@@ -314,9 +325,7 @@ MatchedNodes match_nodes(std::vector<std::vector<SharedNode>> by_piece, bool has
     }
   }
   sort_unique(own.joined);
-  MatchedNodes all{ranks::sum(own.n_nodes), ranks::sum(own.n_in_several), ranks::gather(own.joined)};
-  sort_unique(all.joined);
-  return all;
+  return {ranks::sum(own.n_nodes), ranks::sum(own.n_in_several), gathered(own.joined)};
 }
 
 std::int64_t MatchedNodes::n_joins() const {
@@ -333,8 +342,7 @@ void LooseNodes::add(const PieceNodes &nodes) {
 }
 
 void LooseNodes::check(const MeshPieces &mesh) const {
-  std::vector<NodeKey> keys = ranks::gather(keys_);
-  sort_unique(keys);
+  const std::vector<NodeKey> keys = gathered(keys_);
   if (keys.empty()) return;
   std::int64_t n = 0;
   mesh.for_each_own([&](const Piece &piece) {
@@ -348,25 +356,19 @@ void LooseNodes::check(const MeshPieces &mesh) const {
                 "points of its own cells");
 }
 
-void release_free_memory() {
-#ifdef __GLIBC__
-  malloc_trim(0);
-#endif
-}
-
 void NodeCounts::add(const PieceNodes &nodes, const riis_mark_list &list, std::size_t kind) {
   for (std::int64_t i = 0; i < list.n_nodes; ++i) {
     const std::int64_t node = list.node_id[i];
     n_inside_.at(kind) += nodes.is_inside(node);
-    if (nodes.is_shared(node)) shared_.push_back({nodes.key(node), kind});
+    if (nodes.is_shared(node)) shared_.push_back({kind, nodes.key(node)[0], nodes.key(node)[1]});
   }
 }
 
 std::vector<std::int64_t> NodeCounts::sums() const {
-  std::vector<SharedKind> shared = shared_out(shared_);
+  std::vector<SharedKind> shared = shared_out(shared_, [](const SharedKind &node) { return node[1]; });
   sort_unique(shared);
   std::vector<std::int64_t> own = n_inside_, sums(n_inside_.size());
-  for (const SharedKind &node : shared) ++own.at(node.kind);
+  for (const SharedKind &node : shared) ++own.at(node[0]);
   const std::vector<std::int64_t> all = ranks::gather(own);
   for (std::size_t i = 0; i < all.size(); ++i) sums[i % sums.size()] += all[i];
   return sums;

@@ -14,18 +14,77 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "common/sets.hpp"
 #include "program/base/handles.hpp"
 #include "program/base/options.hpp"
+#include "program/base/ranks.hpp"
 #include "program/base/units.hpp"
-#include "program/mark/mesh_marking.hpp"
 #include "program/output/report.hpp"
 
 namespace riis::program {
+
+double distance_between(const double *p, const double *q);
+// Returns the value in the middle, or the upper one of two such values.
+double median(std::vector<double> values);
+
+// The nodes of a mesh file as the library takes them, and the neighbours of each node. A rectilinear grid has only the
+// coordinates along its axes, and the library computes its neighbours.
+class FileNodes {
+ public:
+  using Point = std::array<double, 3>;
+
+  // The file must outlive this object. Refusals call the file by `path`.
+  FileNodes(const riis_vtk_mesh *file, std::string path);
+
+  std::int64_t n() const { return n_; }
+  riis_mesh *mesh() const { return mesh_.get(); }
+  bool is_grid() const { return axes_.ni > 0; }
+  Point point(std::int64_t node) const {
+    if (xyz_) return {xyz_[3 * node], xyz_[3 * node + 1], xyz_[3 * node + 2]};
+    const std::int64_t layer = node / axes_.ni;
+    return {x_[0][node % axes_.ni], x_[1][layer % axes_.nj], x_[2][layer / axes_.nj]};
+  }
+
+  // Finds the neighbours of all nodes if they are not known yet, and gives them to the library's mesh.
+  void find_neighbors(std::int32_t n_threads);
+  // Frees the library's mesh and the neighbours.
+  void release();
+  // Gives the library's mesh other neighbours. With NULL, the mesh gets back the neighbours that it had before.
+  void lend_neighbors(const riis_csr *rows);
+  // Both functions below need the neighbours of the nodes.
+  template <class Visit>
+  void for_each_neighbor(std::int64_t node, const Visit &visit) const {
+    if (is_grid()) {
+      std::int64_t stride = 1;
+      for (const std::int64_t n : {axes_.ni, axes_.nj, axes_.nk}) {
+        const std::int64_t i = node / stride % n;
+        if (i > 0) visit(node - stride);
+        if (i + 1 < n) visit(node + stride);
+        stride *= n;
+      }
+      return;
+    }
+    const auto *offsets = static_cast<const std::int64_t *>(rows_.offsets);
+    for (std::int64_t k = offsets[node]; k < offsets[node + 1]; ++k)
+      visit(rows_.column_bits == 64 ? static_cast<const std::int64_t *>(rows_.columns)[k]
+                                    : static_cast<const std::int32_t *>(rows_.columns)[k]);
+  }
+  double longest_edge(std::int64_t node) const;
+
+ private:
+  const riis_vtk_mesh *file_;
+  std::string path_;
+  std::int64_t n_ = 0;
+  const double *xyz_ = nullptr;  // NULL if there are axes
+  riis_grid axes_;
+  const double *x_[3];
+  Adjacency neighbors_;
+  riis_csr rows_{};
+  Mesh mesh_;
+};
 
 using PieceList = Handle<riis_vtk_pieces, riis_vtk_pieces_destroy>;
 
@@ -76,7 +135,7 @@ using NodeKey = std::array<std::uint64_t, 2>;
 // The nodes of one piece, and their keys. In a whole mesh, all nodes are inside, and the key of a node is its number. If a piece
 // has global ids, a key is the id and a hash of the coordinates. If a piece has no global ids, a key is a hash of the coordinates
 // with 128 bits. The probability that two of a billion nodes have equal hashes is below 1e-20.
-class PieceNodes : public NodePoints {
+class PieceNodes : public FileNodes {
  public:
   // `how` names the mesh to which the file belongs.
   PieceNodes(const riis_vtk_mesh *file, const std::string &path, const MarkOptions &how, bool is_whole);
@@ -90,7 +149,7 @@ class PieceNodes : public NodePoints {
   const std::uint8_t *mask() const { return mask_.empty() ? nullptr : mask_.data(); }
   const riis_vtk_sharing &counts() const { return counts_; }
   bool is_whole() const { return is_whole_; }
-  // The box and the moments leave out ghost nodes.
+  // The box and the moments leave out ghost nodes. A grid has no moments.
   const Box &box() const { return box_; }
   const Moments &moments() const { return moments_; }
   bool has_ids() const { return counts_.has_global_ids != 0; }
@@ -102,7 +161,7 @@ class PieceNodes : public NodePoints {
     return is_whole_ ? static_cast<std::uint8_t>(RIIS_VTK_NODE_INSIDE) : role_[static_cast<std::size_t>(node)];
   }
 
-  void find_box_and_moments();
+  void find_roles(const riis_vtk_mesh *file, const std::string &path);
 
   bool is_whole_;
   Box box_ = empty_box();
@@ -112,15 +171,12 @@ class PieceNodes : public NodePoints {
   riis_vtk_sharing counts_{};
 };
 
-// A piece in memory. Later members of the struct borrow from earlier members.
+// A piece in memory. The nodes borrow from the file.
 struct Piece {
-  Piece(std::int64_t its_number, std::string its_path, MeshFile its_file, const MarkOptions &how, bool is_whole);
-
   std::int64_t number;
   std::string path;
   MeshFile file;
   PieceNodes nodes;
-  std::optional<FileNodes> mesh;  // not set for a piece without nodes
 };
 
 // The numbers of a part of a mesh, such as the pieces of one rank. Nodes that pieces share are counted separately.
@@ -156,27 +212,32 @@ class JoinedSets {
   DisjointSets sets_{0};
 };
 
+template <class T>
+void sort_unique(std::vector<T> &values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+// Returns the elements of all ranks in ascending order, and each element only once.
+template <class T>
+std::vector<T> gathered(const std::vector<T> &own) {
+  std::vector<T> all = ranks::gather(own);
+  sort_unique(all);
+  return all;
+}
+
+// An open region of a piece: the number of the piece, and the region's number within the piece.
+using PieceRegion = std::array<std::int32_t, 2>;
+// Two regions in two pieces that have a common node.
+using JoinedRegions = std::array<PieceRegion, 2>;
+
 // A node of one piece that other pieces may also have.
 struct SharedNode {
   NodeKey key;
-  std::int32_t region;  // the node's open region, numbered within the piece, or -1
-  std::int32_t piece;
+  PieceRegion where;  // the region is -1 if the node is in no open region
 };
 
 // Returns the shared nodes of a piece. `regions` has the open region of each node, or is empty.
 std::vector<SharedNode> shared_nodes_of(const Piece &piece, const std::vector<std::int64_t> &regions);
-
-// An open region of a piece.
-struct PieceRegion {
-  std::int32_t piece, region;
-  bool operator<(const PieceRegion &other) const {
-    return std::tie(piece, region) < std::tie(other.piece, other.region);
-  }
-  bool operator==(const PieceRegion &other) const { return piece == other.piece && region == other.region; }
-};
-
-// Two regions in two pieces that have a common node.
-using JoinedRegions = std::array<PieceRegion, 2>;
 
 // The shared nodes of all pieces, each counted once.
 struct MatchedNodes {
@@ -207,10 +268,6 @@ class LooseNodes {
   std::vector<NodeKey> keys_;
 };
 
-// Returns this process's free memory to the system. Without this call, the freed memory of large pieces would remain between the
-// shared nodes.
-void release_free_memory();
-
 // Counts nodes of several kinds, such as the marked nodes at each time. Nodes inside a piece are counted when the piece is added.
 // Nodes that several pieces share are counted once, at the end.
 class NodeCounts {
@@ -221,12 +278,7 @@ class NodeCounts {
   std::vector<std::int64_t> sums() const;
 
  private:
-  struct SharedKind {
-    NodeKey key;
-    std::uint64_t kind;
-    bool operator<(const SharedKind &other) const { return std::tie(kind, key) < std::tie(other.kind, other.key); }
-    bool operator==(const SharedKind &other) const { return kind == other.kind && key == other.key; }
-  };
+  using SharedKind = std::array<std::uint64_t, 3>;  // the kind and the key of a shared node
   std::vector<std::int64_t> n_inside_;
   std::vector<SharedKind> shared_;
 };

@@ -2,17 +2,60 @@
 #include "program/mark/moving_valve.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 #include "common/array_view.hpp"
 #include "common/elementary.hpp"
 #include "program/base/refusal.hpp"
 #include "program/mark/crossings.hpp"
-#include "program/mark/mesh_marking.hpp"
 #include "program/mark/warnings.hpp"
 
 namespace riis::program {
+
+Marks new_result() { return create<Marks>(riis_marks_create); }
+
+Marks marks_of(const riis_surface *surface, riis_mesh *mesh, const riis_mark_options &how) {
+  Marks marks = new_result();
+  check(riis_mark_nodes(surface, mesh, &how, marks));
+  return marks;
+}
+
+riis_mark_options how_to_mark_again(const MarkOptions &options, double limit) {
+  riis_mark_options how = options.mark_options;
+  how.search = RIIS_SEARCH_AUTO;
+  how.distance_limit = limit;
+  return how;
+}
+
+bool needs_adjacency(int32_t search) { return search == RIIS_SEARCH_NEIGHBOR || search == RIIS_SEARCH_PAPER; }
+
+void ResistanceSum::add(const MarkOptions &options, const riis_marks *result) {
+  if (!options.resistance) return;
+  has_any_ = true;
+  K_.resize(static_cast<std::size_t>(n_nodes_));
+  if (has_velocities_) K_u_surface_.resize(3 * static_cast<std::size_t>(n_nodes_));
+  K_unit_ = options.K_unit;
+  K_u_surface_unit_ = options.K_u_surface_unit;
+  auto how = defaults<riis_resistance>();
+  how.R = *options.resistance * options.K_factor;
+  auto to = defaults<riis_resistance_arrays>();
+  to.n_nodes = n_nodes_;
+  to.K = K_.data();
+  for (int c = 0; c < 3 && !K_u_surface_.empty(); ++c) to.K_u_surface[c] = K_u_surface_.data() + c;
+  to.K_u_surface_stride = 3;
+  check(riis_marks_add_resistance(result, &how, &to), "--resistance");
+}
+
+void ResistanceSum::set_arrays(const std::string &prefix, riis_vtk_mesh *file) const {
+  if (!has_any_) return;
+  const auto set = [&](const std::string &name, std::int64_t n_components, const std::vector<double> &values,
+                       const std::string &unit) {
+    check(riis_vtk_mesh_set_point_array(file, name.c_str(), n_nodes_, n_components, values.data()));
+    if (!unit.empty()) check(riis_vtk_mesh_set_unit(file, name.c_str(), unit.c_str()));
+  };
+  set(prefix + "_K", 1, K_, K_unit_);
+  if (!K_u_surface_.empty()) set(prefix + "_K_u_surface", 3, K_u_surface_, K_u_surface_unit_);
+}
 
 MovingValve::MovingValve(ValveSource &source, double time, bool moves) : source_(source), result_(new_result()) {
   is_at_rest_ = !moves || (!source.keyframes && (!source.valve || (source.law.is_constant() && !source.warp.moves())));
@@ -54,11 +97,7 @@ void MovingValve::move_to(double time, std::optional<double> since) {
 void MovingValve::mark(FileNodes &nodes, int32_t fields) {
   riis_mark_options how = options().mark_options;
   how.fields = fields;
-  std::optional<FileNodes::Lent> lent;
-  if (needs_adjacency(how.search)) {
-    nodes.find_neighbors(how.n_threads);
-    lent.emplace(nodes);
-  }
+  if (needs_adjacency(how.search)) nodes.find_neighbors(how.n_threads);
   check(riis_mark_nodes(surface_, nodes.mesh(), &how, result_), options().mesh);
 }
 
@@ -84,7 +123,7 @@ void rehearse_marking(const MarkOptions &options, const riis_surface *surface) {
   dense.n_nodes = 1;
   dense.far_distance = options.far_distance;
   check(riis_marks_get_dense(result, &dense));
-  ResistanceSum(1, ResistanceSum::WithVelocity::no).add(options, result);
+  ResistanceSum(1, false).add(options, result);
 }
 
 }  // namespace
@@ -140,25 +179,37 @@ riis_surface_arrays JoinedTriangles::arrays() const {
   return arrays;
 }
 
-int32_t n_leaflets_of(const riis_surface *surface) {
-  const riis_triangles triangles = triangles_of(surface);
-  const int32_t *const end = triangles.leaflet_id + triangles.n_triangles;
-  return triangles.n_triangles > 0 ? *std::max_element(triangles.leaflet_id, end) + 1 : 0;
-}
-
-std::vector<int32_t> first_leaflets(const std::vector<MovingValve> &valves) {
+std::vector<int32_t> first_leaflets(const std::vector<const riis_surface *> &surfaces) {
   std::vector<int32_t> first = {0};
-  for (const MovingValve &valve : valves) first.push_back(first.back() + n_leaflets_of(valve.surface()));
+  for (const riis_surface *const surface : surfaces) {
+    const riis_triangles triangles = triangles_of(surface);
+    const int32_t *const ids = triangles.leaflet_id, *const end = ids + triangles.n_triangles;
+    first.push_back(first.back() + (ids == end ? 0 : *std::max_element(ids, end) + 1));
+  }
   return first;
 }
 
-Surface joined_surface(const std::vector<MovingValve> &valves, const riis_surface_options *options) {
+Surface joined_surface(const std::vector<const riis_surface *> &surfaces, const riis_surface_options &how,
+                       double skirt_length) {
   JoinedTriangles joined;
-  const std::vector<int32_t> first = first_leaflets(valves);
-  for (std::size_t valve = 0; valve < valves.size(); ++valve)
-    joined.add(triangles_of(valves[valve].surface()), first[valve]);
-  const riis_surface_arrays arrays = joined.arrays();
-  return create<Surface>(riis_surface_create_from_arrays, &arrays, options);
+  const std::vector<int32_t> first = first_leaflets(surfaces);
+  for (std::size_t i = 0; i < surfaces.size(); ++i) joined.add(triangles_of(surfaces[i]), first[i]);
+  riis_surface_arrays arrays = joined.arrays();
+  arrays.skirt_length = skirt_length;
+  return create<Surface>(riis_surface_create_from_arrays, &arrays, &how);
+}
+
+riis_surface_options with_band_of(const riis_surface *surface) {
+  auto how = defaults<riis_surface_options>();
+  how.half_thickness = info_of(surface).half_thickness;
+  how.offset = info_of(surface).offset;
+  return how;
+}
+
+std::vector<const riis_surface *> surfaces_of(const std::vector<MovingValve> &valves) {
+  std::vector<const riis_surface *> surfaces;
+  for (const MovingValve &valve : valves) surfaces.push_back(valve.surface());
+  return surfaces;
 }
 
 }  // namespace riis::program

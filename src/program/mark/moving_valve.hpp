@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One valve of a run, with its marks and its surface at the present time, which may have velocities.
+// One valve of a run, with its marks and its surface at the present time, which may have velocities. Marks by any surface, and
+// their arrays.
 #pragma once
 
 #include <riis/riis.h>
@@ -13,9 +14,33 @@
 #include "program/base/handles.hpp"
 #include "program/input/case.hpp"
 #include "program/input/valve_source.hpp"
-#include "program/mark/mesh_marking.hpp"
+#include "program/mark/mesh_pieces.hpp"
 
 namespace riis::program {
+
+Marks new_result();
+// Marks the nodes of a mesh by a surface.
+Marks marks_of(const riis_surface *surface, riis_mesh *mesh, const riis_mark_options &how);
+// Returns options for marks by a surface that the user did not choose. Any search is allowed, and distances go up to a limit.
+riis_mark_options how_to_mark_again(const MarkOptions &options, double limit = RIIS_AUTO);
+
+bool needs_adjacency(int32_t search);
+
+// K and K u_surface at every node. Each of the two fields is a sum over the valves that have a resistance.
+class ResistanceSum {
+ public:
+  ResistanceSum(int64_t n_nodes, bool has_velocities) : n_nodes_(n_nodes), has_velocities_(has_velocities) {}
+  void add(const MarkOptions &options, const riis_marks *result);
+  // Sets PREFIX_K and PREFIX_K_u_surface. If no valve had a resistance, sets no array.
+  void set_arrays(const std::string &prefix, riis_vtk_mesh *file) const;
+
+ private:
+  int64_t n_nodes_;
+  bool has_velocities_;
+  std::vector<double> K_, K_u_surface_;
+  std::string K_unit_, K_u_surface_unit_;  // "" if not known
+  bool has_any_ = false;
+};
 
 class MovingValve {
  public:
@@ -74,14 +99,15 @@ class JoinedTriangles {
   std::vector<std::int32_t> leaflets_;
 };
 
-// The inputs are the surfaces of several valves. The result is one surface with the triangles of all valves. The leaflets of each
-// valve are numbered after the leaflets of the valves before it.
-
-// Returns the largest leaflet id plus one.
-int32_t n_leaflets_of(const riis_surface *surface);
 // For each valve, returns the number of its first leaflet in the joined surface. The last entry is the number of all leaflets.
-std::vector<int32_t> first_leaflets(const std::vector<MovingValve> &valves);
-// If `options` is NULL, the defaults apply.
-Surface joined_surface(const std::vector<MovingValve> &valves, const riis_surface_options *options = nullptr);
+std::vector<int32_t> first_leaflets(const std::vector<const riis_surface *> &surfaces);
+// Returns one surface with the triangles of all surfaces, and with a skirt if the length is not 0. The leaflets of each surface
+// are numbered after the leaflets of the surfaces before it.
+Surface joined_surface(const std::vector<const riis_surface *> &surfaces,
+                       const riis_surface_options &how = defaults<riis_surface_options>(), double skirt_length = 0);
+// Returns options with the half thickness and the offset of a surface.
+riis_surface_options with_band_of(const riis_surface *surface);
+// Returns the surfaces of valves at their present positions.
+std::vector<const riis_surface *> surfaces_of(const std::vector<MovingValve> &valves);
 
 }  // namespace riis::program

@@ -23,26 +23,9 @@ namespace {
 // Returns the coordinates of a point as the user wrote them.
 std::string text_of(const double *point) { return numbers_text(point, 3, " "); }
 
-// Refuses an end that is outside the mesh, and an end without a near node. If no node has a neighbour, `why_none` gives the
-// reason.
-void check_end(const MarkOptions &options, int end, const std::optional<PieceEnd> &nearest, const std::string &name,
-               const Box &box, const std::string &why_none) {
-  // A point inside a cell is at most one edge length away from a node of the cell. An end of the passage may be up to two edge
-  // lengths away from a node.
-  constexpr double edges_away = 2;
+[[noreturn]] void refuse_end(const MarkOptions &options, int end, const std::string &why) {
   const LeakCheck &asked = *options.check_leaks;
-  const double *const point = asked.point(end);
-  const auto refuse = [&](const std::string &why) {
-    asked.refuse((end == 0 ? "FROM, " : "TO, ") + text_of(point) + ", " + why);
-  };
-  if (!nearest) refuse("has no node near it: " + (why_none.empty() ? "no edge joins two nodes of the mesh" : why_none));
-  for (int k = 0; k < 3; ++k)
-    if (point[k] < box.lower[k] || point[k] > box.upper[k])
-      refuse("is outside the mesh, which goes from " + place_text(options, box.lower, nearest->longest_edge) + " to " +
-             place_text(options, box.upper, nearest->longest_edge));
-  if (nearest->distance > edges_away * nearest->longest_edge)
-    refuse("is outside the mesh: the nearest node, " + name + ", is " + shown(nearest->distance) +
-           " away, its longest edge " + shown(nearest->longest_edge));
+  asked.refuse((end == 0 ? "FROM, " : "TO, ") + text_of(asked.point(end)) + ", " + why);
 }
 
 // --quiet does not silence this warning, because the valve lets flow through.
@@ -67,35 +50,18 @@ void warn_of_passage(const MarkOptions &options, const PassageReport &report, co
                      : shown(found.distance) + " from it") +
          ". Either the points are beside " + surface + ", or " + surface +
          " does not stand between the points: give points on both sides, farther away");
-  else if (report.closing_half_thickness > 0 && opening == 0)
-    warn({{Cause::leaks, text + "at " + report.place,
-           ", and --half-thickness " + shortest(report.closing_half_thickness) +
-               (report.closing_skirt > 0 ? " or --skirt " + shortest(report.closing_skirt) : "") + " closes it"}});
+  else if (report.closing.half_thickness > 0 && opening == 0)
+    warn({{Cause::leaks, text + "at " + report.place, ", and " + text_of(report.closing) + "it"}});
   else
     warn(text + "at " + report.place + ", " +
          (has_offset ? "and a half thickness of " + shown(found.distance) + " closes it"
                      : shown(found.distance) + " from the surface"));
 }
 
-// Finds the widest passage in a whole mesh, by a call of the library.
-riis_passage passage_in(const Piece &piece, const MarkOptions &options, const riis_surface *surface,
-                        const PieceEnd (&ends)[2]) {
-  const riis_mark_options how = how_to_mark_again(options);
-  auto sets = defaults<riis_passage_ends>();
-  sets.n_from = sets.n_to = 1;
-  sets.from = &ends[0].node;
-  sets.to = &ends[1].node;
-  riis_passage passage;
-  const FileNodes::Lent lent(*piece.mesh);
-  const riis_status status = riis_find_passage(surface, piece.mesh->mesh(), &sets, &how, &passage, sizeof passage);
-  for (const auto &[argument, name] :
-       {std::pair<std::string, const char *>{"ends.from[0]", "FROM"}, {"ends.to[0]", "TO"}}) {
-    const std::string text = riis_last_error();
-    if (status == RIIS_INVALID_ARGUMENT && text.rfind(argument, 0) == 0)
-      options.check_leaks->refuse(name + text.substr(argument.size()));
-  }
-  check(status);
-  return passage;
+PassageNode node_of(const Piece &piece, std::int64_t node, double distance) {
+  PassageNode made{piece.nodes.key(node), piece.number, node, piece.nodes.id(node), {0, 0, 0}, distance};
+  std::copy_n(piece.nodes.point(node).data(), 3, made.point);
+  return made;
 }
 
 }  // namespace
@@ -116,22 +82,16 @@ namespace {
 struct Place {
   PieceRegion region;
   NodeKey key;
-  bool is_region() const { return region.piece >= 0; }
+  bool is_region() const { return region[0] >= 0; }
   bool operator<(const Place &other) const { return std::tie(region, key) < std::tie(other.region, other.key); }
 };
 
-struct PassageNode {
-  double distance, point[3];
-  std::int64_t id, piece;
-  NodeKey key;
+// Sorts nodes from far to near. If distances are equal, sorts by the id.
+bool operator<(const PassageNode &a, const PassageNode &b) {
+  return std::tie(b.distance, a.id, a.piece) < std::tie(a.distance, b.id, b.piece);
+}
 
-  // Sorts nodes from far to near. If distances are equal, sorts by the id.
-  bool operator<(const PassageNode &other) const {
-    return distance != other.distance ? distance > other.distance
-                                      : std::tie(id, piece) < std::tie(other.id, other.piece);
-  }
-};
-
+// A node that joins two places.
 struct Link {
   Place p, q;
   PassageNode node;
@@ -148,9 +108,8 @@ struct PlacedEnd {
 class PieceWays {
  public:
   PieceWays(const Piece &piece, const riis_mark_list &within, const Band &band, double limit)
-      : piece_(piece.number), nodes_(piece.nodes), edges_(*piece.mesh), sets_(nodes_.n()) {
-    const PieceNodes &nodes = piece.nodes;
-    resize(distance_, nodes.n());
+      : piece_(piece), nodes_(piece.nodes), sets_(nodes_.n()) {
+    resize(distance_, nodes_.n());
     std::fill(distance_.begin(), distance_.end(), std::numeric_limits<double>::infinity());
     for (std::int64_t i = 0; i < within.n_nodes; ++i) {
       const std::int64_t node = within.node_id[i];
@@ -159,39 +118,27 @@ class PieceWays {
       view(distance_)[node] = distance;
       near_.push_back(node);
     }
-    resize(is_open_, nodes.n());
-    for (std::int64_t i = 0; i < nodes.n(); ++i) view(is_open_)[i] = is_far(i) && !nodes.is_ghost(i);
-    for (std::int64_t i = 0; i < nodes.n(); ++i) {
-      if (!view(is_open_)[i]) continue;
-      edges_.for_each_neighbor(i, [&](std::int64_t j) {
-        if (j < i && view(is_open_)[j]) sets_.unite(i, j);
-      });
-    }
-    resize(region_, nodes.n());
-    resize(terminal_, nodes.n());
+    resize(is_open_, nodes_.n());
+    for (std::int64_t i = 0; i < nodes_.n(); ++i)
+      if (is_far(i)) open(i, [&](std::int64_t j) { sets_.unite(i, j); });
+    resize(region_, nodes_.n());
+    resize(terminal_, nodes_.n());
     std::fill(terminal_.begin(), terminal_.end(), -1);
-    for (std::int64_t i = 0; i < nodes.n(); ++i) {
-      view(region_)[i] = view(is_open_)[i] ? static_cast<std::int32_t>(sets_.root(i)) : -1;
-      if (nodes.is_shared(i)) add_terminal(i);
+    for (std::int64_t i = 0; i < nodes_.n(); ++i) {
+      view(region_)[i] = view(is_open_)[i] ? sets_.root(i) : -1;
+      if (nodes_.is_shared(i)) add_terminal(i);
     }
   }
 
-  void add_terminal(std::int64_t node) {
-    if (is_far(node))
-      view(terminal_)[sets_.root(node)] = node;
-    else
-      view(terminal_)[node] = node;
-  }
+  void add_terminal(std::int64_t node) { view(terminal_)[is_far(node) ? sets_.root(node) : node] = node; }
 
   Place place_of(std::int64_t node) const {
-    if (is_far(node)) return {{static_cast<std::int32_t>(piece_), view(region_)[node]}, {0, 0}};
-    return {{-1, -1}, nodes_.key(node)};
+    if (!is_far(node)) return {{-1, -1}, nodes_.key(node)};
+    return {{static_cast<std::int32_t>(piece_.number), static_cast<std::int32_t>(view(region_)[node])}, {0, 0}};
   }
 
-  PassageNode passage_node(std::int64_t node) const {
-    PassageNode made{view(distance_)[node], {0, 0, 0}, nodes_.id(node), piece_, nodes_.key(node)};
-    std::copy_n(nodes_.point(node).data(), 3, made.point);
-    return made;
+  PlacedEnd placed(std::int64_t end, std::int64_t node) const {
+    return {end, place_of(node), node_of(piece_, node, view(distance_)[node])};
   }
 
   void add_links(std::vector<Link> &links) {
@@ -199,123 +146,146 @@ class PieceWays {
       const double p = view(distance_)[a], q = view(distance_)[b];
       return p != q ? p > q : nodes_.id(a) < nodes_.id(b);
     });
-    for (const std::int64_t node : near_) {
-      if (nodes_.is_ghost(node)) continue;
-      view(is_open_)[node] = 1;
-      edges_.for_each_neighbor(node, [&](std::int64_t other) {
-        if (view(is_open_)[other]) unite(node, other, node, links);
-      });
-    }
+    for (const std::int64_t node : near_) open(node, [&](std::int64_t other) { unite(node, other, links); });
   }
 
-  // For each node, returns its region beyond the limit, or -1.
-  std::vector<std::int64_t> regions() const { return {region_.begin(), region_.end()}; }
+  // For each node, returns its region beyond the limit, or -1. A region has the number of its least node.
+  const std::vector<std::int64_t> &regions() const { return region_; }
 
  private:
   bool is_far(std::int64_t node) const { return std::isinf(view(distance_)[node]); }
 
-  void unite(std::int64_t a, std::int64_t b, std::int64_t node, std::vector<Link> &links) {
-    const std::int64_t p = view(terminal_)[sets_.root(a)], q = view(terminal_)[sets_.root(b)];
-    if (!sets_.unite(a, b)) return;
-    if (p >= 0 && q >= 0) links.push_back({place_of(p), place_of(q), passage_node(node)});
-    view(terminal_)[sets_.root(a)] = p >= 0 ? p : q;
+  // Opens a node that is no ghost, and calls `join` for each open neighbour.
+  template <class Join>
+  void open(std::int64_t node, const Join &join) {
+    if (nodes_.is_ghost(node)) return;
+    view(is_open_)[node] = 1;
+    nodes_.for_each_neighbor(node, [&](std::int64_t other) {
+      if (view(is_open_)[other]) join(other);
+    });
   }
 
-  std::int64_t piece_;
+  void unite(std::int64_t node, std::int64_t other, std::vector<Link> &links) {
+    const std::int64_t p = view(terminal_)[sets_.root(node)], q = view(terminal_)[sets_.root(other)];
+    if (!sets_.unite(node, other)) return;
+    if (p >= 0 && q >= 0) links.push_back({place_of(p), place_of(q), node_of(piece_, node, view(distance_)[node])});
+    view(terminal_)[sets_.root(node)] = p >= 0 ? p : q;
+  }
+
+  const Piece &piece_;
   const PieceNodes &nodes_;
-  const FileNodes &edges_;
   DisjointSets sets_;
   std::vector<double> distance_;    // infinite beyond the limit
   std::vector<std::int64_t> near_;  // the nodes within the limit
   std::vector<std::uint8_t> is_open_;
-  std::vector<std::int32_t> region_;    // the root of the node's region beyond the limit, or -1
+  std::vector<std::int64_t> region_;    // the root of the node's region beyond the limit, or -1
   std::vector<std::int64_t> terminal_;  // of a set's root: a shared node or an end in the set, or -1
 };
 
-PassageReport passage_at(const PassageNode &node, double half_thickness, const PieceEnd (&ends)[2]) {
-  PassageReport passage{{node.id, node.distance, {0, 0, 0}, 0, RIIS_PASSAGE_CLOSED, 0}};
-  std::copy_n(node.point, 3, passage.found.point);
-  if (node.distance > half_thickness) passage.found.state = RIIS_PASSAGE_OPEN;
-  for (const PieceEnd &end : ends) passage.is_end |= end.key == node.key;
-  return passage;
-}
+}  // namespace
 
-// Refuses an end of the passage that lies in the band.
-void check_end_is_open(const MarkOptions &options, const MeshPieces &mesh, const PieceEnd (&ends)[2],
-                       const PlacedEnd &placed, double half_thickness) {
-  if (placed.node.distance > half_thickness) return;
-  const PieceEnd &end = ends[placed.end];
-  options.check_leaks->refuse(
-      (placed.end == 0 ? "FROM is node " : "TO is node ") + std::to_string(end.id) + " of " +
-      view(mesh.files())[end.piece] + ", in the band: " +
-      (options.surface_options.offset == 0 ? "its distance to the surface, " : "the half thickness that marks it, ") +
-      shortest(placed.node.distance) + ", is at most the half thickness, " + shortest(half_thickness));
-}
-
-// Returns nothing if the passage is wider than the given limit.
-std::optional<PassageReport> passage_within(const MarkOptions &options, const MeshPieces &mesh,
-                                            const riis_surface *surface, const Band &band, const PieceEnd (&ends)[2],
-                                            double limit) {
-  const riis_mark_options how = how_to_mark_again(options, band.with(limit).reach());
+std::optional<PassageReport> PassageCheck::find_within(const riis_surface *surface, double limit) const {
+  const riis_surface_info info = info_of(surface);
+  const Band band{limit, info.offset};
+  const riis_mark_options how = how_to_mark_again(options_, band.reach());
   std::vector<Link> own_links;
   std::vector<PlacedEnd> own_ends;
   std::vector<std::vector<SharedNode>> shared;
   int has_ids = 0;
-  mesh.for_each_own([&](Piece &piece) {
-    if (!piece.mesh) return;
+  mesh_.for_each_own([&](Piece &piece) {
+    if (piece.nodes.n() == 0) return;
     has_ids = piece.nodes.has_ids();
-    piece.mesh->find_neighbors(how.n_threads);
-    const Marks marks = marks_of(surface, piece.mesh->mesh(), how);
-    const riis_mark_list within = list_of(marks, RIIS_LIST_WITHIN_LIMIT);
-    PieceWays ways(piece, within, band, limit);
+    piece.nodes.find_neighbors(how.n_threads);
+    const Marks marks = marks_of(surface, piece.nodes.mesh(), how);
+    PieceWays ways(piece, list_of(marks, RIIS_LIST_WITHIN_LIMIT), band, limit);
     for (int i = 0; i < 2; ++i) {
-      if (ends[i].piece != piece.number) continue;
-      ways.add_terminal(ends[i].node);
-      own_ends.push_back({i, ways.place_of(ends[i].node), ways.passage_node(ends[i].node)});
+      if (ends_[i].piece != piece.number) continue;
+      ways.add_terminal(ends_[i].node);
+      own_ends.push_back(ways.placed(i, ends_[i].node));
     }
     shared.push_back(shared_nodes_of(piece, ways.regions()));
     ways.add_links(own_links);
   });
   std::vector<PlacedEnd> placed = ranks::gather(own_ends);
-  std::sort(placed.begin(), placed.end(), [](const PlacedEnd &a, const PlacedEnd &b) { return a.end < b.end; });
-  const MatchedNodes matched = match_nodes(std::move(shared), ranks::sum(has_ids) > 0, mesh.files());
+  if (placed[0].end == 1) std::swap(placed[0], placed[1]);
+  const MatchedNodes matched = match_nodes(std::move(shared), ranks::sum(has_ids) > 0, mesh_.files());
   std::vector<Link> links = ranks::gather(own_links);
   std::sort(links.begin(), links.end(), [](const Link &a, const Link &b) { return a.node < b.node; });
-  for (const PlacedEnd &end : placed) check_end_is_open(options, mesh, ends, end, band.half_thickness);
   JoinedSets<Place> ways;
-  const auto are_joined = [&] { return ways.are_joined(placed[0].place, placed[1].place); };
   for (const auto &[p, q] : matched.joined) ways.unite({p, {0, 0}}, {q, {0, 0}});
+  const auto are_joined = [&] { return ways.are_joined(placed[0].place, placed[1].place); };
+  const PassageNode *found = nullptr;
   if (are_joined()) {
     // Both ends are the same node, or a path of nodes beyond the limit joins the ends.
     if (placed[0].place.is_region()) return std::nullopt;
-    return passage_at(placed[0].node, band.half_thickness, ends);
+    found = &placed[0].node;
   }
-  for (const Link &link : links) {
-    ways.unite(link.p, link.q);
-    if (are_joined()) return passage_at(link.node, band.half_thickness, ends);
+  for (auto link = links.begin(); !found && link != links.end(); ++link) {
+    ways.unite(link->p, link->q);
+    if (are_joined()) found = &link->node;
   }
-  return PassageReport{{-1, 0, {0, 0, 0}, 0, RIIS_PASSAGE_NONE, 0}};
+  PassageReport passage{{-1, 0, {0, 0, 0}, 0, RIIS_PASSAGE_NONE, 0}};
+  if (!found) return passage;
+  const bool is_open = found->distance > info.half_thickness;
+  passage.found = {found->id, found->distance, {}, 0, is_open ? RIIS_PASSAGE_OPEN : RIIS_PASSAGE_CLOSED, 0};
+  std::copy_n(found->point, 3, passage.found.point);
+  for (const PassageEnd &end : ends_) passage.is_end |= end.key == found->key;
+  return passage;
 }
 
-// Finds the widest passage in a mesh in pieces, as riis_find_passage does in a whole mesh.
-PassageReport find_passage(const MarkOptions &options, const MeshPieces &mesh, const riis_surface *surface,
-                           const PieceEnd (&ends)[2]) {
+// Finds the widest passage as riis_find_passage does in a whole mesh.
+PassageReport PassageCheck::find_in_pieces(const riis_surface *surface) const {
   const riis_surface_info info = info_of(surface);
   // An upper limit of the widths of passages: a band with this half thickness contains the two ends of every path.
   double farthest = 0;
-  for (const PieceEnd &end : ends)
+  for (const PassageEnd &end : ends_)
     for (int k = 0; k < 3; ++k)
       farthest = std::max({farthest, std::abs(end.point[k] - info.lower[k]), std::abs(end.point[k] - info.upper[k])});
   farthest = std::max(2 * farthest / (1 - std::abs(info.offset)), 2 * info.half_thickness);
   double growth = 2;
   for (double limit = 2 * info.half_thickness;; limit = std::min(limit * growth, farthest)) {
-    if (const auto found = passage_within(options, mesh, surface, {info.half_thickness, info.offset}, ends, limit))
-      return *found;
+    if (const auto found = find_within(surface, limit)) return *found;
     growth *= growth;
   }
 }
 
-}  // namespace
+PassageReport PassageCheck::find_in_whole(const riis_surface *surface) const {
+  const riis_mark_options how = how_to_mark_again(options_);
+  auto sets = defaults<riis_passage_ends>();
+  sets.n_from = sets.n_to = 1;
+  sets.from = &ends_[0].node;
+  sets.to = &ends_[1].node;
+  PassageReport passage;
+  mesh_.for_each_own([&](const Piece &piece) {
+    check(riis_find_passage(surface, piece.nodes.mesh(), &sets, &how, &passage.found, sizeof passage.found));
+  });
+  for (const PassageEnd &end : ends_) passage.is_end |= end.node == passage.found.node_id;
+  return passage;
+}
+
+PassageReport PassageCheck::find(const riis_surface *surface) const {
+  check_ends_are_open(surface);
+  return mesh_.is_whole() ? find_in_whole(surface) : find_in_pieces(surface);
+}
+
+// ---- The ends ----
+
+void PassageCheck::check_ends_are_open(const riis_surface *surface) const {
+  const riis_surface_info info = info_of(surface);
+  for (int end = 0; end < 2; ++end) {
+    const double *const point = ends_[end].point;
+    const auto mesh = create<Mesh>(riis_mesh_create, 1, point, point + 1, point + 2, 3);
+    const Marks marks = marks_of(surface, mesh, how_to_mark_again(options_));
+    const riis_mark_list marked = list_of(marks, RIIS_LIST_MARKED);
+    if (marked.n_nodes == 0) continue;
+    const double height = marked.height ? marked.height[0] : 0;
+    refuse_end(options_, end,
+               "is node " + names_[end] + ", in the band: " +
+                   (info.offset == 0 ? "its distance to the surface, " : "the half thickness that marks it, ") +
+                   shortest(Band{info.half_thickness, info.offset}.marking_thickness(marked.distance[0], height)) +
+                   ", is at most the half thickness, " + shortest(info.half_thickness));
+  }
+}
 
 void PassageCheck::add(const Piece &piece) {
   if (!options_.check_leaks) return;
@@ -326,45 +296,44 @@ void PassageCheck::add(const Piece &piece) {
     double least = 0;
     for (std::int64_t i = 0; i < nodes.n(); ++i) {
       const double away = distance_between(nodes.point(i).data(), asked);
-      if (nodes.is_ghost(i) || (found >= 0 && !(away < least)) || piece.mesh->longest_edge(i) == 0) continue;
+      if (nodes.is_ghost(i) || (found >= 0 && !(away < least)) || piece.nodes.longest_edge(i) == 0) continue;
       found = i;
       least = away;
     }
-    if (found < 0) continue;
-    PieceEnd made{nodes.key(found), {0, 0, 0}, least,          piece.mesh->longest_edge(found),
-                  piece.number,     found,     nodes.id(found)};
-    std::copy_n(nodes.point(found).data(), 3, made.point);
-    found_ends_[end].push_back(made);
+    if (found >= 0) found_ends_[end].push_back({node_of(piece, found, least), piece.nodes.longest_edge(found)});
   }
 }
 
-std::optional<PieceEnd> PassageCheck::nearest(int end, bool has_ids) const {
-  std::optional<PieceEnd> best;
-  const std::vector<PieceEnd> all = ranks::gather(found_ends_[end]);
-  const auto order = [&](const PieceEnd &node) {
+void PassageCheck::find_end(int end, const MeshCounts &counts, const std::string &unknown) {
+  // A point inside a cell is at most one edge length away from a node of the cell. An end of the passage may be up to two edge
+  // lengths away from a node.
+  constexpr double edges_away = 2;
+  const bool has_ids = counts.n_with_ids > 0;
+  const std::vector<PassageEnd> all = ranks::gather(found_ends_[end]);
+  if (all.empty())
+    refuse_end(options_, end,
+               "has no node near it: " + (unknown.empty() ? "no edge joins two nodes of the mesh" : unknown));
+  PassageEnd &best = ends_[end];
+  const auto order = [&](const PassageEnd &node) {
     return std::tuple(node.distance, has_ids ? node.id : 0, node.piece, node.id);
   };
-  for (const PieceEnd &node : all)
-    if (!best || order(node) < order(*best)) best = node;
-  for (const PieceEnd &node : all)
-    if (best->key == node.key) best->longest_edge = std::max(best->longest_edge, node.longest_edge);
-  return best;
+  best = *std::min_element(all.begin(), all.end(), [&](const auto &a, const auto &b) { return order(a) < order(b); });
+  for (const PassageEnd &node : all)
+    if (best.key == node.key) best.longest_edge = std::max(best.longest_edge, node.longest_edge);
+  names_[end] = std::to_string(best.id);
+  if (!has_ids && !mesh_.is_whole()) names_[end] += " of " + view(mesh_.files())[best.piece];
+  const double *const point = options_.check_leaks->point(end);
+  if (!counts.box.contains(point))
+    refuse_end(options_, end,
+               "is outside the mesh, which goes from " + place_text(options_, counts.box.lower, best.longest_edge) +
+                   " to " + place_text(options_, counts.box.upper, best.longest_edge));
+  if (best.distance > edges_away * best.longest_edge)
+    refuse_end(options_, end,
+               "is outside the mesh: the nearest node, " + names_[end] + ", is " + shown(best.distance) +
+                   " away, its longest edge " + shown(best.longest_edge));
 }
 
-PassageReport PassageCheck::find(const riis_surface *surface) const {
-  if (!mesh_.is_whole()) return find_passage(options_, mesh_, surface, ends_);
-  PassageReport passage;
-  mesh_.for_each_own([&](const Piece &piece) { passage.found = passage_in(piece, options_, surface, ends_); });
-  for (const PieceEnd &end : ends_) passage.is_end |= end.node == passage.found.node_id;
-  return passage;
-}
-
-double PassageCheck::longest_edge_at(const riis_passage &found, const MeshCounts &counts) const {
-  double longest = counts.median_edge;
-  if (mesh_.is_whole())
-    mesh_.for_each_own([&](const Piece &piece) { longest = piece.mesh->longest_edge(found.node_id); });
-  return longest;
-}
+// ---- Results ----
 
 riis_first_passage PassageCheck::first_of(const riis_valve *valve) const {
   const Valve moved = copy_of(valve);
@@ -378,27 +347,17 @@ void PassageCheck::judge(const riis_surface *surface, const riis_valve *valve, c
                          const MeshCounts &counts, Report &report) {
   if (!options_.check_leaks) return;
   const std::string unknown = why_unknown(report.valves[0].leaks, options_.mesh);
-  for (int end = 0; end < 2; ++end) {
-    const std::optional<PieceEnd> found = nearest(end, counts.n_with_ids > 0);
-    std::string node = found ? std::to_string(found->id) : "";
-    if (found && counts.n_with_ids == 0 && !mesh_.is_whole()) node += " of " + view(mesh_.files())[found->piece];
-    check_end(options_, end, found, node, counts.box, unknown);
-    ends_[end] = *found;
-  }
+  for (int end = 0; end < 2; ++end) find_end(end, counts, unknown);
   PassageReport passage = find(surface);
   const riis_passage &found = passage.found;
   // Unknown edges cannot close an open path, but they may make a path that the known edges do not have.
   passage.is_unknown = found.state != RIIS_PASSAGE_OPEN && !unknown.empty();
-  if (found.state == RIIS_PASSAGE_OPEN && !passage.is_end && unknown.empty()) {
-    passage.closing_half_thickness = closing_half_thickness(valve, found.distance, [&](double wanted) {
-      const riis_passage left = find(with_half_thickness(options_, valve, wanted).get()).found;
+  if (found.state == RIIS_PASSAGE_OPEN && !passage.is_end && unknown.empty())
+    passage.closing = closing_of(options_, surface, valve, found.distance, [&](const riis_surface *other) {
+      const riis_passage left = find(other).found;
       return left.state == RIIS_PASSAGE_CLOSED ? std::nullopt : std::optional(left.distance);
     });
-    passage.closing_skirt =
-        closing_skirt(options_, surface, passage.closing_half_thickness,
-                      [&](const riis_surface *with) { return find(with).found.state == RIIS_PASSAGE_CLOSED; });
-  }
-  if (found.node_id >= 0) passage.place = place_text(options_, found.point, longest_edge_at(found, counts));
+  if (found.node_id >= 0) passage.place = place_text(options_, found.point, counts.median_edge);
   warn_of_passage(options_, passage, name, valve ? opening_of(valve) : 0, unknown);
   report.passage = passage;
   if (options_.first_passage && unknown.empty()) report.valves[0].flow.first = first_of(valve);

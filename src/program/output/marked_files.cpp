@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "program/output/marked_files.hpp"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <chrono>
 #include <filesystem>
 #include <regex>
 #include <set>
 #include <system_error>
-#include <utility>
 
 #include "common/array_view.hpp"
 #include "common/xml_text.hpp"
@@ -87,11 +86,35 @@ void check_other_lists(const fs::path &list, const std::set<std::string> &remove
 
 }  // namespace
 
+void GrowingText::add(const std::string &line) {
+  const std::size_t at = text_.size();
+  text_ += line;
+  if (path_.empty() || !can_be_replaced(path_)) return;
+  if (at == n_head_) return write_text(path_, text_ + tail_);
+  if (!ranks::is_first()) return;
+  // One call replaces the old tail by the line and the new tail. If it fails, the old tail returns.
+  errno = ENOSPC;  // the reason if the system writes only a part
+  const int file = open(path_.c_str(), O_WRONLY | O_CLOEXEC);
+  const auto put = [&](const std::string &end) {
+    return pwrite(file, end.data(), end.size(), static_cast<off_t>(at)) == static_cast<ssize_t>(end.size());
+  };
+  const bool is_written = file >= 0 && put(line + tail_);
+  const int error = errno;
+  if (!is_written && file >= 0 && put(tail_)) (void)!ftruncate(file, static_cast<off_t>(at + tail_.size()));
+  if (file >= 0) close(file);
+  if (!is_written) refuse_data(path_ + ": cannot be written: " + system_text(error));
+}
+
+void GrowingText::finish() const {
+  if (!path_.empty() && !can_be_replaced(path_)) write_text(path_, text_ + tail_);
+}
+
 SeriesFiles::SeriesFiles(const std::string &pvd, const std::string &ending, std::size_t n_times)
     : pvd_(pvd),
       ending_(ending),
       n_times_(n_times),
-      n_digits_(std::max<std::size_t>(4, std::to_string(n_times - 1).size())) {
+      n_digits_(std::max<std::size_t>(4, std::to_string(n_times - 1).size())),
+      list_(pvd, list_of_riis + "  <Collection>\n", "  </Collection>\n</VTKFile>\n") {
   const fs::path path(pvd);
   stem_ = path.stem().string();
   folder_ = (path.parent_path() / stem_).string();
@@ -122,9 +145,8 @@ void SeriesFiles::find_earlier(const std::vector<std::string> &parts, bool has_p
     if (!step) continue;
     const bool has_my_form = (has_pieces && step->ending == ".vtu" && step->is_of_piece()) ||
                              (step->ending == ending_ && std::count(parts.begin(), parts.end(), step->part) > 0);
-    const auto number = number_in(step->digits);
-    const bool will_be_written = has_my_form && number && *number < static_cast<double>(n_times_) &&
-                                 step->digits == padded(static_cast<std::size_t>(*number), n_digits_);
+    const bool will_be_written =
+        has_my_form && step->digits.size() == n_digits_ && step->digits <= padded(n_times_ - 1, n_digits_);
     if (will_be_written) continue;
     const std::string in_list = in_xml(stem_ + "/" + name);
     if (listed.count(in_list) != 0 || (step->is_of_piece() && listed_digits.count(step->digits) != 0)) {
@@ -150,81 +172,22 @@ void SeriesFiles::make_folder() const {
   }
 }
 
-std::string SeriesFiles::path_of(std::size_t step, const std::string &part) const {
-  return folder_ + "/" + stem_ + "_" + (part.empty() ? "" : part + "_") + padded(step, n_digits_) + ending_;
+std::string SeriesFiles::path_of(std::size_t step, const std::string &part, const std::string &ending) const {
+  return folder_ + "/" + stem_ + "_" + (part.empty() ? "" : part + "_") + padded(step, n_digits_) + ending;
 }
 
 void SeriesFiles::add(double time, std::size_t part_number, const std::string &path) {
-  entries_.push_back({time, part_number, stem_ + "/" + fs::path(path).filename().string()});
-}
-
-void SeriesFiles::write_list() const {
-  if (entries_.empty()) return;
-  std::string text = list_of_riis + "  <Collection>\n";
-  for (const Entry &entry : entries_) {
-    text += "    <DataSet timestep=\"" + shortest(entry.time) + "\" part=\"" + std::to_string(entry.part_number) +
-            "\" file=\"" + in_xml(entry.name) + "\"/>\n";
-  }
-  write_text(pvd_, text + "  </Collection>\n</VTKFile>\n");
+  if (!is_wanted()) return;
+  list_.add("    <DataSet timestep=\"" + shortest(time) + "\" part=\"" + std::to_string(part_number) + "\" file=\"" +
+            in_xml(stem_ + "/" + fs::path(path).filename().string()) + "\"/>\n");
+  ++n_listed_;
 }
 
 void SeriesFiles::report(Report &report) const {
   if (!is_wanted()) return;
   const std::int64_t n_removed = view(earlier_).size();
-  report.written.push_back(pvd_ + ", " + counted(view(entries_).size(), "file") + " in " + folder_ +
+  report.written.push_back(pvd_ + ", " + counted(n_listed_, "file") + " in " + folder_ +
                            (n_removed > 0 ? "; " + counted(n_removed, "file") + " of an earlier run removed" : ""));
-}
-
-// ---- Series lists ----
-
-SeriesLists::SeriesLists(std::function<void(bool)> write) : write_(std::move(write)), thread_([this] { follow(); }) {}
-
-SeriesLists::~SeriesLists() { stop(); }
-
-void SeriesLists::add(const std::function<void()> &note) {
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    if (failure_) std::rethrow_exception(failure_);
-    note();
-    has_news_ = true;
-  }
-  changed_.notify_one();
-}
-
-void SeriesLists::end() {
-  stop();
-  write_(true);
-}
-
-// After each write, the thread pauses twenty times as long as the write took. Writing the lists therefore takes little of the
-// run's time.
-void SeriesLists::follow() {
-  using Clock = std::chrono::steady_clock;
-  constexpr Clock::duration longest_pause = std::chrono::milliseconds(500);
-  std::unique_lock<std::mutex> lock(mutex_);
-  try {
-    for (;;) {
-      changed_.wait(lock, [this] { return has_news_ || has_ended_; });
-      if (has_ended_) return;
-      has_news_ = false;
-      const Clock::time_point begin = Clock::now();
-      write_(false);
-      const Clock::duration pause = std::min(20 * (Clock::now() - begin), longest_pause);
-      if (changed_.wait_for(lock, pause, [this] { return has_ended_; })) return;
-    }
-  } catch (...) {
-    failure_ = std::current_exception();
-  }
-}
-
-void SeriesLists::stop() {
-  if (!thread_.joinable()) return;
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    has_ended_ = true;
-  }
-  changed_.notify_one();
-  thread_.join();
 }
 
 // ---- Marked files ----
@@ -236,8 +199,7 @@ MarkedFiles::MarkedFiles(const Case &all, const MeshPieces &mesh)
       is_whole_(mesh.is_whole()),
       is_foam_case_(is_series_ && program::is_foam_case(path_)),
       steps_(is_foam_case_ ? "" : path_, is_whole_ ? ".vtu" : ".pvtu",
-             is_series_ ? times_.size() : mesh.files().size()),
-      pieces_(path_, ".vtu", is_series_ ? times_.size() : mesh.files().size()) {}
+             is_series_ ? times_.size() : mesh.files().size()) {}
 
 void MarkedFiles::find_earlier() {
   if (has_list()) steps_.find_earlier({""}, !is_whole_);
@@ -250,8 +212,8 @@ void MarkedFiles::make_folder() const {
 std::string MarkedFiles::path_of(std::int64_t piece, std::size_t step) const {
   if (is_foam_case_) return foam_time(path_, times_[step]);
   if (is_whole_) return is_series_ ? steps_.path_of(step, "") : path_;
-  if (!is_series_) return pieces_.path_of(static_cast<std::size_t>(piece), "");
-  return pieces_.path_of(step, "p" + padded(static_cast<std::size_t>(piece), 4));
+  const auto number = static_cast<std::size_t>(piece);
+  return is_series_ ? steps_.path_of(step, "p" + padded(number, 4), ".vtu") : steps_.path_of(number, "", ".vtu");
 }
 
 void MarkedFiles::write(std::int64_t piece, std::size_t step, const riis_vtk_mesh *file) {
@@ -274,7 +236,7 @@ void MarkedFiles::add(std::size_t step) {
 
 void MarkedFiles::list_pieces() {
   if (!is_wanted()) return;
-  std::vector<Written> written = ranks::gather(written_);
+  auto written = ranks::gather(written_);
   std::sort(written.begin(), written.end());
   // The lists of a mesh in pieces name the arrays of a file that has nodes. The first rank that has a file with nodes writes the
   // lists.
@@ -282,23 +244,21 @@ void MarkedFiles::list_pieces() {
   const bool is_writer = std::find(have.begin(), have.end(), 1) - have.begin() == ranks::rank();
   const UnbrokenWrite unbroken;
   for (auto next = written.begin(); next != written.end();) {
-    const auto step = static_cast<std::size_t>(next->step);
+    const std::int64_t step = (*next)[0];
     std::vector<std::string> files;
     std::vector<const char *> names;
-    for (; next != written.end() && static_cast<std::size_t>(next->step) == step; ++next)
-      files.push_back(path_of(next->piece, step));
+    for (; next != written.end() && (*next)[0] == step; ++next)
+      files.push_back(path_of((*next)[1], static_cast<std::size_t>(step)));
     for (const std::string &file : files) names.push_back(file.c_str());
-    const std::string path = is_series_ ? steps_.path_of(step, "") : path_;
+    const std::string path = is_series_ ? steps_.path_of(static_cast<std::size_t>(step), "") : path_;
     if (is_writer) {
       check(riis_vtk_pieces_set_files(sample_, view(names).size(), names.data()));
       check(riis_vtk_pieces_write(sample_, path.c_str()));
     }
-    if (is_series_) steps_.add(times_[step], 0, path);
+    if (is_series_) steps_.add(view(times_)[step], 0, path);
   }
   ranks::agree();
 }
-
-void MarkedFiles::write_list() const { steps_.write_list(); }
 
 void MarkedFiles::report(Report &report) const {
   if (is_foam_case_)

@@ -3,14 +3,11 @@
 // or pieces.
 #pragma once
 
-#include <condition_variable>
+#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <exception>
-#include <functional>
-#include <mutex>
 #include <string>
-#include <thread>
+#include <utility>
 #include <vector>
 
 #include "program/input/case.hpp"
@@ -18,6 +15,22 @@
 #include "program/output/report.hpp"
 
 namespace riis::program {
+
+// A file whose text grows by lines during a run. After each line the text in the file is complete, so a killed process leaves a
+// complete text. Writing the whole text after each line would take longer than writing the meshes of a long series.
+class GrowingText {
+ public:
+  // The text begins with `head`, and ends with `tail` after each line. If the path is "", no text is written.
+  GrowingText(std::string path, std::string head, std::string tail)
+      : path_(std::move(path)), text_(std::move(head)), tail_(std::move(tail)), n_head_(text_.size()) {}
+  void add(const std::string &line);
+  // Writes the text to a device, to a pipe or to stdout, where lines cannot be inserted before the tail.
+  void finish() const;
+
+ private:
+  std::string path_, text_, tail_;
+  std::size_t n_head_;
+};
 
 // The files of the series cycle.pvd are cycle.pvd, cycle/cycle_0000.vtu, cycle/cycle_0001.vtu, ...
 class SeriesFiles {
@@ -39,55 +52,19 @@ class SeriesFiles {
   void make_folder() const;
   // Returns the path of a step's file. If a step has several files, `part`, the name of the valve, distinguishes these files. If
   // a step has one file, `part` is "".
-  std::string path_of(std::size_t step, const std::string &part) const;
-  // Adds a file to the list. The file must be complete.
+  std::string path_of(std::size_t step, const std::string &part) const { return path_of(step, part, ending_); }
+  std::string path_of(std::size_t step, const std::string &part, const std::string &ending) const;
+  // Adds a complete file to the list, and writes the list.
   void add(double time, std::size_t part_number, const std::string &path);
-  std::size_t n_written() const { return entries_.size(); }
-  // Writes the list of all complete files if there is at least one.
-  void write_list() const;
   // Adds the list to the report if the user wants a list.
   void report(Report &report) const;
 
  private:
-  struct Entry {
-    double time;
-    std::size_t part_number;
-    std::string name;  // the path relative to the .pvd
-  };
   std::string pvd_, folder_, stem_, ending_;
   std::size_t n_times_, n_digits_;
-  std::vector<Entry> entries_;
+  std::int64_t n_listed_ = 0;
+  GrowingText list_;
   std::vector<std::string> earlier_;  // files of an earlier run
-};
-
-// Writes the lists of a series within half a second after the series' files, even during a long step. If the process is killed,
-// its lists therefore name nearly all files. The lists are not written after every file, because writing a long list takes longer
-// than writing a file.
-
-class SeriesLists {
- public:
-  // The function `write` must write all lists. The thread of this object calls `write` with false, and end() calls it with true.
-  explicit SeriesLists(std::function<void(bool is_last)> write);
-  ~SeriesLists();
-  SeriesLists(const SeriesLists &) = delete;
-  SeriesLists &operator=(const SeriesLists &) = delete;
-
-  // Calls `note`, which adds files to the lists. During the call, the thread does not write the lists. If `write` has thrown an
-  // exception in the thread, the call throws the exception again.
-  void add(const std::function<void()> &note);
-  // Ends the thread, and writes the lists for the last time.
-  void end();
-
- private:
-  void follow();
-  void stop();
-
-  const std::function<void(bool)> write_;
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  bool has_news_ = false, has_ended_ = false;
-  std::exception_ptr failure_;
-  std::thread thread_;
 };
 
 // The files of the marked mesh. In a series, there is a file for each time. A mesh in pieces has a file for each piece, and for
@@ -108,24 +85,18 @@ class MarkedFiles {
   void add(std::size_t step);
   // Writes a .pvtu file for each time. All ranks must have written their pieces.
   void list_pieces();
-  void write_list() const;
   const std::string &folder() const { return steps_.folder(); }
   // Adds the written files to the report.
   void report(Report &report) const;
 
  private:
-  // A file that a rank has written.
-  struct Written {
-    std::int64_t step, piece;
-    bool operator<(const Written &other) const { return std::tie(step, piece) < std::tie(other.step, other.piece); }
-  };
   std::string path_of(std::int64_t piece, std::size_t step) const;
 
   const std::string path_;
   const std::vector<double> times_;
   const bool is_series_, is_whole_, is_foam_case_;
-  SeriesFiles steps_, pieces_;
-  std::vector<Written> written_;
+  SeriesFiles steps_;
+  std::vector<std::array<std::int64_t, 2>> written_;  // the step and the piece of each file of this rank
   PieceList sample_;  // with the arrays of this rank's first file that has nodes, if there is one
 };
 

@@ -185,7 +185,7 @@ void RunPictures::set_marks_of(std::vector<MovingValve> &valves) {
   }
   const std::int64_t n = valves[0].stats().n_nodes;
   JoinedMarks marks(static_cast<std::size_t>(n));
-  const std::vector<int32_t> first = first_leaflets(valves);
+  const std::vector<int32_t> first = first_leaflets(surfaces_of(valves));
   for (std::size_t valve = 0; valve < valves.size(); ++valve) marks.add(valves[valve].result(), first[valve]);
   check(riis_vtk_mesh_set_point_array(mesh_, "riis_marked", n, 1, marks.marked.data()));
   check(riis_vtk_mesh_set_point_array(mesh_, "riis_distance", n, 1, marks.distance.data()));
@@ -298,7 +298,7 @@ void RunPictures::draw(std::size_t step, std::vector<MovingValve> &valves, Repor
     for (const std::string &text : leaflet_texts_) leaflet_names_.push_back(text.c_str());
   }
   set_marks_of(valves);
-  const Surface joined = valves.size() > 1 ? joined_surface(valves) : nullptr;
+  const Surface joined = valves.size() > 1 ? joined_surface(surfaces_of(valves)) : nullptr;
   const riis_surface *surface = joined ? joined : valves[0].surface();
   const std::string text = title(step, valves, report);
   if (step == 0) draw_pictures(valves, text, surface, report);

@@ -2,7 +2,6 @@
 #include "program/output/report.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <iomanip>
 #include <locale>
 #include <nlohmann/json.hpp>
@@ -167,7 +166,7 @@ nlohmann::ordered_json json_of_passage(const PassageReport &passage) {
           {"node_id", found.node_id},
           {"distance", found.distance},
           {"point", found.point},
-          {"closing_half_thickness", if_known(passage.closing_half_thickness > 0, passage.closing_half_thickness)}};
+          {"closing_half_thickness", if_known(passage.closing.half_thickness > 0, passage.closing.half_thickness)}};
 }
 
 std::string after_blank(const std::string &unit) { return unit.empty() ? "" : " " + unit; }
@@ -341,7 +340,7 @@ void add_marks(const ValveReport &valve, nlohmann::ordered_json &json) {
                {"n_leaking_edges", if_known(are_known, leaks.found.n_edges)},
                {"longest_leaking_edge", if_known(are_known, leaks.found.longest_length)},
                {"longest_leaking_edge_middle", if_known(are_known, leaks.found.longest_middle)},
-               {"closing_half_thickness", if_known(leaks.closing_half_thickness > 0, leaks.closing_half_thickness)},
+               {"closing_half_thickness", if_known(leaks.closing.half_thickness > 0, leaks.closing.half_thickness)},
                {"n_volume_cells", leaks.n_volume_cells},
                {"n_cells_without_known_edges", leaks.n_cells_left_out},
                {"outside", valve.outside ? json_of_outside(*valve.outside) : nlohmann::ordered_json()}});
@@ -447,23 +446,23 @@ std::string table_of(const Report &report) {
   return out.str();
 }
 
-std::string csv_of(const Report &report) {
+std::string csv_head_of(const Report &report) {
   std::string text = "time";
   for (const ValveReport &valve : report.valves) {
     const std::string prefix = valve.name.empty() ? "" : valve.name + "_";
     text += "," + prefix + "opening," + prefix + "n_marked," + prefix + "largest_speed";
   }
-  text += ",seconds\n";
-  for (std::size_t step = 0; step < report.seconds_of_steps.size(); ++step) {
-    text += shortest(report.times[step]);
-    for (const ValveReport &valve : report.valves) {
-      const TimeReport &time = valve.times[step];
-      text += "," + (time.opening ? shortest(*time.opening) : "") + "," + std::to_string(time.n_marked) + "," +
-              shortest(time.largest_speed);
-    }
-    text += "," + shortest(report.seconds_of_steps[step]) + "\n";
+  return text + ",seconds\n";
+}
+
+std::string csv_line_of(const Report &report, double seconds) {
+  std::string text = shortest(report.valves[0].times.back().time);
+  for (const ValveReport &valve : report.valves) {
+    const TimeReport &time = valve.times.back();
+    text += "," + (time.opening ? shortest(*time.opening) : "") + "," + std::to_string(time.n_marked) + "," +
+            shortest(time.largest_speed);
   }
-  return text;
+  return text + "," + shortest(seconds) + "\n";
 }
 
 }  // namespace riis::program

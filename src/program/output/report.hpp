@@ -32,20 +32,24 @@ struct Seconds {
   double picture = 0;
 };
 
+// Lengths that close leaks, for the user to type. A length is 0 if none was found or needed.
+struct Closing {
+  double half_thickness = 0;
+  double skirt = 0;  // of a surface from a file
+};
+
 struct PassageReport {
   riis_passage found{};
-  bool is_end = false;                // true if the position is an end of the path, so that the passage may be wider
-  double closing_half_thickness = 0;  // for the user to type; 0: none was found, or the passage is closed
-  double closing_skirt = 0;           // likewise, for a surface from a file
-  std::string place{};                // the position, as text
+  bool is_end = false;  // true if the position is an end of the path, so that the passage may be wider
+  Closing closing{};
+  std::string place{};      // the position, as text
   bool is_unknown = false;  // true if the passage is closed along the known edges, but unknown edges may open it
 };
 
 struct LeakReport {
-  riis_leak_list found{};             // only its numbers are valid, not its pointers
-  std::vector<int64_t> edges;         // (2, found.n_edges), for a whole mesh
-  double closing_half_thickness = 0;  // for the user to type; 0 if none was found
-  double closing_skirt = 0;           // likewise, for a surface from a file
+  riis_leak_list found{};      // only its numbers are valid, not its pointers
+  std::vector<int64_t> edges;  // (2, found.n_edges), for a whole mesh
+  Closing closing{};
   int64_t n_volume_cells = 0;
   int64_t n_cells_left_out = 0;  // volume cells whose edges are not known
   bool is_near = true;           // whether a node of the mesh is marked
@@ -136,7 +140,6 @@ struct Report {
   std::optional<PassageReport> passage;  // set if two points are checked
   bool prints_flow = false;              // true if the table for people has the measures of the flow
   Seconds seconds;
-  std::vector<double> seconds_of_steps;
   std::vector<std::string> written;  // paths of files
   std::optional<StepTimes> step;
 };
@@ -153,8 +156,10 @@ std::string why_unknown(const LeakReport &leaks, const std::string &mesh);
 std::string line_of_passage(const Report &report);
 std::string json_of(const Report &report);
 std::string table_of(const Report &report);
-// Returns the table of a series. Each complete step has one line. The columns are time, opening, n_marked, largest_speed and
-// seconds. If there are several valves, each valve has columns that begin with its name, such as NAME_opening.
-std::string csv_of(const Report &report);
+// The table of a series has a line for each complete step. The columns are time, opening, n_marked, largest_speed and seconds. If
+// there are several valves, each valve has columns that begin with its name, such as NAME_opening.
+std::string csv_head_of(const Report &report);
+// Returns the line of the last step. `seconds` is the time of its surfaces and marks.
+std::string csv_line_of(const Report &report, double seconds);
 
 }  // namespace riis::program

@@ -12,7 +12,7 @@
 #include "program/input/mesh_reading.hpp"
 #include "program/input/valve_source.hpp"
 #include "program/input/wall.hpp"
-#include "program/mark/mesh_marking.hpp"
+#include "program/mark/moving_valve.hpp"
 
 namespace riis::program {
 namespace {
@@ -85,7 +85,6 @@ ValveSides sides_of_valve(const std::string &mesh, const MarkOptions &marking, c
     if (opening > 0) continue;
     const riis_mark_options how = how_to_mark_again(marking);
     const Marks marks = marks_of(surface, nodes.mesh(), how);
-    const FileNodes::Lent lent(nodes);
     check(riis_label_open_regions(nodes.mesh(), marks, &how, nodes.n(), region.data(), nullptr));
   }
 

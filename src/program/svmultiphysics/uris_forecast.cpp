@@ -11,7 +11,7 @@
 #include "program/base/refusal.hpp"
 #include "program/base/text.hpp"
 #include "program/input/mesh_reading.hpp"
-#include "program/mark/mesh_marking.hpp"
+#include "program/mark/mesh_pieces.hpp"
 #include "program/mark/warnings.hpp"
 #include "program/output/report.hpp"
 #include "program/svmultiphysics/uris_solver.hpp"

@@ -9,7 +9,7 @@
 #include "common/array_view.hpp"
 #include "program/base/handles.hpp"
 #include "program/base/refusal.hpp"
-#include "program/mark/mesh_marking.hpp"
+#include "program/mark/moving_valve.hpp"
 
 namespace riis::program {
 namespace {
