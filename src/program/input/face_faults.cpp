@@ -161,7 +161,8 @@ std::vector<std::int32_t> turned_leaflets(const riis_surface *surface, const rii
   if (areas.size() < 2 || std::any_of(areas.begin(), areas.end(), [](const auto &of) { return !(of.second.all > 0); }))
     return {};
   riis_orifice orifice;
-  check(riis_surface_get_orifice(surface, nullptr, &orifice, sizeof orifice));
+  if (riis_surface_get_orifice(surface, nullptr, &orifice, sizeof orifice) != RIIS_OK)
+    return {};  // the axis is not known
   // Leaflets lie beside each other around the axis. If the axis leads from one leaflet to another, it is not the valve's axis.
   double middle[3] = {0, 0, 0};
   for (const auto &[leaflet, area] : areas)
