@@ -209,6 +209,71 @@ TEST(test_face_warnings) {
   }
 }
 
+/* Writes the triangles of one leaflet of a valve as STL, perhaps turned over. Names it leaf_0.stl, leaf_1.stl, ... */
+static void write_leaflet(const riis_triangles *triangles, int leaflet, int is_turned) {
+  char name[32];
+  snprintf(name, sizeof name, "leaf_%d.stl", leaflet);
+  FILE *file = fopen(scratch_path(name), "w");
+  assert_non_null(file);
+  fprintf(file, "solid x\n");
+  for (int64_t i = 0; i < triangles->n_triangles; ++i) {
+    if (triangles->leaflet_id[i] != leaflet) continue;
+    fprintf(file, "facet normal 0 0 0\nouter loop\n");
+    for (int k = 0; k < 3; ++k) {
+      const double *p = triangles->xyz + 3 * triangles->vertex_id[3 * i + (is_turned ? 2 - k : k)];
+      fprintf(file, "vertex %.17g %.17g %.17g\n", p[0], p[1], p[2]);
+    }
+    fprintf(file, "endloop\nendfacet\n");
+  }
+  fprintf(file, "endsolid x\n");
+  assert_int_equal(fclose(file), 0);
+}
+
+/* A leaflet that is turned over as a whole is named, for any set of turned leaflets and any placement. */
+TEST(test_turned_leaflets) {
+  static const struct {
+    const char *kind;
+    int n_leaflets;
+    double opening;
+  } valves[] = {{"trileaflet", 3, 0}, {"coapting", 3, 0.5}, {"mitral", 2, 0.6}, {"bicuspid", 2, 0}};
+  for (size_t v = 0; v < sizeof valves / sizeof *valves; ++v) {
+    riis_valve *valve = NULL;
+    riis_surface *surface = NULL;
+    riis_triangles triangles;
+    expect_fine(riis_valve_create(valves[v].kind, &valve));
+    expect_fine(riis_valve_set_scalar(valve, "opening", valves[v].opening));
+    expect_fine(riis_surface_create(valve, NULL, &surface));
+    expect_fine(riis_surface_get_triangles(surface, &triangles, sizeof triangles));
+    const int n = valves[v].n_leaflets;
+    for (int turned = 0; turned < 1 << n; ++turned) {
+      char paths[3][256];
+      int n_turned = 0, n_named = 0;
+      for (int i = 0; i < n; ++i) {
+        char name[32];
+        write_leaflet(&triangles, i, turned >> i & 1);
+        snprintf(name, sizeof name, "leaf_%d.stl", i);
+        snprintf(paths[i], sizeof paths[i], "%s", scratch_path(name));
+        n_turned += turned >> i & 1;
+      }
+      run_program("surface", "--rotate", "1,2,-3,77", "--output", scratch_path("turned.vtp"), "--quiet", "--surface",
+                  paths[0], "--surface", paths[1], n > 2 ? "--surface" : NULL, n > 2 ? paths[2] : NULL, NULL);
+      assert_int_equal(program_exit_code, 0);
+      for (int i = 0; i < n; ++i) {
+        char wanted[96];
+        snprintf(wanted, sizeof wanted, "the leaflet leaf_%d is turned over relative to the other leaflets", i);
+        const int is_named = strstr(program_err, wanted) != NULL;
+        n_named += is_named;
+        /* Of three leaflets, the single one differs. Of two leaflets, either may be named. */
+        if (n == 3 && is_named != (n_turned == 1 ? turned >> i & 1 : n_turned == 2 && !(turned >> i & 1)))
+          fail_msg("%s, turned %d: %s", valves[v].kind, turned, program_err);
+      }
+      assert_int_equal(n_named, n_turned > 0 && n_turned < n);
+    }
+    riis_surface_destroy(&surface);
+    riis_valve_destroy(&valve);
+  }
+}
+
 static double n_marked_in(const char *path, const char *name) {
   static double values[n_box];
   double n = 0;

@@ -240,10 +240,64 @@ TEST(test_groups_of_gmsh) {
       CHECK_NEAR(least, choices[i].lower_z, 0);
       riis_vtk_mesh_destroy(&file);
     }
-    RUN_REFUSED(2, "--cells-where: wall is not a number, nor the name of a physical group", "mark",
-                scratch_path("cubes.msh"), SHEET, "--cells-where", "gmsh:physical=wall", "--output",
-                scratch_path("no.vtu"));
+    RUN_REFUSED(
+        2, "--cells-where: wall is not a number, nor the name of a physical group of volumes: those are all, lumen",
+        "mark", scratch_path("cubes.msh"), SHEET, "--cells-where", "gmsh:physical=wall", "--output",
+        scratch_path("no.vtu"));
   }
+}
+
+/* Appends big-endian numbers of `size` bytes, or numbers as text. */
+static size_t put_all(char *bytes, const int *numbers, int n, int size, int is_binary) {
+  size_t at = 0;
+  for (int i = 0; i < n; ++i) {
+    if (!is_binary) at += (size_t)sprintf(bytes + at, "%d ", numbers[i]);
+    for (int k = size - 1; is_binary && k >= 0; --k) bytes[at++] = (char)((int64_t)numbers[i] >> (8 * k) & 255);
+  }
+  bytes[at++] = '\n';
+  return at;
+}
+
+/* meshio names the types of arrays in its own way. Three tetrahedra have three values of each type, and one is chosen. */
+TEST(test_types_of_meshio) {
+  static const struct {
+    const char *name;
+    int size, values[3];
+    const char *where;
+  } types[] = {{"vtktypeint8", 1, {1, -7, 3}, "v=-7"},          {"vtktypeuint8", 1, {1, 200, 3}, "v=200"},
+               {"vtktypeint16", 2, {1, -700, 3}, "v=-700"},     {"vtktypeuint16", 2, {1, 40000, 3}, "v=40000"},
+               {"VTKTYPEINT32", 4, {1, -70000, 3}, "v=-70000"}, {"vtktypeuint32", 4, {1, 70000, 3}, "v=70000"},
+               {"vtktypeint64", 8, {1, -70000, 3}, "v=-70000"}};
+  static const int points[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1, 2, 2, 3}, offsets[] = {0, 4, 8, 12},
+                   corners[] = {0, 1, 2, 3, 1, 2, 3, 4, 2, 3, 4, 5}, tetrahedra[] = {10, 10, 10};
+  for (size_t i = 0; i < sizeof types / sizeof *types; ++i)
+    for (int is_binary = 0; is_binary < 2; ++is_binary) {
+      char bytes[1024];
+      const char *const ids = types[i].size == 8 ? "vtktypeint64" : "vtktypeint32";
+      const int size_of_id = types[i].size == 8 ? 8 : 4;
+      size_t n = (size_t)sprintf(bytes, "# vtk DataFile Version 5.1\nx\n%s\nDATASET UNSTRUCTURED_GRID\nPOINTS 6 %s\n",
+                                 is_binary ? "BINARY" : "ASCII", "vtktypeint16");
+      n += put_all(bytes + n, points, 18, 2, is_binary);
+      n += (size_t)sprintf(bytes + n, "CELLS 4 12\nOFFSETS %s\n", ids);
+      n += put_all(bytes + n, offsets, 4, size_of_id, is_binary);
+      n += (size_t)sprintf(bytes + n, "CONNECTIVITY %s\n", ids);
+      n += put_all(bytes + n, corners, 12, size_of_id, is_binary);
+      n += (size_t)sprintf(bytes + n, "CELL_TYPES 3\n");
+      n += put_all(bytes + n, tetrahedra, 3, 4, is_binary);
+      n += (size_t)sprintf(bytes + n, "CELL_DATA 3\nFIELD FieldData 1\nv 1 3 %s\n", types[i].name);
+      n += put_all(bytes + n, types[i].values, 3, types[i].size, is_binary);
+      scratch_write("meshio.vtk", bytes, n);
+      riis_vtk_mesh *file = NULL;
+      int64_t n_nodes = 0, n_cells = 0;
+      const double *xyz = NULL;
+      expect_fine(riis_vtk_mesh_read(scratch_path("meshio.vtk"), &file));
+      expect_fine(riis_vtk_mesh_choose_cells(file, types[i].where, NULL));
+      expect_fine(riis_vtk_mesh_get_nodes(file, &n_nodes, &n_cells, &xyz));
+      assert_int_equal(n_cells, 1);
+      assert_int_equal(n_nodes, 4);
+      for (int k = 0; k < 12; ++k) CHECK_NEAR(xyz[k], points[3 + k], 0);
+      riis_vtk_mesh_destroy(&file);
+    }
 }
 
 int main(void) { return run_cases(make_files, forget_files); }

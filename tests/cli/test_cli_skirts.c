@@ -234,16 +234,33 @@ TEST(arrays_of_the_attachment) {
            "--skirt", "0.1", "--half-thickness", "0.05", "--output", out);
   riis_vtk_surface *file = NULL;
   assert_int_equal(arrays_of(out, &file).n_faces, 2 + 2 * 2); /* two of the four edges are attached */
+  /* The middle of the edges from (0, 0) to (1, 0) and from (1, 0) to (1, 1). */
+  assert_non_null(strstr(program_out, "skirt     from 2 open edges of the length 2 in all, around 0.75 0.25 0\n"));
   riis_vtk_surface_destroy(&file);
   RUN_FINE("surface", "--surface", write_square("SCALARS other int 1\nLOOKUP_TABLE default\n1 1 1 0"), "--skirt", "0.1",
            "--half-thickness", "0.05", "--output", out);
   assert_int_equal(arrays_of(out, &file).n_faces, 2 + 2 * 4);
+  assert_non_null(strstr(program_out, "skirt     from 4 open edges of the length 4 in all, around 0.5 0.5 0\n"));
   riis_vtk_surface_destroy(&file);
   RUN_REFUSED(1, "point array riis_attached must hold one number for each point", "surface", "--surface",
               write_square("VECTORS riis_attached double\n1 1 1 1 1 1 1 1 1 1 1 1"), "--skirt", "0.1", "--output", out);
   RUN_REFUSED(1, "the point array riis_attached: no open edge leads from vertex 0 to another attached vertex",
               "surface", "--surface", write_square("SCALARS riis_attached int 1\nLOOKUP_TABLE default\n1 0 1 0"),
               "--skirt", "0.1", "--output", out);
+  RUN_REFUSED(1, "riis_attached is an array of cells; it must be a point array, with one number for each point",
+              "surface", "--surface",
+              write_square("CELL_DATA 2\nSCALARS riis_attached int 1\nLOOKUP_TABLE default\n1 0"), "--skirt", "0.1",
+              "--output", out);
+  scratch_write_text("nan.vtp", /* the array's values are 1, nan, 1, 0, encoded by base64 */
+                     "<VTKFile type=\"PolyData\" version=\"0.1\" byte_order=\"LittleEndian\"><PolyData><Piece "
+                     "NumberOfPoints=\"4\" NumberOfPolys=\"2\"><PointData><DataArray type=\"Float32\" "
+                     "Name=\"riis_attached\" format=\"binary\">EAAAAAAAgD8AAMB/AACAPwAAAAA=</DataArray></PointData>"
+                     "<Points><DataArray type=\"Float32\" NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 0 1 1 0 "
+                     "0 1 0</DataArray></Points><Polys><DataArray type=\"Int32\" Name=\"connectivity\" "
+                     "format=\"ascii\">0 1 2 0 2 3</DataArray><DataArray type=\"Int32\" Name=\"offsets\" "
+                     "format=\"ascii\">3 6</DataArray></Polys></Piece></PolyData></VTKFile>\n");
+  RUN_REFUSED(1, "nan.vtp: point array riis_attached is nan at point 1", "surface", "--surface",
+              scratch_path("nan.vtp"), "--skirt", "0.1", "--output", out);
   /* Without a skirt, the array has no effect. */
   RUN_FINE("surface", "--surface", write_square("SCALARS riis_attached int 1\nLOOKUP_TABLE default\n1 0 1 0"),
            "--half-thickness", "0.05", "--output", out);

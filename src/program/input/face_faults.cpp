@@ -2,15 +2,18 @@
 #include "program/input/face_faults.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <utility>
 #include <vector>
 
 #include "common/array_view.hpp"
+#include "common/elementary.hpp"
 #include "common/sets.hpp"
 #include "program/base/handles.hpp"
 #include "program/base/units.hpp"
+#include "program/input/valve_source.hpp"
 #include "program/mark/mesh_pieces.hpp"
 #include "program/mark/warnings.hpp"
 #include "program/output/report.hpp"
@@ -126,7 +129,66 @@ std::vector<Triangles::Corners> joined_corners(const riis_triangles &triangles) 
   return corners;
 }
 
-void warn_of_faces(const std::string &name, const riis_surface *surface) {
+namespace {
+
+// Returns the leaflets that are turned over as a whole, if other leaflets are not. Along the axis of the valve, the normals of
+// all leaflets point to one side.
+std::vector<std::int32_t> turned_leaflets(const riis_surface *surface, const riis_triangles &triangles) {
+  constexpr double least_share = 0.05;  // of the leaflet's area, seen along the axis
+  const std::int32_t skirt = info_of(surface).skirt_leaflet_id;
+  constexpr double most_along = 0.5;  // of the way from the middle to a leaflet, along the axis
+  struct Area {
+    double vector[3] = {0, 0, 0}, all = 0, moment[3] = {0, 0, 0};
+  };
+  std::map<std::int32_t, Area> areas;
+  for (std::int64_t face = 0; face < triangles.n_triangles; ++face) {
+    if (triangles.leaflet_id[face] == skirt && skirt >= 0) continue;
+    double edges[2][3];
+    const std::int64_t *const id = triangles.vertex_id + 3 * face;
+    for (int k = 0; k < 3; ++k)
+      for (int i = 0; i < 2; ++i) edges[i][k] = triangles.xyz[3 * id[i + 1] + k] - triangles.xyz[3 * id[0] + k];
+    const double normal[3] = {edges[0][1] * edges[1][2] - edges[0][2] * edges[1][1],
+                              edges[0][2] * edges[1][0] - edges[0][0] * edges[1][2],
+                              edges[0][0] * edges[1][1] - edges[0][1] * edges[1][0]};
+    Area &area = areas[triangles.leaflet_id[face]];
+    const double size = hypotenuse(normal[0], normal[1], normal[2]);
+    area.all += size;
+    for (int k = 0; k < 3; ++k) {
+      area.vector[k] += normal[k];
+      for (int i = 0; i < 3; ++i) area.moment[k] += size / 3 * triangles.xyz[3 * id[i] + k];
+    }
+  }
+  if (areas.size() < 2 || std::any_of(areas.begin(), areas.end(), [](const auto &of) { return !(of.second.all > 0); }))
+    return {};
+  riis_orifice orifice;
+  if (riis_surface_get_orifice(surface, nullptr, &orifice, sizeof orifice) != RIIS_OK)
+    return {};  // the axis is not known
+  // Leaflets lie beside each other around the axis. If the axis leads from one leaflet to another, it is not the valve's axis.
+  double middle[3] = {0, 0, 0};
+  for (const auto &[leaflet, area] : areas)
+    for (int k = 0; k < 3; ++k) middle[k] += area.moment[k] / (area.all * static_cast<double>(areas.size()));
+  for (const auto &[leaflet, area] : areas) {
+    double along = 0, way[3];
+    for (int k = 0; k < 3; ++k) way[k] = area.moment[k] / area.all - middle[k], along += way[k] * orifice.axis[k];
+    if (std::abs(along) > most_along * hypotenuse(way[0], way[1], way[2])) return {};
+  }
+  std::vector<std::int32_t> of_side[2];
+  double area_of_side[2] = {0, 0};
+  for (const auto &[leaflet, area] : areas) {
+    double along = 0;
+    for (int k = 0; k < 3; ++k) along += area.vector[k] * orifice.axis[k];
+    if (std::abs(along) < least_share * area.all) continue;
+    const int side = along < 0 ? 1 : 0;
+    of_side[side].push_back(leaflet);
+    area_of_side[side] += area.all;
+  }
+  return of_side[area_of_side[0] < area_of_side[1] ? 0 : 1];
+}
+
+}  // namespace
+
+void warn_of_faces(const ValveOptions &options, const riis_surface *surface) {
+  const std::string &name = options.surface;
   const riis_triangles triangles = triangles_of(surface);
   const Faults faults = FaceCheck(triangles).run();
   if (faults.n_turned > 0)
@@ -134,6 +196,13 @@ void warn_of_faces(const std::string &name, const riis_surface *surface) {
          (faults.n_turned == 1 ? " is" : " are") +
          " turned over relative to the neighbours: normals and sides change there; ParaView's filter Surface Normals "
          "turns them back");
+  // Scattered triangles and closed pieces leave the side of a leaflet open.
+  if (faults.n_turned == 0 && faults.n_closed == 0)
+    for (const std::int32_t leaflet : turned_leaflets(surface, triangles))
+      warn(name + ": the leaflet " + name_of_leaflet(options, info_of(surface), leaflet, "") +
+           " is turned over relative to the other leaflets: its normals and sides are opposite; ParaView's filter "
+           "Reverse "
+           "Sense turns it back");
   if (faults.n_equal > 0)
     warn(name + ": " + counted(faults.n_equal, "triangle") + (faults.n_equal == 1 ? " is" : " are") +
          " in the file twice, and areas count both copies");

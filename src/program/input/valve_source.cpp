@@ -212,7 +212,7 @@ Surface make_surface(const ValveSource &source, FileVelocity velocity) {
       source.keyframes ? create_for<Surface>(source.options.surface, riis_surface_create_from_keyframes,
                                              source.keyframes, *source.options.time, 0, &source.options.surface_options)
                        : surface_of_file(source.options, source.file.get(), velocity);
-  warn_of_faces(source.options.surface, surface);
+  warn_of_faces(source.options, surface);
   return surface;
 }
 

@@ -15,7 +15,6 @@
 #include "program/input/valve_source.hpp"
 #include "program/mark/mesh_pieces.hpp"
 #include "program/mark/warnings.hpp"
-#include "program/output/report.hpp"
 
 namespace riis::program {
 namespace {
@@ -76,15 +75,6 @@ void warn_once(const std::string &text) {
   if (printed.insert(text).second) warn(text);
 }
 
-double length_of(const riis_attachment &attachment) {
-  double length = 0;
-  for (std::int64_t i = 0; i < attachment.n_edges; ++i) {
-    const double *const p = attachment.edges + 6 * i;
-    length += distance_between(p, p + 3);
-  }
-  return length;
-}
-
 // Warns of holes in the wall, and of a skirt that is longer than the valve.
 void check_sizes(const ValveOptions &options, const riis_surface *wall, const riis_surface *valve) {
   const double largest_side = box_of(info_of(valve)).largest_side();
@@ -92,8 +82,7 @@ void check_sizes(const ValveOptions &options, const riis_surface *wall, const ri
     warn_once("--skirt: " + shown(*options.skirt) + " is longer than the valve, whose largest side is " +
               shown(largest_side) + ": lengths have the unit of the mesh" +
               (options.unit ? std::string(", ") + name_of(*options.unit) : ""));
-  const auto attachment = get<riis_attachment>(riis_surface_get_attachment, valve);
-  const OpenLine hole = longest_open_line(wall, longest_hole * length_of(attachment));
+  const OpenLine hole = longest_open_line(wall, longest_hole * attached_edges_of(valve).length);
   if (hole.n_edges == 0) return;
   warn_once(options.wall + ": the wall has a hole of " + counted(hole.n_edges, "edge") + " at " +
             place_text(options, hole.point, hole.length / static_cast<double>(hole.n_edges)) +
@@ -142,6 +131,18 @@ bool is_reached(const Gaps &gaps, double longest) {
 }
 
 }  // namespace
+
+AttachedReport attached_edges_of(const riis_surface *surface) {
+  const auto attachment = get<riis_attachment>(riis_surface_get_attachment, surface);
+  AttachedReport made{attachment.n_edges, 0, {0, 0, 0}};
+  for (std::int64_t i = 0; i < attachment.n_edges; ++i) {
+    const double *const p = attachment.edges + 6 * i, length = distance_between(p, p + 3);
+    made.length += length;
+    for (int k = 0; k < 3; ++k) made.middle[k] += 0.5 * length * (p[k] + p[k + 3]);
+  }
+  for (double &x : made.middle) x /= made.length > 0 ? made.length : 1;
+  return made;
+}
 
 SurfaceFile read_wall(const std::string &path) {
   static const std::set<std::string> surface_endings = {".vtp", ".stl", ".obj", ".ply"};

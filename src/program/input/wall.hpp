@@ -10,6 +10,7 @@
 
 #include "program/base/handles.hpp"
 #include "program/base/options.hpp"
+#include "program/output/report.hpp"
 
 namespace riis::program {
 
@@ -36,6 +37,9 @@ class SkirtOfFile {
 };
 // If the library refuses the arrays, the refusal also says how a file names the attached vertices.
 std::string with_attached_array(std::string text);
+
+// Returns the length and the middle of the attached edges.
+AttachedReport attached_edges_of(const riis_surface *surface);
 
 // Reads a wall from the file of a surface or of a volume mesh. The boundary of a volume mesh is its wall.
 SurfaceFile read_wall(const std::string &path);

@@ -169,6 +169,7 @@ ValveReport Marking::report_of(std::size_t i) {
   report.surface = info_of(valve.surface());
   if (!own.leaflets.empty() || own.surface_files.size() > 1)
     report.n_leaflets = count_leaflets(valve.surface()) - (report.surface.skirt_leaflet_id >= 0 ? 1 : 0);
+  if (own.skirt && !own.surface.empty()) report.attached = attached_edges_of(valve.surface());
   if (own.skirt && !own.wall.empty()) report.gap = gap_to_wall(own, valve.surface());
   report.crossings = valve.crossings;
   if (own.given_resistance) report.resistance = report_of_resistance(own, options());

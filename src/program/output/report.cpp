@@ -62,6 +62,10 @@ void add_surface(const ValveReport &valve, std::ostringstream &out) {
   if (!valve.opening && valve.surface.n_zero_area > 0)
     out << ", " << grouped(valve.surface.n_zero_area) << " without area left out";
   out << "\n";
+  if (const auto &attached = valve.attached)
+    out << line("skirt", valve.name) << "from " << counted(attached->n_edges, "open edge") << " of the length "
+        << shown(attached->length) << " in all, around " << shown(attached->middle[0]) << " "
+        << shown(attached->middle[1]) << " " << shown(attached->middle[2]) << "\n";
   if (valve.gap)
     out << line("skirt", valve.name) << "to the wall, " << valve.gap->least << " to " << valve.gap->most << " away, "
         << valve.gap->mean << " on average\n";
@@ -367,6 +371,9 @@ nlohmann::ordered_json json_of_valve(const Report &report, const ValveReport &va
                {"half_thickness", valve.surface.half_thickness}});
   if (has_mesh) add_marks(valve, json);
   if (is_only) json["seconds"] = json_of_seconds(report.seconds);
+  if (valve.attached)
+    json["attached"] = {
+        {"n_edges", valve.attached->n_edges}, {"length", valve.attached->length}, {"middle", valve.attached->middle}};
   if (valve.gap)
     json["gap"] = {{"least", valve.gap->least},   {"mean", valve.gap->mean},
                    {"most", valve.gap->most},     {"widest_point", valve.gap->widest_point},

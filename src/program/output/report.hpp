@@ -111,6 +111,12 @@ struct TimeReport {
   double largest_speed;
 };
 
+// The attached edges from which the skirt of a surface from a file leads to the wall.
+struct AttachedReport {
+  std::int64_t n_edges;
+  double length, middle[3];
+};
+
 // One valve of a run. In a series, the numbers belong to the valve's least opening.
 struct ValveReport {
   std::string name;               // the valve's name among several, or "" for the only one
@@ -119,7 +125,8 @@ struct ValveReport {
   std::optional<double> time;     // set for a surface that moves, without a series
   int64_t n_leaflets = 0;         // number of leaflets that --leaflets found in a file; 0 if it is not printed
   riis_surface_info surface{};
-  std::optional<riis_gap> gap;  // set if a skirt reaches a wall
+  std::optional<riis_gap> gap;             // set if a skirt reaches a wall
+  std::optional<AttachedReport> attached;  // set if a surface from a file has a skirt
   double distance_limit = 0;
   int32_t distance = RIIS_MEASURE_TRIANGLES;
   riis_mark_stats marks{};

@@ -66,6 +66,13 @@ std::vector<vtkDataArray *> arrays_of(vtkUnstructuredGrid *grid, const std::stri
   return arrays;
 }
 
+std::string names_text(std::vector<RegionName> names) {
+  std::sort(names.begin(), names.end(), [](const RegionName &a, const RegionName &b) { return a.number < b.number; });
+  std::string text;
+  for (const RegionName &of : names) text += (text.empty() ? "" : ", ") + of.name;
+  return text;
+}
+
 std::set<double> numbers_of(const Where &where, const std::vector<RegionName> &names) {
   std::set<double> numbers;
   for (const std::string &value : where.values) {
@@ -76,7 +83,9 @@ std::set<double> numbers_of(const Where &where, const std::vector<RegionName> &n
     if (name != names.end())
       number = name->number;
     else if (!read_number(value, number))
-      refuse_argument("where: ", value, " is not a number", names.empty() ? "" : ", nor the name of a physical group");
+      refuse_argument("where: ", value, " is not a number",
+                      names.empty() ? "" : ", nor the name of a physical group of volumes: those are ",
+                      names_text(names));
     numbers.insert(number);
   }
   return numbers;

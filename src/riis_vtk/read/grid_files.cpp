@@ -210,9 +210,9 @@ class GridReader : public WatchedReader<vtkXMLUnstructuredGridReader> {
   }
 };
 
-vtkSmartPointer<vtkUnstructuredGrid> read_legacy_grid(const std::string &path, std::int64_t n_cells,
+vtkSmartPointer<vtkUnstructuredGrid> read_legacy_grid(const std::string &path, const LegacyContent &content,
                                                       const CaughtOutput &caught) {
-  return read_scanned<vtkUnstructuredGridReader, vtkUnstructuredGrid>(path, n_cells, caught);
+  return read_scanned<vtkUnstructuredGridReader, vtkUnstructuredGrid>(path, content, caught);
 }
 
 // Checks polydata after it was read, and prepares its cells.
@@ -258,7 +258,7 @@ vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::string &path, const Ca
     check_xml(path, "UnstructuredGrid");
     grid = read_xml<GridReader, vtkUnstructuredGrid>(path, caught);
   } else if (ending == "vtk") {
-    grid = read_legacy_grid(path, check_legacy(path, LegacyKinds::grid).n_cells, caught);
+    grid = read_legacy_grid(path, check_legacy(path, LegacyKinds::grid), caught);
   } else if (ending == "msh") {
     grid = read_gmsh(path);
   } else if (ending == "xdmf" || ending == "xmf") {
@@ -288,11 +288,11 @@ vtkSmartPointer<vtkPolyData> read_polydata(const std::string &path, const Caught
 vtkSmartPointer<vtkPointSet> read_legacy_surface(const std::string &path, const CaughtOutput &caught) {
   const LegacyContent content = check_legacy(path, LegacyKinds::grid_or_polydata);
   if (content.kind == LegacyKind::unstructured_grid) {
-    const auto grid = read_legacy_grid(path, content.n_cells, caught);
+    const auto grid = read_legacy_grid(path, content, caught);
     check_grid(path, grid);
     return grid;
   }
-  const auto data = read_scanned<vtkPolyDataReader, vtkPolyData>(path, content.n_cells, caught);
+  const auto data = read_scanned<vtkPolyDataReader, vtkPolyData>(path, content, caught);
   finish_polydata(path, data);
   return data;
 }

@@ -58,6 +58,8 @@ enum class LegacyKinds { grid, grid_or_polydata };
 struct LegacyContent {
   LegacyKind kind;
   std::int64_t n_cells;
+  // The bytes of the file with VTK's names of types, if meshio has written other names; otherwise "".
+  std::string rewritten;
 };
 LegacyContent check_legacy(const std::string &path, LegacyKinds allowed);
 // Returns whether the header says that the file contains a structured grid.

@@ -36,6 +36,14 @@ int size_of_type(std::string_view type) {
   return is_in({"string", "utf8_string"}) ? 0 : -1;
 }
 
+// The names of types that meshio writes, although VTK does not know them, with VTK's names.
+const std::map<std::string, std::string> &vtk_names() {
+  static const std::map<std::string, std::string> names = {
+      {"vtktypeint8", "signed_char"},    {"vtktypeint16", "short"},           {"vtktypeint32", "int"},
+      {"vtktypeuint8", "unsigned_char"}, {"vtktypeuint16", "unsigned_short"}, {"vtktypeuint32", "unsigned_int"}};
+  return names;
+}
+
 // Returns whether VTK would read the whole word as a number of the given type. VTK reads numbers from C++ streams. VTK refuses
 // infinite numbers and numbers that are too large, but accepts numbers that are too small.
 bool is_number(std::string_view word, const std::string &type) {
@@ -106,7 +114,7 @@ class Numbers {
 
 class Scan {
  public:
-  Scan(const std::string &path, std::string_view bytes) : path_(path), rest_(bytes) {}
+  Scan(const std::string &path, std::string_view bytes) : path_(path), bytes_(bytes), rest_(bytes) {}
 
   // Scans the file, and returns its content.
   LegacyContent file(LegacyKinds allowed) {
@@ -116,12 +124,12 @@ class Scan {
     // The format has no mark for the end of a file. Without this check, a file that is cut off after its points would look like a
     // grid without cells.
     if (n_cells_ < 0) refuse("holds no cells (is it truncated?)");
-    if (is_polydata()) return {kind_, n_cells_};
+    if (is_polydata()) return content();
     if (n_types_ != n_cells_)
       refuse("has ", std::max<std::int64_t>(n_types_, 0), " types for ", n_cells_, " cells",
              n_types_ < 0 ? " (is it truncated?)" : "");
     if (has_polyhedra()) check_polyhedra();
-    return {kind_, n_cells_};
+    return content();
   }
 
   // Returns whether the file has a structured grid. Only the header is read.
@@ -159,6 +167,27 @@ class Scan {
     return text;
   }
   std::string next() { return lower_case(next_as_it_is()); }
+
+  // Returns the next word as the name that VTK has for this type.
+  std::string next_type() {
+    const std::string_view text = next_as_it_is();
+    const std::string name = lower_case(text);
+    const auto found = vtk_names().find(name);
+    if (found == vtk_names().end()) return name;
+    meshio_types_.push_back(text);
+    return found->second;
+  }
+
+  LegacyContent content() const {
+    LegacyContent made{kind_, n_cells_, ""};
+    const char *copied = bytes_.data();
+    for (const std::string_view type : meshio_types_) {
+      made.rewritten.append(copied, type.data()).append(vtk_names().at(lower_case(type)));
+      copied = type.data() + type.size();
+    }
+    if (!meshio_types_.empty()) made.rewritten.append(copied, bytes_.data() + bytes_.size());
+    return made;
+  }
 
   std::int64_t number_of(std::string_view text) const {
     std::int64_t n = 0;
@@ -212,7 +241,7 @@ class Scan {
   bool is_structured() const { return kind_ != LegacyKind::unstructured_grid && !is_polydata(); }
 
   // Returns the content of a structured grid after its sections were scanned.
-  LegacyContent structured() const {
+  LegacyContent structured() {
     if (!lattice_) refuse("has no DIMENSIONS (is it truncated?)");
     static const char *const names[3] = {"X_COORDINATES", "Y_COORDINATES", "Z_COORDINATES"};
     for (std::size_t axis = 0; axis < 3 && kind_ == LegacyKind::rectilinear_grid; ++axis)
@@ -220,7 +249,8 @@ class Scan {
         refuse("has ", n_coordinates_[axis], " ", names[axis], " for ", lattice_->n[axis], " points along the axis");
     if (kind_ == LegacyKind::structured_grid && n_points_ != lattice_->n_points())
       refuse("has ", n_points_, " points, and DIMENSIONS of ", lattice_->n_points());
-    return {kind_, lattice_->n_cells()};
+    n_cells_ = lattice_->n_cells();
+    return content();
   }
 
   void skip_bytes(std::int64_t n) {
@@ -349,7 +379,7 @@ class Scan {
       return;
     } else if (keyword == "points" && kind_ != LegacyKind::structured_points && kind_ != LegacyKind::rectilinear_grid) {
       n_points_ = count();
-      skip_tuples(n_points_, 3, next());
+      skip_tuples(n_points_, 3, next_type());
     } else if (is_list_of_cells(keyword)) {
       if (!lists_.insert(keyword).second) refuse("has ", upper_case(keyword), " twice");
       cells(upper_case(keyword));
@@ -385,7 +415,7 @@ class Scan {
                keyword[0] >= 'x' && keyword[0] <= 'z') {
       std::int64_t &n = n_coordinates_[static_cast<std::size_t>(keyword[0] - 'x')];
       n = count();
-      skip_tuples(n, 1, next());
+      skip_tuples(n, 1, next_type());
     } else {
       return false;
     }
@@ -406,7 +436,7 @@ class Scan {
       if (next_as_it_is() == "NULL_ARRAY") continue;  // VTK accepts this word only in capitals
       const std::int64_t width = count();
       const std::int64_t n = count();
-      skip_tuples(n, width, next());
+      skip_tuples(n, width, next_type());
     }
   }
 
@@ -424,12 +454,12 @@ class Scan {
       add_cells(std::max<std::int64_t>(first - 1, 0));
       if (first == 0) return;
       if (next() != "offsets") refuse("has ", name, " without OFFSETS");
-      type_of_offsets_ = next();
+      type_of_offsets_ = next_type();
       offsets_ = values_behind_line();
       skip_tuples(first, 1, type_of_offsets_);
       if (next() != "connectivity") refuse("has cell offsets without CONNECTIVITY");
       n_corners_ = second;
-      type_of_corners_ = next();
+      type_of_corners_ = next_type();
       corners_ = values_behind_line();
       skip_tuples(second, 1, type_of_corners_);
     } else {
@@ -536,13 +566,13 @@ class Scan {
     const auto found = widths.find(keyword);
     if (found != widths.end()) {
       next();
-      skip_tuples(n_tuples_, found->second, next());
+      skip_tuples(n_tuples_, found->second, next_type());
     } else if (keyword == "scalars") {
       scalars();
     } else if (keyword == "texture_coordinates") {
       next();
       const std::int64_t width = count();
-      skip_tuples(n_tuples_, width, next());
+      skip_tuples(n_tuples_, width, next_type());
     } else if (keyword == "color_scalars") {
       next();
       skip_tuples(n_tuples_, count(), type_of_colors());
@@ -560,7 +590,7 @@ class Scan {
 
   void scalars() {
     next();
-    const std::string type = next();
+    const std::string type = next_type();
     std::string after = next();
     std::int64_t width = 1;
     if (after != "lookup_table") {
@@ -574,8 +604,9 @@ class Scan {
   }
 
   const std::string &path_;
-  std::string_view rest_;
-  std::int64_t version_ = 0;  // major version
+  std::string_view bytes_, rest_;
+  std::vector<std::string_view> meshio_types_;  // where the file has them
+  std::int64_t version_ = 0;                    // major version
   bool binary_ = false;
   LegacyKind kind_ = LegacyKind::unstructured_grid;
   std::optional<Lattice> lattice_;               // of a structured grid

@@ -210,7 +210,7 @@ StructuredFile read_xml_file(const std::string &path, const char *type, const Ca
 
 template <class Reader, class DataSet>
 StructuredFile read_legacy_file(const std::string &path, const LegacyContent &content, const CaughtOutput &caught) {
-  const auto data = read_scanned<Reader, DataSet>(path, content.n_cells, caught);
+  const auto data = read_scanned<Reader, DataSet>(path, content, caught);
   return file_of<DataSet>(path, data);
 }
 

@@ -10,6 +10,7 @@
 #include <type_traits>
 #include <vector>
 
+#include <vtkCharArray.h>
 #include <vtkDataArray.h>
 #include <vtkDataArraySelection.h>
 #include <vtkErrorCode.h>
@@ -176,11 +177,19 @@ vtkSmartPointer<DataSet> read_xml(const std::string &path, const CaughtOutput &c
   return data;
 }
 
-// Reads a legacy file by VTK. The scan has found `n_cells` cells.
+// Reads a legacy file by VTK. The scan has found the content.
 template <class Reader, class DataSet>
-vtkSmartPointer<DataSet> read_scanned(const std::string &path, std::int64_t n_cells, const CaughtOutput &caught) {
+vtkSmartPointer<DataSet> read_scanned(const std::string &path, const LegacyContent &content,
+                                      const CaughtOutput &caught) {
   vtkNew<Reader> reader;
   reader->SetFileName(path.c_str());
+  vtkNew<vtkCharArray> rewritten;
+  if (!content.rewritten.empty()) {
+    // The array does not own the bytes, and VTK only reads them.
+    rewritten->SetArray(const_cast<char *>(content.rewritten.data()), view(content.rewritten).size(), 1);
+    reader->ReadFromInputStringOn();
+    reader->SetInputArray(rewritten);
+  }
   // Without these calls, the reader would keep only one array of each kind.
   reader->ReadAllScalarsOn();
   reader->ReadAllVectorsOn();
@@ -193,8 +202,8 @@ vtkSmartPointer<DataSet> read_scanned(const std::string &path, std::int64_t n_ce
   caught.check(path);
   vtkSmartPointer<DataSet> data = reader->GetOutput();
   if (!data) fail_file(path, "could not be read");
-  if (data->GetNumberOfCells() != n_cells) {
-    fail_file(path, "gives ", data->GetNumberOfCells(), " of the ", n_cells, " cells that it promises");
+  if (data->GetNumberOfCells() != content.n_cells) {
+    fail_file(path, "gives ", data->GetNumberOfCells(), " of the ", content.n_cells, " cells that it promises");
   }
   return data;
 }

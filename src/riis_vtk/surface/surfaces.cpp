@@ -148,6 +148,8 @@ std::vector<std::int32_t> leaflets_of_cells(const std::string &path, vtkPointSet
   const std::string name = "cell array " + wanted.name;
   vtkAbstractArray *abstract = data->GetCellData()->GetAbstractArray(wanted.name.c_str());
   if (!abstract && wanted.is_required) fail_file(path, "has no ", name, list_of_arrays(data->GetCellData()));
+  if (!abstract && data->GetCellData()->GetAbstractArray(attached_array))
+    fail_file(path, attached_array, " is an array of cells; it must be a point array, with one number for each point");
   if (!abstract) return {};
   vtkDataArray *array = vtkDataArray::SafeDownCast(abstract);
   if (!array || array->GetNumberOfComponents() != 1) fail_file(path, name, " must hold one number for each cell");
@@ -176,7 +178,11 @@ std::vector<std::uint8_t> attached_points(const std::string &path, vtkPointSet *
   if (array->GetNumberOfTuples() != data->GetNumberOfPoints())
     fail_file(path, name, " has ", array->GetNumberOfTuples(), " values for ", data->GetNumberOfPoints(), " points");
   std::vector<std::uint8_t> attached;
-  for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i) attached.push_back(array->GetTuple1(i) != 0 ? 1 : 0);
+  for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i) {
+    const double value = array->GetTuple1(i);
+    if (std::isnan(value)) fail_file(path, name, " is nan at point ", i);
+    attached.push_back(value != 0 ? 1 : 0);
+  }
   return attached;
 }
 
