@@ -255,10 +255,10 @@ def _draw(plotter: Any, surface: Surface, mesh: Mesh | None, marks: Marks | None
     else:
         plotter.remove_actor("riis marks", reset_camera=False)
     if marks is not None and not has_marks:
-        from riis._few_marks import box_of
+        from riis._odd_marks import box_of
 
         assert mesh is not None
-        n_nodes, lower, upper, _ = box_of(mesh)
+        n_nodes, lower, upper = box_of(mesh)
         plotter.add_text(f"0 of {n_nodes:,} nodes are marked", position="lower_right", name="riis no marks", font_size=12)
         plotter.add_mesh(
             pyvista.Box([end[k] for k in range(3) for end in (lower, upper)]), style="wireframe", color=_GREY, lighting=False,
