@@ -12,7 +12,7 @@ import numpy
 
 from riis._errors import Error, MarksWarning
 from riis._riis import (
-    LARGEST_HALF_THICKNESS, Marks, Mesh, Surface, Valve, area_samples, find_leaks, judge_sizes, mark, units,
+    LARGEST_HALF_THICKNESS, Adjacency, Marks, Mesh, Surface, Valve, area_samples, find_leaks, judge_sizes, mark, units,
 )
 from riis._tube import Reals, nodes_of
 
@@ -278,6 +278,40 @@ def _sealing(valve: Valve | None, case: _Case, half: float, placement: dict[str,
     return half
 
 
+def share_outside(surface: Surface, mesh: Mesh) -> float:
+    """Returns the share of the leaflets' area that is away from all nodes of a mesh. 0 for a surface without a valve."""
+    return _Case(surface, mesh, nodes_of(mesh), 0).share_out
+
+
+def leak_of_grid(surface: Surface, mesh: Mesh, grid: Any) -> tuple[str | None, float]:
+    """Returns a sentence about the edges of a grid of PyVista that leak, and the half thickness that closes them. The grid must
+    have the nodes of the mesh, and cells with straight edges."""
+    cells = grid if hasattr(grid, "cells_dict") else grid.cast_to_unstructured_grid() if hasattr(grid, "n_cells") else None
+    if cells is None or cells.n_points != len(mesh) or hasattr(mesh, "axes"):
+        return None, 0.0
+    kinds = {int(kind): numpy.asarray(ids) for kind, ids in cells.cells_dict.items()}
+    if not kinds or not set(kinds) <= {10, 12, 13, 14}:  # VTK's tetrahedra, hexahedra, prisms and pyramids
+        return None, 0.0
+    xyz = numpy.ascontiguousarray(mesh.xyz)
+    if not numpy.allclose(xyz, cells.points, rtol=1e-5, atol=1e-5 * float(numpy.ptp(xyz, axis=0).max())):
+        return None, 0.0
+    ids = numpy.concatenate([table.ravel() for table in kinds.values()]).astype(numpy.int64)
+    lengths = numpy.concatenate([numpy.full(len(table), table.shape[1], numpy.int64) for table in kinds.values()])
+    meshed = Mesh(xyz)
+    meshed.set_adjacency(Adjacency.from_cells(ids, len(xyz), offsets=numpy.concatenate([[0], lengths.cumsum()])))
+    case = _Case(surface, meshed, nodes_of(meshed), 0)
+    case.n_leaks, case.closing = _leaks(surface, meshed, mark(surface, meshed, allow_none=True))
+    if case.n_leaks == 0:
+        return None, 0.0
+    half = _sealing(case.valve, case, 1.02 * case.closing, surface._placement)
+    return _of_leaks(case.n_leaks), rounded_up(half)
+
+
+def _of_leaks(n: int) -> str:
+    edges = "1 edge of the mesh crosses" if n == 1 else f"{n:,} edges of the mesh cross"
+    return f"{edges} the leaflets between unmarked nodes, so the valve leaks there"
+
+
 def _beside(case: _Case) -> str | None:
     """Says if a valve stands obliquely in its tube, or if blood passes between both."""
     if case.nodes.tube is None or case.valve is None:
@@ -346,8 +380,7 @@ def _judge(surface: Surface, mesh: Mesh, mask: Any, marks: Marks) -> str | None:
             "marked nodes"
         )
     elif case.n_leaks:
-        edges = "1 edge of the mesh crosses" if case.n_leaks == 1 else f"{case.n_leaks:,} edges of the mesh cross"
-        said.append(f"{edges} the leaflets between unmarked nodes, so the valve leaks there")
+        said.append(_of_leaks(case.n_leaks))
     few = "no node is marked" if n_marked == 0 else (
         f"only {n_marked} of {n:,} nodes {'is' if n_marked == 1 else 'are'} marked" if n_marked < _FEW
         else f"all {n:,} nodes are marked" if n_marked == n else f"{n_marked:,} of {n:,} nodes are marked")

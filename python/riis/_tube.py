@@ -151,7 +151,8 @@ class Nodes:
 
 
 def _distinct_axis(points: Reals) -> Reals | None:
-    """Returns the principal axis whose moment differs most from the others, as of a long tube or of a disc. None: all are alike."""
+    """Returns the principal axis whose moment differs most from the others, as of a long tube or of a disc. None: all are
+    alike."""
     moments, axes = numpy.linalg.eigh(numpy.cov(points.T))
     least, middle, most = (max(float(moment), 1e-300) for moment in moments)
     if max(most / middle, middle / least) < _LEAST_DISTINCT:
