@@ -7,6 +7,7 @@ import ctypes
 import functools
 import html
 import io
+import itertools
 import json
 import math
 import os
@@ -18,6 +19,7 @@ from typing import TYPE_CHECKING, Any
 import numpy
 
 from riis._errors import InvalidArgumentError
+from riis._framing import check_grid, frame, frame_widget, notes_of, show_notes
 
 if TYPE_CHECKING:
     from riis._riis import Marks, Mesh, Surface
@@ -98,17 +100,16 @@ def surface_to_pyvista(surface: Surface) -> Any:
 
 
 _BAR = {
-    "title": "distance\n", "vertical": True, "position_x": 0.88, "position_y": 0.2, "height": 0.6, "width": 0.06, "n_labels": 3,
-    "fmt": "{:.2g}", "title_font_size": 16, "label_font_size": 14,
+    "vertical": True, "position_x": 0.88, "position_y": 0.2, "height": 0.6, "width": 0.06, "n_labels": 3, "fmt": "{:.2g}",
+    "title_font_size": 16, "label_font_size": 14,
 }
 
 
-def _look(plotter: Any, zoom: float, bounds: Any = None) -> None:
-    """Aims the camera at a box (6,), or at everything drawn, obliquely from above."""
-    plotter.view_vector((1.0, -1.6, 1.5), viewup=(0.0, 0.0, 1.0))
-    if bounds is not None:
-        plotter.reset_camera(bounds=bounds)
-    plotter.camera.zoom(zoom)
+_TO_FRONT = -20_000.0  # moves points forward by about a third of the depth of the scene, in units of VTK
+
+
+def _bar_title(unit: str | None) -> str:
+    return f"distance\nin {unit}\n" if unit else "distance\n"
 
 
 def round_length(limit: float) -> float:
@@ -218,6 +219,10 @@ def _check_types(surface: Any, mesh: Any, marks: Any, grid: Any = None) -> None:
         raise TypeError(f"mesh: must be the riis.Mesh of the marking, not {type(mesh).__name__}; grid= takes a mesh of PyVista")
     if not (marks is None or isinstance(marks, Marks)):
         raise TypeError(f"marks: must be a riis.Marks, not {type(marks).__name__}")
+    _check_grid(grid)
+
+
+def _check_grid(grid: Any) -> None:
     if not (grid is None or isinstance(grid, _pyvista().DataSet)):
         raise TypeError(f"grid: must be a mesh of PyVista, such as an UnstructuredGrid, not {type(grid).__name__}")
 
@@ -229,16 +234,45 @@ def _check_of_mesh(marks: Marks | None, mesh: Mesh | None) -> None:
         )
 
 
-def point_size_of(n_marks: int, height: int) -> float:
+def point_size_of(n_marks: int, height: int, share: float = 1.0) -> float:
     """Returns the size of a marked node in pixels. Few nodes are drawn large. Many nodes are drawn so small that they do not
-    merge."""
-    return max(2.0, min(8.0, 300.0 / max(n_marks, 1) ** 0.5)) * max(height, 1) / 768.0
+    merge. So are nodes of a surface that takes a small share of the picture's height."""
+    return max(2.0, min(8.0, 300.0 / max(n_marks, 1) ** 0.5) * min(1.0, 1.7 * share)) * max(height, 1) / 768.0
 
 
-def _draw(plotter: Any, surface: Surface, mesh: Mesh | None, marks: Marks | None) -> None:
+def _check_of_surface(marks: Marks | None, surface: Surface, mesh: Mesh | None) -> None:
+    if marks is None or mesh is None or len(marks) == 0 or hasattr(mesh, "axes"):
+        return
+    if marks._half_thickness != surface.half_thickness:
+        raise InvalidArgumentError(
+            f"marks: were made with the half thickness {marks._half_thickness:g}, and surface now has "
+            f"{surface.half_thickness:g}; mark again after an update of the surface"
+        )
+    some = numpy.linspace(0, len(marks) - 1, min(len(marks), 32)).astype(int)
+    nodes = numpy.ascontiguousarray(mesh.xyz[marks.ids[some]])
+    found = surface.closest_points(nodes, point=False, normal=False, triangle_id=False, leaflet_id=False)
+    if (numpy.abs(found.distance - marks.distance[some]) > 1e-3 * surface.half_thickness).any():
+        raise InvalidArgumentError(
+            "marks: do not belong to surface as it is now; pass the surface that riis.mark took, and mark again after its updates"
+        )
+
+
+def _draw_shell(plotter: Any, grid: Any) -> Any:
+    """Draws the boundary of a grid, and returns its points. The shell comes before the marked nodes, which it would dye."""
+    boundary = boundary_of(grid)
+    plotter.add_mesh(boundary, color=WALL, opacity=0.16, pickable=False, name="riis grid", reset_camera=False)
+    points = numpy.asarray(boundary.points, float)
+    return points[:: 1 + len(points) // 20_000]
+
+
+def _draw(
+    plotter: Any, surface: Surface, mesh: Mesh | None, marks: Marks | None, unit: str | None, share: float = 1.0
+) -> None:
     """Draws or replaces the leaflets and the marked nodes. Leaflets with marked nodes on both sides are translucent."""
     pyvista = _pyvista()
     has_marks = mesh is not None and marks is not None and len(marks) > 0
+    for title in [title for title in plotter.scalar_bars.keys() if title.startswith("distance") and title != _bar_title(unit)]:
+        plotter.remove_scalar_bar(title)
     plotter.add_mesh(
         coloured(surface_to_pyvista(surface)), scalars="colour", rgb=True, show_scalar_bar=False, ambient=0.3,
         opacity=0.4 if has_marks else 1.0, name="riis leaflets", reset_camera=False,
@@ -247,26 +281,44 @@ def _draw(plotter: Any, surface: Surface, mesh: Mesh | None, marks: Marks | None
         assert mesh is not None and marks is not None
         nodes = pyvista.PolyData(numpy.array(mesh.xyz[marks.ids]))
         nodes.point_data["distance"] = numpy.array(marks.distance)
-        plotter.add_mesh(
-            nodes, scalars="distance", cmap="plasma", clim=[0.0, surface.half_thickness],
-            point_size=point_size_of(len(marks), plotter.window_size[1]), render_points_as_spheres=True,
-            scalar_bar_args=_BAR, name="riis marks", reset_camera=False,
+        # Without light and in front of the translucent leaflets, the nodes have the colours of the bar.
+        how = {"render_points_as_spheres": True, "lighting": False, "reset_camera": False}
+        size = point_size_of(len(marks), plotter.window_size[1], share)
+        rims = plotter.add_mesh(nodes, color=_GREY, point_size=1.35 * size, show_scalar_bar=False, name="riis rims", **how)
+        dots = plotter.add_mesh(
+            nodes, scalars="distance", cmap="plasma", clim=[0.0, surface.half_thickness], point_size=size,
+            scalar_bar_args={"title": _bar_title(unit), **_BAR}, name="riis marks", **how,
         )
+        for actor, depth in (rims, _TO_FRONT), (dots, 1.01 * _TO_FRONT):
+            actor.mapper.SetResolveCoincidentTopologyToPolygonOffset()
+            actor.mapper.SetRelativeCoincidentTopologyPointOffsetParameter(depth)
     else:
-        plotter.remove_actor("riis marks", reset_camera=False)
+        for name in ("riis marks", "riis rims"):
+            plotter.remove_actor(name, reset_camera=False)
     if marks is not None and not has_marks:
-        from riis._few_marks import box_of
+        from riis._odd_marks import box_of
 
         assert mesh is not None
-        n_nodes, lower, upper, _ = box_of(mesh)
-        plotter.add_text(f"0 of {n_nodes:,} nodes are marked", position="lower_right", name="riis no marks", font_size=12)
+        _, lower, upper = box_of(mesh)
         plotter.add_mesh(
             pyvista.Box([end[k] for k in range(3) for end in (lower, upper)]), style="wireframe", color=_GREY, lighting=False,
             name="riis box", reset_camera=False,
         )
     else:
-        for name in ("riis no marks", "riis box"):
-            plotter.remove_actor(name, reset_camera=False)
+        plotter.remove_actor("riis box", reset_camera=False)
+
+
+def _around(mesh: Mesh | None, marks: Marks | None, grid: Any) -> Any:
+    """Returns the points that a picture shall show around a surface."""
+    if mesh is None or marks is None:
+        return grid
+    if len(marks) > 0:
+        return numpy.array(mesh.xyz[marks.ids]) if grid is None else grid
+    from riis._odd_marks import box_of
+
+    _, lower, upper = box_of(mesh)
+    corners = numpy.array([[end[k] for k, end in enumerate(ends)] for ends in itertools.product((lower, upper), repeat=3)])
+    return corners if grid is None else numpy.concatenate([corners, grid])
 
 
 def plot(
@@ -281,14 +333,16 @@ def plot(
     unit: str | None = None,
 ) -> Any:
     """Draws a surface, coloured by leaflet, the marked nodes, coloured by distance, and a scale bar. With marked nodes the
-    surface is translucent. If no node is marked, the picture says so, and shows the box of the mesh.
+    surface is translucent. If no node is marked, the picture says so, and shows the box of the mesh. The picture also says if the
+    valve sticks out of the mesh, and if edges of the grid leak.
 
-    mesh, marks  the mesh and the marks of a marking, both or neither. The mesh must still have the nodes of the marking
-    grid         a mesh of PyVista, whose boundary is drawn as a translucent shell around the valve
+    mesh, marks  the mesh and the marks of a marking, both or neither. Mesh and surface must be as they were at the marking
+    grid         a mesh of PyVista, whose boundary is drawn as a translucent shell around the valve. The camera shows all of it,
+                 unless it is more than five times as long as the valve
     screenshot   a .png file to write; no window opens in this case
     plotter      a pyvista.Plotter to draw into. If None, a new one is used, and shown unless there is a screenshot
     interactive  whether to return a widget for a notebook, in which the mouse turns the scene. It has no scale bar
-    unit         of the mesh, such as "mm": it follows the number at the scale bar. None stands for "mesh units"
+    unit         of the mesh, such as "mm", at the scale bar and at the colours. None stands for "mesh units"
 
     Returns the plotter, or the widget. riis.view.scene.widget also shows a mesh around the valve.
     """
@@ -296,18 +350,26 @@ def plot(
     if (mesh is None) != (marks is None):
         raise InvalidArgumentError("marks: must be given together with mesh; one of them is None")
     _check_of_mesh(marks, mesh)
+    _check_of_surface(marks, surface, mesh)
     _check_unit(unit)
     given = plotter is not None
     if not given:
         plotter = _new_plotter(interactive or screenshot is not None, notebook=True if interactive else None)
-    _draw(plotter, surface, mesh, marks)
+    notes = notes_of(surface, mesh, marks, unit)
+    around = None
     if grid is not None:
-        plotter.add_mesh(boundary_of(grid), color=WALL, opacity=0.16, pickable=False, name="riis grid", reset_camera=False)
+        notes += check_grid(surface, mesh, marks, grid)
+        around = _draw_shell(plotter, grid)
+    n_lines, share = 0 if interactive else show_notes(plotter, notes), 1.0
     if not given:
-        info = surface.info
-        at_valve = grid is not None and not (marks is not None and len(marks) == 0)
-        box = [end[k] for k in range(3) for end in (info.lower, info.upper)]
-        _look(plotter, 0.9 if at_valve else 1.2, box if at_valve else None)
+        around = _around(mesh, marks, around)
+        has_marks = marks is not None and len(marks) > 0
+        if interactive:
+            frame_widget(plotter, surface, around)
+        else:
+            share = frame(plotter, surface, around, has_bar=has_marks, n_lines=n_lines, is_whole=not has_marks)
+    _draw(plotter, surface, mesh, marks, unit, share)
+    plotter.renderer.reset_camera_clipping_range()
     if not interactive:
         add_scale_bar(plotter, unit)
     if screenshot is not None:
@@ -368,6 +430,7 @@ def _frame_of(item: Any, number: int, mesh: Mesh | None) -> tuple[Surface, Marks
         raise InvalidArgumentError(f"mesh: is None, but frame {number} of frames has marks")
     _check_types(surface, mesh, marks)
     _check_of_mesh(marks, mesh)
+    _check_of_surface(marks, surface, mesh)
     return surface, marks, caption
 
 
@@ -379,6 +442,7 @@ def animate(
     frame_rate: float = 12.0,
     plotter: Any = None,
     unit: str | None = None,
+    grid: Any = None,
 ) -> int:
     """Makes a movie of a valve that moves, and returns the number of frames.
 
@@ -388,7 +452,8 @@ def animate(
     mesh        the mesh of the marks
     frame_rate  frames per second
     plotter     a pyvista.Plotter(off_screen=True) with your own camera and objects, which is closed afterwards
-    unit        of the mesh, such as "mm", for the scale bar. None stands for "mesh units"
+    unit        of the mesh, such as "mm", at the scale bar and at the colours. None stands for "mesh units"
+    grid        a mesh of PyVista, whose boundary is drawn as a translucent shell in every frame
 
     Without plotter, the camera looks at the first frame, obliquely from above. If a frame raises an exception, no file is left. A
     movie needs imageio in addition to PyVista. A .mp4 also needs imageio-ffmpeg.
@@ -403,18 +468,23 @@ def animate(
     if not 0.0 < frame_rate <= 1000.0:
         raise InvalidArgumentError(f"frame_rate: is {frame_rate}; it must be above 0 and at most 1000")
     _check_unit(unit)
+    _check_grid(grid)
     given = plotter is not None
     if not given:
         plotter = _new_plotter(True, window_size=(768, 576))  # multiples of 16, as .mp4 needs
-    number, complete = 0, False
+    number, complete, shell, share = 0, False, None, 1.0
     try:
         for item in frames:
             surface, marks, caption = _frame_of(item, number, mesh)
-            _draw(plotter, surface, mesh, marks)
-            plotter.add_text(caption, name="riis caption", font_size=12)
+            if number == 0 and grid is not None:
+                shell = _draw_shell(plotter, grid)
+            show_notes(plotter, notes_of(surface, mesh, marks, unit) if marks is not None and len(marks) == 0 else [])
+            _caption(plotter, caption)
+            if number == 0 and not given:
+                share = frame(plotter, surface, _around(mesh, marks, shell), has_bar=marks is not None, n_lines=1)
+            _draw(plotter, surface, mesh, marks, unit, share)
+            plotter.renderer.reset_camera_clipping_range()
             if number == 0:
-                if not given:
-                    _look(plotter, 1.1)
                 add_scale_bar(plotter, unit)
                 _open_movie(plotter, name, kind, float(frame_rate))
             plotter.write_frame()
@@ -427,6 +497,13 @@ def animate(
         if number > 0 and not complete:
             os.remove(name)
     return number
+
+
+def _caption(plotter: Any, caption: str) -> None:
+    """Writes the caption of a frame at its upper right, away from the notes."""
+    text = plotter.add_text(caption, position=(0.975, 0.97), viewport=True, name="riis caption", font_size=12)
+    text.prop.SetVerticalJustificationToTop()
+    text.prop.SetJustificationToRight()
 
 
 def _open_movie(plotter: Any, name: str, kind: str, frame_rate: float) -> None:

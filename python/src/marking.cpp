@@ -86,16 +86,19 @@ std::int32_t fields_of(nb::handle wanted) {
   return sum;
 }
 
-// Warns if a marking has found no node, or few nodes because of a wrong scale. Warns once for each surface, mesh and scale.
-void warn_of_few_marks(nb::handle surface_, nb::handle mesh_, nb::handle mask, const Marks &result) {
-  riis_mark_stats stats;
-  call_shortly(riis_marks_get_stats(result.handle, &stats, sizeof stats));
-  constexpr std::int64_t few = 100;
-  if (stats.n_marked >= few) return;
+// Warns if the marks look wrong. Judges once for each surface, mesh, scale and half thickness.
+void warn_of_odd_marks(nb::handle surface_, nb::handle mesh_, nb::handle mask, nb::handle marks) {
   Surface &surface = object<Surface>(surface_, "surface");
-  const double scale = surface.options.scale;
-  if (!surface.judged.emplace(object<Mesh>(mesh_, "mesh").number, scale).second) return;
-  nb::module_::import_("riis._few_marks").attr("warn")(surface_, mesh_, mask, scale, stats.n_marked);
+  const riis_surface_options &options = surface.options;
+  const std::int64_t mesh = object<Mesh>(mesh_, "mesh").number;
+  if (!surface.judged.emplace(mesh, options.scale, options.half_thickness).second) return;
+  nb::module_::import_("riis._odd_marks").attr("warn")(surface_, mesh_, mask, marks);
+}
+
+double half_thickness_of(const Surface &surface) {
+  riis_surface_info info;
+  call_shortly(riis_surface_get_info(surface.handle, &info, sizeof info));
+  return info.half_thickness;
 }
 
 nb::object mark(nb::handle surface_, nb::handle mesh_, nb::handle into, nb::handle wanted_fields,
@@ -127,24 +130,27 @@ nb::object mark(nb::handle surface_, nb::handle mesh_, nb::handle into, nb::hand
   else if (!half_thickness.is_none() || !rim.is_none())
     refuse_value(half_thickness.is_none() ? "rim" : "half_thickness", "is given, but R is not");
   const nb::object result_object = into.is_none() ? nb::type<Marks>()() : nb::borrow(into);
-  Marks &result = object<Marks>(result_object, "into");
-  const Writing writing(result.usage, "into");
-  const auto mark_into = [&](Marks &to) {
-    call_to_write(to.usage, [&] { return riis_mark_nodes(surface.handle, mesh.handle, &options, to.handle); });
-  };
-  if (result.is_shared()) {  // arrays still show the last marking
-    Marks fresh;
-    call_shortly(riis_marks_create(&fresh.handle));
-    mark_into(fresh);
-    result.take(fresh);
-  } else {
-    mark_into(result);
+  {
+    Marks &result = object<Marks>(result_object, "into");
+    const Writing writing(result.usage, "into");
+    const auto mark_into = [&](Marks &to) {
+      call_to_write(to.usage, [&] { return riis_mark_nodes(surface.handle, mesh.handle, &options, to.handle); });
+    };
+    if (result.is_shared()) {  // arrays still show the last marking
+      Marks fresh;
+      call_shortly(riis_marks_create(&fresh.handle));
+      mark_into(fresh);
+      result.take(fresh);
+    } else {
+      mark_into(result);
+    }
+    result.n_nodes = mesh.points.n;
+    result.n_threads = options.n_threads;
+    result.marking_fork = fork_number();
+    result.places = mesh.places;
+    result.half_thickness = half_thickness_of(surface);
   }
-  result.n_nodes = mesh.points.n;
-  result.n_threads = options.n_threads;
-  result.marking_fork = fork_number();
-  result.places = mesh.places;
-  if (!may_find_none) warn_of_few_marks(surface_, mesh_, mask, result);
+  if (!may_find_none) warn_of_odd_marks(surface_, mesh_, mask, result_object);
   return result_object;
 }
 
@@ -306,6 +312,7 @@ so they do not change.)");
                    nb::sig("def within_limit(self) -> WithinLimit"),
                    "The same arrays for all nodes within the distance limit.")
       .def_prop_ro("_places", [](const Marks &self) { return self.places; })
+      .def_prop_ro("_half_thickness", [](const Marks &self) { return self.half_thickness; })
       .def_prop_ro("stats", attribute(&stats), nb::sig("def stats(self) -> riis._records.MarkStats"),
                    "The statistics of the last marking.")
       .def("dense", &dense, nb::kw_only(), nb::arg("mark").none() = true, nb::arg("distance").none() = true,
@@ -358,9 +365,10 @@ instructions    the instruction set, for tests and measurements; all give the sa
 R               mass / (length time): the marks get K, and K_u_surface if the surface has velocities
 half_thickness  eps of K; (1 + |offset|) eps is at most the distance limit; None: the surface's half thickness
 rim             as in add_resistance; None: 'round'
-allow_none      whether the call may mark no node, as on an MPI rank whose nodes are far from the valve. False: a call without
-                marks, or with few marks and sizes that suggest another scale, gives a riis.MarksWarning, once for each
-                surface, mesh and scale)");
+allow_none      whether the call may mark no node or odd nodes, as on an MPI rank whose nodes are far from the valve. False: if
+                the marks look wrong, the call gives a riis.MarksWarning with its cure, once for each surface, mesh, scale
+                and half thickness. The marks look wrong without marks, with a valve that leaves the mesh, and with a band
+                that is too thin for the mesh's edges or too thick for the valve)");
 }
 
 }  // namespace riis_python

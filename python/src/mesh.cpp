@@ -35,6 +35,7 @@ void update(Mesh &self, nb::handle xyz, nb::handle y, nb::handle z) {
   const Points &points = in_place ? self.points : given;
   const bool is_other_size = points.n != self.points.n;
   self.places = Mesh::new_places();
+  self.judged_nodes = nb::object();
   call_to_write(self.usage,
                 [&] { return riis_mesh_update(self.handle, points.n, points.x, points.y, points.z, points.stride); });
   if (!in_place) self.points = std::move(given);
@@ -92,6 +93,7 @@ void update_grid(Mesh &self, nb::handle x, nb::handle y, nb::handle z, nb::handl
                  nb::handle n_nodes) {
   const Writing writing(self.usage, "mesh");
   self.places = Mesh::new_places();
+  self.judged_nodes = nb::object();
   take_grid(self, x, y, z, first, stride, n_nodes);
   drop_adjacency(self);
 }
@@ -335,6 +337,7 @@ std::int64_t Mesh::new_places() {
 void Mesh::close(const char *name) {
   Handle::close(name);
   points = Points{};
+  judged_nodes = nb::object();
   drop_adjacency(*this);
 }
 
@@ -398,6 +401,12 @@ index_base        the first number in offsets and columns, 0 or 1)")
                    }),
                    nb::sig("def n_nodes(self) -> int"), "The number of nodes.")
       .def_prop_ro("_places", [](const Mesh &self) { return self.places; })
+      .def_prop_ro("_has_edges",
+                   [](const Mesh &self) { return self.is_grid || self.adjacency.is_valid() || !self.rows.empty(); })
+      .def_prop_rw(
+          "_judged_nodes",
+          [](const Mesh &self) { return self.judged_nodes.is_valid() ? self.judged_nodes : nb::none(); },
+          [](Mesh &self, const nb::object &nodes) { self.judged_nodes = nodes; })
       .def("__len__",
            [](Mesh &self) {
              self.usage.check("mesh");

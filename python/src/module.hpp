@@ -5,6 +5,7 @@
 #include <nanobind/nanobind.h>
 
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "arrays.hpp"
@@ -37,8 +38,9 @@ struct Surface : Handle<riis_surface, riis_surface_destroy> {
   riis_surface_options options{};  // the options in use
   // Copies of arrays that the user requested. The library's arrays are copied, because an update overwrites its memory.
   nb::object vertices, uv, velocities, triangles;
-  // The meshes and scales whose few marks have been judged. A time loop thus warns once.
-  std::set<std::pair<std::int64_t, double>> judged;
+  // The meshes, scales and half thicknesses with which the marks have been judged. A time loop thus warns once.
+  std::set<std::tuple<std::int64_t, double, double>> judged;
+  nb::object valve;  // the caller's valve, for advice; none for a surface from arrays or keyframes
 
   void close(const char *name);
   void drop_copies() { vertices = uv = velocities = triangles = nb::object(); }
@@ -56,6 +58,7 @@ struct Mesh : Handle<riis_mesh, riis_mesh_destroy> {
   nb::object adjacency;     // an Adjacency whose rows are used, kept alive
   std::int64_t places = new_places();
   const std::int64_t number = places;  // differs for every mesh, and stays the same after updates
+  nb::object judged_nodes;             // what riis._tube knows of the nodes at their present positions
 
   // Returns a number for the nodes' present positions. The number differs for every mesh, and after every update.
   static std::int64_t new_places();
@@ -70,6 +73,7 @@ struct Marks : Handle<riis_marks, riis_marks_destroy> {
   std::int32_t n_threads = 0;  // the number of threads that the marking requested
   int marking_fork = 0;        // fork_number() at the marking
   std::int64_t places = 0;     // the mesh's number `places` at the marking
+  double half_thickness = 0;   // the surface's half thickness at the marking
 
   // Refuses calls that would need several threads, which a child of fork() lacks.
   void check_threads(const char *name) const;

@@ -66,6 +66,7 @@ void create(Surface *self, nb::handle valve_, const nb::kwargs &keywords) {
     make_content(*self, options, [&](const riis_surface_options &now) {
       return riis_surface_create(valve.handle, &now, &self->handle);
     });
+    self->valve = nb::borrow(valve_);
   } catch (...) {
     self->~Surface();
     throw;
@@ -77,6 +78,7 @@ void update(Surface &self, nb::handle valve_, const nb::kwargs &keywords) {
   const Reading reading(valve.usage, "valve");
   update_content(self, keywords,
                  [&](const riis_surface_options &now) { return riis_surface_update(self.handle, valve.handle, &now); });
+  self.valve = nb::borrow(valve_);
 }
 
 void update_moving(Surface &self, nb::handle valve_, nb::handle valve_before_, nb::handle dt_,
@@ -90,6 +92,7 @@ void update_moving(Surface &self, nb::handle valve_, nb::handle valve_before_, n
   update_content(self, keywords, [&](const riis_surface_options &now) {
     return riis_surface_update_moving(self.handle, valve.handle, before.handle, dt, &now, &placement);
   });
+  self.valve = nb::borrow(valve_);
 }
 
 void add_direction(Surface &self, nb::handle valve_after_, nb::handle valve_before_, nb::handle dp_,
@@ -135,6 +138,7 @@ void update_from_arrays(Surface &self, nb::handle vertices, nb::handle faces, nb
   update_content(self, keywords, [&](const riis_surface_options &now) {
     return riis_surface_update_from_arrays(self.handle, &of_faces.arrays, &now);
   });
+  self.valve = nb::object();
 }
 
 Surface *from_keyframes(nb::handle keyframes_, nb::handle time_, nb::handle dt_, const nb::kwargs &keywords) {
@@ -154,6 +158,7 @@ void update_from_keyframes(Surface &self, nb::handle keyframes_, nb::handle time
   update_content(self, keywords, [&](const riis_surface_options &now) {
     return riis_surface_update_from_keyframes(self.handle, keyframes.handle, time, dt, &now);
   });
+  self.valve = nb::object();
 }
 
 riis_surface_info info_of(Surface &surface) {
@@ -205,6 +210,16 @@ nb::object attachment(Surface &surface) {
   const auto n = static_cast<std::size_t>(found.n_edges);
   return record("Attachment")(copy_of(found.edges, {n, 2, 3}), copy_of(found.vertex_id, {n, 2}),
                               copy_of(found.leaflet_id, {n}), copy_of(found.patch_id, {n}));
+}
+
+nb::dict placement(const Surface &surface) {
+  const riis_surface_options &at = surface.options;
+  nb::dict made;
+  made["scale"] = at.scale;
+  made["rotation_axis"] = array_of(at.rotation_axis, "float64");
+  made["rotation_angle"] = at.rotation_angle;
+  made["translation"] = array_of(at.translation, "float64");
+  return made;
 }
 
 std::string description(Surface &surface) {
@@ -265,6 +280,7 @@ void FaceArrays::set_skirt(const SkirtArguments &skirt) {
 void Surface::close(const char *name) {
   Handle::close(name);
   drop_copies();
+  valve = nb::object();
 }
 
 void add_surface(nb::module_ &module) {
@@ -378,6 +394,8 @@ direction_id  0 for the first add_direction after the last update, 1 for the sec
                    "Counts, bounds, area, and the seconds of the last creation or update.")
       .def_prop_ro("half_thickness", attribute(+[](Surface &self) { return info_of(self).half_thickness; }),
                    "The half thickness, mesh units.")
+      .def_prop_ro("_valve", [](const Surface &self) { return self.valve.is_valid() ? self.valve : nb::none(); })
+      .def_prop_ro("_placement", &placement)
       .def_prop_ro("vertices", attribute(+[](Surface &self) {
                      return vertex_array(self, &riis_triangles::xyz, 3, &Surface::vertices);
                    }),

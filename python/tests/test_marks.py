@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Marks are equal to those of a C program, to the last bit, for any layout of the arrays and any search."""
 
+import re
 import subprocess
 import warnings
 
@@ -8,6 +9,7 @@ import numpy
 import pytest
 
 import riis
+import tube
 
 
 def same(a, b):
@@ -44,8 +46,8 @@ def test_a_wrong_scale_gives_a_warning_with_the_right_one(unit, wrong, advice, k
         if len(riis.mark(surface, mesh)) < 100:
             assert len(texts) == 1 and "marked: the surface reaches from" in texts[0]
             assert f"The sizes suggest {advice}." in texts[0]
-        else:
-            assert wrong > unit and not texts
+        elif texts:  # more than one unit may fit to a valve that is too large
+            assert wrong > unit and "of the leaflets' area lies outside the mesh" in texts[0]
         surface = riis.Surface(valve, scale=unit, translation=middle)
         assert not warnings_of(lambda: riis.mark(surface, mesh)) and len(riis.mark(surface, mesh)) > 100
 
@@ -56,8 +58,8 @@ def test_a_valve_outside_the_mesh_gives_a_warning_with_the_middle_of_the_mesh():
     for mesh in riis.Mesh(xyz), riis.Mesh.grid(*axes):
         [text] = warnings_of(lambda: riis.mark(riis.Surface(valve), mesh))
         assert text.startswith("no node is marked: the surface reaches from (-1.")
-        assert text.endswith(", the mesh from (5, 6, 7) to (9, 10, 11). The surface lies outside the mesh: see translation. "
-                             "The middle of the mesh is (7, 8, 9). If these marks are right, pass allow_none=True.")
+        assert text.endswith(", the mesh from (5, 6, 7) to (9, 10, 11). The surface lies outside the mesh. Try "
+                             "riis.Surface(valve, translation=(7, 8, 9)). If these marks are right, pass allow_none=True.")
     half = (xyz[:, 0] < 7.0) & (xyz[:, 1] < 8.0)  # a corner, which the valve's box meets
     at_corner = riis.Surface(valve, half_thickness=0.02, translation=(8.15, 9.2, 8.0))
     [text] = warnings_of(lambda: riis.mark(at_corner, riis.Mesh(xyz), mask=half))
@@ -65,6 +67,55 @@ def test_a_valve_outside_the_mesh_gives_a_warning_with_the_middle_of_the_mesh():
     thin = riis.Surface(valve, half_thickness=5e-4, tolerance=0.5, translation=(7.13, 8.07, 9.05))
     [text] = warnings_of(lambda: riis.mark(thin, riis.Mesh(a_box(1.0, 11)[0])))
     assert "The half thickness is 0.0005, and the nodes are about 0.4 apart" in text
+
+
+def placed_tube(seed, unit, n=14, length=80.0):
+    """Returns a mesh with its edges, and the true middle and axis, of a tube of radius 14 mm somewhere in space."""
+    random = numpy.random.default_rng(seed)
+    points, cells = tube.mesh(n, 14.0, length)
+    frame = numpy.linalg.qr(random.normal(size=(3, 3)))[0]
+    middle = random.uniform(-200.0, 200.0, 3)
+    mesh = riis.Mesh(unit * (points @ frame.T + middle))
+    mesh.set_adjacency(riis.Adjacency.from_cells(cells, len(points)))
+    return mesh, unit * middle, frame[:, 2]
+
+
+def pasted(text, valve):
+    """Runs the calls of a warning, and returns their valve and surface."""
+    calls = re.search(r"Try (?:(riis\.Valve\(.*?\)|valve\.update\(.*?\)) and )?(riis\.Surface\(valve, .*\))\..*If", text)
+    names = {"riis": riis, "valve": valve}
+    if calls[1]:
+        made = eval(calls[1], names)
+        names["valve"] = made or valve
+    return names["valve"], eval(calls[2], names)
+
+
+@pytest.mark.parametrize("kind, in_mm, unit, has_edges, seals", [
+    ("coapting", {"annulus": 28.0}, 1.0, True, True), ("coapting", {"annulus": 28.0}, 1e-3, False, True),
+    ("trileaflet", {"annulus": 28.0}, 1.0, False, True), ("bicuspid", {"annulus": 28.0}, 0.1, True, True),
+    ("bileaflet", {"annulus": 28.0}, 1e-3, True, False), ("mitral_coapting", {"AP_diameter": 12.0, "ALPM_diameter": 16.0}, 1.0,
+                                                          False, False)])
+def test_the_calls_of_a_warning_put_a_valve_across_a_tube(kind, in_mm, unit, has_edges, seals):
+    seed = round(1.0 / unit)
+    mesh, middle, axis = placed_tube(seed, unit)
+    if not has_edges:
+        mesh = riis.Mesh(mesh.xyz)
+    for valve in riis.Valve(kind, opening=0.0), riis.Valve(kind, opening=0.0, **in_mm):  # the second has sizes in mm by mistake
+        for options in {}, {"scale": 10.0}, {"scale": 10.0 * unit, "translation": middle}:
+            texts = warnings_of(lambda: riis.mark(riis.Surface(valve, **options), mesh))
+            assert len(texts) == 1
+            better, surface = pasted(texts[0], valve)
+            assert not warnings_of(lambda: riis.mark(surface, mesh)), texts
+            # The valve is in the middle, along the tube, and reaches the wall. A closed valve parts the nodes of both ends.
+            placement = surface._placement
+            assert numpy.linalg.norm(placement["translation"] - middle) < 1.0 * unit
+            along = (mesh.xyz - middle) @ axis
+            reach = numpy.linalg.norm(numpy.cross(surface.vertices - middle, axis), axis=1).max()
+            assert 13.0 * unit < reach < 15.6 * unit
+            with_edges = mesh if has_edges else placed_tube(seed, unit)[0]
+            ends = numpy.flatnonzero(along < -38.0 * unit), numpy.flatnonzero(along > 38.0 * unit)
+            if seals:  # the others leave gaps at their hinges, or beside their annulus in a round tube
+                assert riis.find_passage(surface, with_edges, *ends).state == "closed"
 
 
 def test_a_time_loop_warns_once():

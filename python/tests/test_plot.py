@@ -9,6 +9,7 @@ import numpy
 import pytest
 
 import riis
+import tube
 from riis import _plot
 
 pyvista = pytest.importorskip("pyvista", reason="PyVista is missing; ./run python installs it")
@@ -38,9 +39,12 @@ def test_a_picture_shows_the_leaflets_and_the_marks(surface, mesh, marks, tmp_pa
     background = pictures[0][0]
     drawn = [numpy.count_nonzero((picture != background).any(axis=1)) for picture in pictures]
     assert drawn[0] > 10_000 and drawn[1] > 1.1 * drawn[0]  # the band is wider than the leaflets
-    # The nodes are visible. In addition to the leaflets, more pixels than there are nodes differ strongly from the background.
-    is_beside = (pictures[0] == background).all(axis=1)
-    assert numpy.count_nonzero(is_beside & (abs(pictures[1] - background).sum(axis=1) > 500)) > len(marks)
+    # The nodes are visible, in the colours of the bar, also in front of the leaflets.
+    plasma = pyvista.LookupTable("plasma").values[:, :3].astype(int)
+    for is_leaflet in (pictures[0] == background).all(axis=1), (pictures[0] != background).any(axis=1):
+        seen = numpy.unique(pictures[1][is_leaflet], axis=0, return_counts=True)
+        is_of_bar = (abs(seen[0][:, None] - plasma[None]).sum(axis=2) <= 3).any(axis=1)
+        assert seen[1][is_of_bar].sum() > len(marks)
     with pytest.raises(riis.InvalidArgumentError, match="marks: must be given together with mesh"):
         riis.plot(surface, mesh)
 
@@ -78,21 +82,22 @@ def test_a_picture_without_marks_says_so_and_shows_the_mesh(surface, tmp_path):
     far = riis.Mesh(numpy.random.default_rng(2).uniform(6.0, 9.0, (5000, 3)))
     marks = riis.mark(surface, far, allow_none=True)
     plotter = riis.plot(surface, far, marks, screenshot=tmp_path / "none.png")
-    assert plotter.renderer.actors["riis no marks"].GetText(1) == "0 of 5,000 nodes are marked"  # at the lower right
+    note = plotter.renderer.actors["riis notes"].GetInput()
+    assert note.startswith("0 of 5,000 nodes are marked\nThe valve is 4 long, the mesh 3; riis.mark names")
     assert numpy.allclose(plotter.renderer.actors["riis box"].bounds, numpy.stack([far.xyz.min(0), far.xyz.max(0)], 1).ravel())
     picture = pixels_of(tmp_path / "none.png")
     height, width = picture.shape[:2]
-    words = (picture[: height // 15, 2 * width // 3 :] != picture[-1, -1]).any(axis=2)
-    assert words.sum() > 200  # the letters
+    words = (picture[-height // 12 :, : 2 * width // 3] != picture[-1, -1]).any(axis=2)
+    assert words.sum() > 200 and not words[:, : width // 60].any()  # the letters, not at the edge
     # The same plotter draws a marking that has marks. The words and the box are gone.
-    near = riis.Mesh(far.xyz - 7.5)
+    near = riis.Mesh(1.4 * (far.xyz - 7.5))
     riis.plot(surface, near, riis.mark(surface, near), screenshot=tmp_path / "some.png", plotter=plotter)
-    assert not {"riis no marks", "riis box"} & set(plotter.renderer.actors)
+    assert not {"riis notes", "riis box"} & set(plotter.renderer.actors)
     plotter.close()
     axes = [numpy.linspace(6.0, 9.0, n) for n in (11, 12, 13)]
     grid = riis.Mesh.grid(*axes)
     plotter = riis.plot(surface, grid, riis.mark(surface, grid, allow_none=True), screenshot=tmp_path / "grid.png")
-    assert plotter.renderer.actors["riis no marks"].GetText(1) == "0 of 1,716 nodes are marked"
+    assert plotter.renderer.actors["riis notes"].GetInput().startswith("0 of 1,716 nodes are marked\n")
     plotter.close()
 
 
@@ -107,11 +112,20 @@ def test_a_grid_is_a_shell_around_the_valve(make, surface, mesh, marks, tmp_path
     plotter = riis.plot(surface, mesh, marks, grid=grid, screenshot=tmp_path / "valve.png")
     shell = plotter.renderer.actors["riis grid"]
     assert numpy.allclose(shell.bounds, grid.bounds) and 0.1 < shell.prop.opacity < 0.3
-    # The camera looks at the valve, from about as far away as without the grid, although the grid is longer.
-    distances = [one.camera.distance * numpy.tan(numpy.radians(one.camera.view_angle / 2.0)) for one in (alone, plotter)]
     assert numpy.allclose(plotter.camera.focal_point, (surface.info.lower + surface.info.upper) / 2.0)
-    assert 0.8 < distances[1] / distances[0] < 2.0
     pictures = [pixels_of(tmp_path / name) for name in ("alone.png", "valve.png")]
+    # The whole grid is in the picture, beside the colour bar. A much longer grid is cut off, so that the valve stays large.
+    drawn = (pictures[1] != pictures[1][0, 0]).any(axis=2)
+    height, width = drawn.shape
+    assert not (drawn[:, : width // 100].any() or drawn[-height // 100 :].any() or drawn[:, -width // 100 :].any())
+    assert not drawn[: height // 12, width // 2 :].any() and not drawn[:, int(0.863 * width) : int(0.868 * width)].any()
+    distances = []
+    for length in 1.0, 100.0:
+        longer = grid.cast_to_unstructured_grid().scale((1.0, 1.0, length))
+        one = riis.plot(surface, mesh, marks, grid=longer, screenshot=tmp_path / "longer.png")
+        distances.append(one.camera.distance * numpy.tan(numpy.radians(one.camera.view_angle / 2.0)))
+        one.close()
+    assert 0.1 < distances[1] / distances[0] < 1.5
     assert numpy.mean((pictures[1] != pictures[1][0, 0]).any(axis=2)) > 0.1
     assert numpy.count_nonzero((pictures[0] != pictures[1]).any(axis=2)) > 10_000
     alone.close()
@@ -120,8 +134,67 @@ def test_a_grid_is_a_shell_around_the_valve(make, surface, mesh, marks, tmp_path
     far = grid.translate((40.0, 0.0, 0.0))
     beside = riis.Mesh(numpy.ascontiguousarray(far.points, float))
     none = riis.mark(surface, beside, allow_none=True)
-    plotter = riis.plot(surface, beside, none, grid=far, screenshot=tmp_path / "beside.png")
-    assert plotter.camera.focal_point[0] > 15.0
+    with pytest.warns(riis.MarksWarning, match="^grid: reaches from .* and the surface from .* Is grid in another unit"):
+        plotter = riis.plot(surface, beside, none, grid=far, screenshot=tmp_path / "beside.png")
+    data = pixels_of(tmp_path / "beside.png")
+    note = plotter.renderer.actors["riis notes"].GetInput()
+    assert note.endswith("The grid does not surround the valve: is it in another unit?")
+    seen = (data != data[-1, -1]).any(axis=2)
+    assert not seen[:, : width // 100].any() and not seen[:, -width // 100 :].any() and seen.sum() > 5_000
+    plotter.close()
+
+
+def test_marks_of_an_earlier_surface_are_not_drawn(valve, mesh, tmp_path):
+    surface = riis.Surface(valve, half_thickness=0.15)
+    marks = riis.mark(surface, mesh)
+    riis.plot(riis.Surface(valve, half_thickness=0.15), mesh, marks, screenshot=tmp_path / "same.png").close()  # the same shape
+    surface.update(valve, half_thickness=0.2)
+    with pytest.raises(riis.InvalidArgumentError, match="^marks: were made with the half thickness 0.15, and surface .* 0.2;"):
+        riis.plot(surface, mesh, marks, screenshot=tmp_path / "never.png")
+    riis.mark(surface, mesh, into=marks)
+    valve["opening"] = 0.9
+    surface.update(valve)
+    for draw in (lambda: riis.plot(surface, mesh, marks, screenshot=tmp_path / "never.png"),
+                 lambda: riis.animate(tmp_path / "never.gif", [(surface, marks)], mesh)):
+        with pytest.raises(riis.InvalidArgumentError, match="^marks: do not belong to surface as it is now; pass the surface"):
+            draw()
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["same.png"]
+
+
+def test_a_picture_tells_of_leaking_edges_and_of_a_valve_outside(tmp_path):
+    points, cells = tube.mesh(12, 1.4, 5.0)
+    grid = pyvista.UnstructuredGrid({pyvista.CellType.TETRA: cells}, points)
+    mesh = riis.Mesh(points)
+    with_edges = riis.Mesh(points)
+    with_edges.set_adjacency(riis.Adjacency.from_cells(cells, len(points)))
+    surface = riis.Surface(riis.Valve("coapting", annulus=2.8), half_thickness=0.13)
+    marks = riis.mark(surface, mesh, allow_none=True)
+    n_leaks = riis.find_leaks(surface, with_edges, marks).n_edges
+    assert n_leaks > 1
+    advice = f"^{n_leaks} edges of the mesh cross .* Try riis.Surface\\(valve, half_thickness=0"
+    with pytest.warns(riis.MarksWarning, match=advice) as found:
+        plotter = riis.plot(surface, mesh, marks, grid=grid, screenshot=tmp_path / "leaks.png")
+    half = float(str(found[0].message).split("=")[1].rstrip(")"))
+    assert f"half_thickness={half:g} closes them" in plotter.renderer.actors["riis notes"].GetInput().replace("\n", " ")
+    plotter.close()
+    for opening in 0.0, 0.4, 1.0:
+        surface.update(riis.Valve("coapting", annulus=2.8, opening=opening), half_thickness=half)
+        assert riis.find_leaks(surface, with_edges, riis.mark(surface, with_edges)).n_edges == 0
+    plotter = riis.plot(surface, mesh, riis.mark(surface, mesh), grid=grid, screenshot=tmp_path / "fine.png")
+    assert "riis notes" not in plotter.renderer.actors
+    plotter.close()
+    wide = riis.Surface(riis.Valve("mitral", opening=0.2), half_thickness=0.3)
+    marks = riis.mark(wide, mesh, allow_none=True)
+    plotter = riis.plot(wide, mesh, marks, grid=grid, screenshot=tmp_path / "wide.png")
+    assert " % of the leaflets' area is outside the mesh" in plotter.renderer.actors["riis notes"].GetInput()
+    plotter.close()
+
+
+def test_the_colour_bar_has_the_unit(surface, mesh, marks, tmp_path):
+    plotter = riis.plot(surface, mesh, marks, unit="mm", screenshot=tmp_path / "mm.png")
+    assert list(plotter.scalar_bars.keys()) == ["distance\nin mm\n"]
+    riis.plot(surface, mesh, marks, screenshot=tmp_path / "none.png", plotter=plotter)
+    assert list(plotter.scalar_bars.keys()) == ["distance\n"]
     plotter.close()
 
 
@@ -135,6 +208,8 @@ def test_objects_of_other_types_are_refused(surface, mesh, marks, tmp_path):
     ):
         with pytest.raises(TypeError, match=f"^{text}$"):
             riis.plot(*arguments, **options, screenshot=tmp_path / "never.png")
+    with pytest.raises(TypeError, match="^grid: must be a mesh of PyVista, such as an UnstructuredGrid, not Mesh$"):
+        riis.animate(tmp_path / "never.gif", [(surface, marks)], mesh, grid=mesh)
     with pytest.raises(TypeError, match="^mesh: must be the riis.Mesh of the marking, not ImageData"):
         riis.animate(tmp_path / "never.gif", [(surface, marks)], grid)
     assert not list(tmp_path.iterdir())
@@ -210,6 +285,21 @@ def beat(n_frames):
         surface.update(valve)
         riis.mark(surface, mesh, into=marks)
         yield surface, marks, f"opening {valve['opening']:.1f}"
+
+
+def test_a_movie_shows_the_grid(tmp_path):
+    imageio = pytest.importorskip("imageio.v3", reason="imageio is missing; ./run python installs it")
+    mesh, pictures = next(beat(1)), []
+    grid = pyvista.Cylinder(radius=2.2, height=6.0, direction=(0, 0, 1))
+    for shell in None, grid:
+        frames = beat(2)
+        next(frames)
+        riis.animate(tmp_path / "beat.gif", ((surface, None, words) for surface, _, words in frames), mesh, grid=shell, unit="cm")
+        pictures.append(imageio.imread(tmp_path / "beat.gif", index=1)[..., :3].astype(int))
+    shells = [(numpy.ptp(picture, axis=2) < 12) & (abs(picture[:, :, 0] - 215) < 35) for picture in pictures]
+    assert shells[0].mean() < 0.01 and shells[1].mean() > 0.1  # grey and translucent
+    rows = (pictures[1] != pictures[1][0, 0]).any(axis=2)
+    assert not (rows[:3].any() or rows[-3:].any() or rows[:, :3].any() or rows[:, -3:].any())  # nor is the caption at the edge
 
 
 @pytest.mark.parametrize("kind", ["gif", "mp4"])
