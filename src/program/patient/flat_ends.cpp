@@ -444,8 +444,10 @@ WallFrame frame_of_wall(const PatientWall &wall, const LandmarkFile &landmarks, 
     if (all[0].away <= at_wall)
       refuse_data(text + "; they are " + mm_text(all[0].away) + " from it with " + options_of(all[0], best));
     refuse_data(
-        text + ", and farther with other units and axes. On their wall they are nearer than " + mm_text(at_wall) +
-        ": are both files of the same patient and the same image? Load both in 3D Slicer, and set the landmarks anew");
+        text + ", and farther with every other unit and axes. Landmarks that belong to a wall are within " +
+        mm_text(at_wall) +
+        " of it: are both files of the same patient and the same image, and is neither mirrored? Load both in 3D "
+        "Slicer, and set the landmarks anew");
   }
   if (allowed.size() > 1 && allowed[1].away <= std::min(at_wall, clearly_farther * best.away))
     refuse_usage(wall.path + ": its " + (allowed[1].unit == best.unit ? "axes are" : "unit is") +
