@@ -233,7 +233,7 @@ class Patient(unittest.TestCase):
                          "--picture talk.png")
         self.assertNotIn("$ riis", done.stdout)
         self.assertIn("commands.sh has the command of each next step", done.stdout)
-        self.assertRegex(done.stdout, r"skirt +closes the gap between valve and wall, at most [\d.]+ mm")
+        self.assertRegex(done.stdout, r"skirt +closes the gap between the closed valve and the wall, at most [\d.]+ mm")
         before = {name: (case / name).read_bytes() for name in ("placed.json", "valve.dat")}
         for command in printed:
             subprocess.run([PROGRAM, *shlex.split(command)[1:]], cwd=case, check=True, capture_output=True)
@@ -420,12 +420,21 @@ exec '{shutil.which("gmsh")}' "$@" $longer
         self.files(wall_factor=1e-3)
         done = self.refused(2, "--half-thickness: 1 m is not from .* write --half-thickness '1 mm'", "--half-thickness", "1")
         self.assertFalse((self.folder / "case").exists(), done.stderr)
+        # A number has another unit than the wall, and the message names the one in which it fits.
+        self.files()
+        self.refused(2, "--half-thickness: 1e-3 mm is not from 0.1 to 4 mm; without a unit, the number has that of WALL: "
+                     "write --half-thickness '1e-3 m' if metres are meant$", "--half-thickness", "1e-3")
+        self.refused(2, "--half-thickness: 50 mm is not from 0.1 to 4 mm$", "--half-thickness", "50")
+        self.refused(2, "--heart-rate needs --solver", "--heart-rate", "60")
+        self.refused(2, "--heart-rate: 39.9 is not from 40 to 180 beats a minute", "--heart-rate", "39.9", "--solver", "openfoam")
         self.refused(2, "--hold needs --solver openfoam", "--hold", "0.5")
         self.refused(2, "--hold: 1 is not below 1: write --hold 0.999", "--hold", "1", "--solver", "openfoam")
         self.refused(2, "--valve: .* are those of an aortic valve, and mitral is a mitral valve: leave out --valve",
                      "--valve", "mitral")
         self.refused(2, "--valve: the aortic valve does not close: write --valve coapting", "--valve", "aortic")
-        self.refused(2, "--valve: riis patient takes .* not bileaflet", "--valve", "bileaflet")
+        self.refused(2, "--valve: riis patient takes .*, or a disease of riis help diseases, not bileaflet", "--valve",
+                     "bileaflet")
+        self.assertIn("aortic_stenosis_severe", self.run_riis("help", "diseases").stdout)
         self.assertIn("--output is required", self.run_riis("patient", "root.stl", "landmarks.json").stderr)
         # A file of landmarks may state its unit and axes.
         text = json.loads((self.folder / "landmarks.json").read_text(encoding="utf-8"))
@@ -468,6 +477,25 @@ exec '{shutil.which("gmsh")}' "$@" $longer
                                "valve has other names; riis help landmarks lists",
                             output="none")
         self.assertNotIn("...;", done.stderr)
+        # Two names are exchanged. The message names both, and the file of the user.
+        nadirs = {"nadir_right": points["nadir_left"], "nadir_left": points["nadir_right"]}
+        (self.folder / "changed.json").write_text(json.dumps({**text, "landmarks": {**points, **nadirs}}), encoding="utf-8")
+        self.refused(1, '^riis: changed.json: the name of "nadir_[rl][a-z]*t" and that of "nadir_[rl][a-z]*t" are exchanged',
+                     landmarks="changed.json", output="changed")
+        # A bicuspid valve has other points.
+        bicuspid = "a bicuspid valve has the points nadir_cusp_0, nadir_cusp_1, commissure_1, commissure_2"
+        (self.folder / "landmarks.json").write_text(json.dumps(text), encoding="utf-8")
+        self.refused(1, f'"nadir_non_coronary" names a cusp that a bicuspid valve lacks: {bicuspid}', "--valve", "bicuspid",
+                     output="none")
+        commissures = {f"commissure_{i}": points[name] for i, name in enumerate(n for n in points if "commissure" in n)}
+        two = {name: points[name] for name in ("nadir_right", "nadir_left")}
+        (self.folder / "landmarks.json").write_text(json.dumps({**text, "landmarks": {**two, **commissures}}), encoding="utf-8")
+        self.refused(1, f"has 3 commissures, which are 1 too many: {bicuspid}", "--valve", "bicuspid", output="none")
+        joined = {f"commissure_cusp_{i}_cusp_{1 - i}": points["nadir_left"] for i in (0, 1)}
+        (self.folder / "landmarks.json").write_text(json.dumps({**text, "landmarks": joined}), encoding="utf-8")
+        self.refused(1, '"commissure_cusp_1_cusp_0" is given twice; the commissures of a bicuspid valve are commissure_1 and '
+                     "commissure_2", "--valve", "bicuspid", output="none")
+        (self.folder / "landmarks.json").write_text(json.dumps({**text, "landmarks": slicer}), encoding="utf-8")
         self.refused(1, "the mitral valve has annulus_1, annulus_2, .* and anterior_horn; riis help landmarks lists", "--valve",
                      "mitral", output="none")
 
@@ -497,6 +525,28 @@ exec '{shutil.which("gmsh")}' "$@" $longer
             done = self.patient("--replace", *CUT, output="old")
             self.assertRegex(done.stdout, f"(?m)^replaced  removed {words}$")
             self.assertFalse((self.folder / "old" / computed).exists())
+        # While a solver runs there, nothing is removed.
+        lock = self.folder / "old/openfoam/.lock"
+        lock.parent.mkdir()
+        (self.folder / "old/patient.json").write_text("{}", encoding="utf-8")
+        owner = subprocess.Popen(["flock", lock, "sleep", "60"])
+        self.addCleanup(owner.wait)
+        self.addCleanup(owner.kill)
+        while subprocess.run(["flock", "-n", lock, "true"], check=False).returncode == 0:
+            time.sleep(0.01)
+        lock.write_text("123\n", encoding="utf-8")
+        for words in [["--replace"], []]:
+            done = self.patient(*words, output="old")
+            self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
+            self.assertTrue((self.folder / "old/patient.json").exists())
+            self.assertFalse((self.folder / "old/UNFINISHED.txt").exists())
+            self.assertIn("a run in its folder openfoam has not ended (process 123), and nothing is removed" if words
+                          else "write --replace", done.stderr)
+            self.assertTrue(lock.exists())
+        subprocess.run(["pkill", "-P", str(owner.pid)], check=False)
+        owner.wait()
+        self.refused(1, "wall.stl: the wall is not within --skirt", "--replace", *CUT, output="old")
+        self.assertFalse(lock.exists())
         self.refused(1, "--output: root.stl: is a file, not a folder", output="root.stl")
         # If a run was cut off, the next run may use the same folder. Files that the program would remove there cannot be inputs.
         (case / "UNFINISHED.txt").write_text("", encoding="utf-8")
@@ -518,7 +568,7 @@ exec '{shutil.which("gmsh")}' "$@" $longer
         self.refused(1, "two.stl: .*2 pieces", wall="two.stl")
         write_stl(here / "far.stl", far)
         self.refused(1, r"landmarks.json: the landmarks are \d+ mm from the wall of far.stl on average, and farther "
-                     "away with other units and axes.* same patient", wall="far.stl", output="none")
+                     "away with other units and axes.* same patient.* mirrored", wall="far.stl", output="none")
         self.refused(1, "they are .* mm from it with --wall-unit mm", "--wall-unit", "m", output="none")
         self.refused(1, "they are .* mm from it with --axes LPS", "--axes", "RAS", output="none")
         # In a wide vessel, the landmarks are near the wall on average, but the skirt does not reach the wall.

@@ -245,8 +245,9 @@ class Cases(unittest.TestCase):
         self.assertIn("'two' is not a number of ranks: write ./Allrun 2", allrun("two", status=2))
         self.assertIn("ended with the status 1", allrun(status=1, program="false"))
         said = allrun(status=2)
-        self.assertIn("what follows is preliminary\nthe valve does not move\n", said)
-        for line in ("heart rate +75 /min\n", r"forward volume +0.8 ml\n", r"backward volume +0.004 ml\n",
+        self.assertIn("what follows is preliminary\nthe valve has not moved yet\n", said)
+        self.assertNotIn("heart rate", said)
+        for line in (r"forward volume +0.8 ml\n", r"backward volume +0.004 ml\n",
                      r"largest flow +400 ml/s +at 0.006 s\n"):
             self.assertRegex(said, line)
         self.assertIn("<Continue_previous_simulation> false", (folder / "ran.xml").read_text())
@@ -445,7 +446,7 @@ class Cases(unittest.TestCase):
         self.assertAlmostEqual(last, 3.0 * 52, delta=1e-6)
 
     def test_fenicsx_report(self):
-        numbers = self.numbers("fenicsx")
+        numbers = self.numbers("fenicsx", orifice=[4e-4, 3.5e-4, ""])
         self.write("fenicsx", numbers)
         folder = pathlib.Path(numbers["solver"])
         case = json.loads((folder / "case.json").read_text())
@@ -476,6 +477,11 @@ class Cases(unittest.TestCase):
         said = report(400)
         self.assertIn("the valve opens from 0.100 to 0.140 s\nthe valve closes from 0.400 to 0.440 s\n", said)
         back = 50 * 0.04 - 1e6 * leak * 0.002 * (50 + 180)
+        # The areas are those of the case. The effective area is 200 ml/s over 2 m/s.
+        for line in (r"heart rate +75 /min\n", r"orifice of the open valve +4 cm2\n",
+                     r"left open by the band +3.5 cm2 +met: at least 80 %, 88 %\n",
+                     r"effective area: largest flow over its fastest blood +1 cm2\n"):
+            self.assertRegex(said, line)
         for line in (r"forward volume +60 ml\n", rf"backward volume +{back:.4g} ml +met",
                      r"of the largest flow +1.0e-06 +met: at most 1e-5", r"while the valve moves +3.5 m/s +met: at most 8",
                      r"time with a node above 3 m/s while it moves +10 ms +met: at most 10",
@@ -486,7 +492,7 @@ class Cases(unittest.TestCase):
         # Before a valve that never moves has a steady leak, the script judges nothing.
         self.assertIn((folder / "report.txt").read_text(), said)
         said = report(20, status=2)
-        self.assertIn("0.04 s of a beat of 0.8 s: what follows is preliminary\nthe valve does not move\n", said)
+        self.assertIn("0.04 s of a beat of 0.8 s: what follows is preliminary\nthe valve has not moved yet\n", said)
         for word in ("leak", "met", "MISSED"):
             self.assertNotIn(word, said)
         self.assertIn("not made two steps yet", report(1, status=2))

@@ -37,6 +37,9 @@ SolverCase case_of(const Json &json) {
   }
   solver.n_nodes = json.at("n_nodes");
   solver.n_cells = json.at("n_cells");
+  if (json.contains("period")) solver.period = json.at("period");
+  if (json.contains("orifice"))
+    solver.open_area = OpenArea{json.at("orifice").at(0), json.at("orifice").at(1), json.at("orifice").at(2)};
   return solver;
 }
 

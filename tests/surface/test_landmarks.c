@@ -1104,6 +1104,15 @@ TEST(test_refused_cusps) {
   REFUSED("aortic", "landmark 1 (commissure) says left and non_coronary|between right and left",
           (p.leaflet_id[0][0] = 0, p.leaflet_id[2][0] = 1, p.leaflet_id[4][0] = 2, p.leaflet_id[1][0] = 1,
            p.leaflet_id[1][1] = 2));
+  /* All names are given, and two have changed places. Landmark 2 k is the nadir of leaflet k, and 2 k + 1 the commissure after
+     it. */
+  patient named = good;
+  for (int k = 0; k < 3; ++k)
+    named.leaflet_id[2 * k][0] = named.leaflet_id[2 * k + 1][0] = k, named.leaflet_id[2 * k + 1][1] = (k + 1) % 3;
+  REFUSED("aortic", "leaflet_id of landmark 0 (nadir) and that of landmark 2 (nadir) are exchanged",
+          (p = named, p.leaflet_id[0][0] = 1, p.leaflet_id[2][0] = 0));
+  REFUSED("trileaflet", "leaflet_id of landmark 3 (commissure) and that of landmark 5 (commissure) are exchanged",
+          (p = named, p.leaflet_id[3][0] = 2, p.leaflet_id[3][1] = 0, p.leaflet_id[5][0] = 1, p.leaflet_id[5][1] = 2));
 #undef REFUSED
 }
 

@@ -225,7 +225,8 @@ struct PatientOptions : ValveOptions {
   std::optional<Amount> given_half_thickness, given_skirt, given_largest_edge, given_resistance;
   std::optional<double> band_edge;  // in half thicknesses
   std::optional<double> hold;       // the opening at which the case holds the valve; nothing: the blood moves the valve
-  bool replace = false;             // whether to replace the files of an earlier run
+  std::optional<double> heart_rate;  // beats a minute
+  bool replace = false;              // whether to replace the files of an earlier run
 };
 inline const std::vector<std::string> solver_names = {"none", "openfoam", "svmultiphysics", "fenicsx"};
 

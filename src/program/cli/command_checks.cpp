@@ -311,6 +311,11 @@ PatientOptions finish_patient(const Command &command, PatientOptions options) {
   if (options.hold && options.solver != "openfoam")
     refuse_usage("--hold needs --solver openfoam: only its case holds a valve at an opening");
   if (options.hold && *options.hold >= 1) refuse_usage("--hold: 1 is not below 1: write --hold 0.999");
+  if (options.heart_rate && options.solver == "none")
+    refuse_usage("--heart-rate needs --solver: only the case of a solver has a heart rate");
+  if (options.heart_rate && (*options.heart_rate < 40 || *options.heart_rate > 180))
+    refuse_usage("--heart-rate: " + shortest(*options.heart_rate) +
+                 " is not from 40 to 180 beats a minute, for which the pressures of a case are known");
   if (options.solver == "none") return options;
   const Unit needed = options.solver == "svmultiphysics" ? Unit::centimetre : Unit::metre;
   if (options.unit && *options.unit != needed)

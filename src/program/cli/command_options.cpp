@@ -732,6 +732,8 @@ void declare_patient(Command command, PatientOptions &options) {
                  positive_amount_of(a_resistance));
   command.parsed("--hold", "X", "With --solver openfoam: hold the valve at an opening below 1", options.hold,
                  parse_opening);
+  command.parsed("--heart-rate", "N", "With a solver: beats a minute, 40 to 180 (default 75)", options.heart_rate,
+                 parse_positive_finite);
 }
 
 void declare_params(Command command, ParamsOptions &options) {

@@ -121,10 +121,11 @@ std::size_t n_cusps_of(const std::string &kind) {
 std::vector<std::string> names_of_cusps(const std::string &kind) {
   const std::size_t n = n_cusps_of(kind);
   std::vector<std::string> names;
+  // Both commissures of a bicuspid valve join the same two cusps, so numbers must distinguish them.
+  if (n == 2) return {"nadir_cusp_0", "nadir_cusp_1", "commissure_1", "commissure_2"};
   for (std::size_t cusp = 0; cusp < n; ++cusp) names.push_back("nadir_" + cusp_word(n, cusp));
-  for (std::size_t cusp = 0; cusp < n && n > 2; ++cusp)
+  for (std::size_t cusp = 0; cusp < n; ++cusp)
     names.push_back("commissure_" + cusp_word(n, cusp) + "_" + cusp_word(n, (cusp + 1) % n));
-  if (n == 2) names.insert(names.end(), {"commissure_1", "commissure_2"});
   return names;
 }
 
@@ -147,7 +148,11 @@ class Collector {
     const bool names_leaflet = place->leaflet_ids[0] >= 0 && place->role != RIIS_LANDMARK_ATTACHMENT;
     const bool is_new = names_leaflet ? leaflets_.insert({key.first, {key.second.first, key.second.second}}).second
                                       : names_.insert(text).second;
-    if (!is_new && !place->may_repeat) refuse_file(file_.path, quoted(name) + " is given twice");
+    if (!is_new && !place->may_repeat)
+      refuse_file(file_.path, quoted(name) + " is given twice" +
+                                  (text == "commissure_cusp_0_cusp_1" || text == "commissure_cusp_1_cusp_0"
+                                       ? "; the commissures of a bicuspid valve are commissure_1 and commissure_2"
+                                       : ""));
     file_.names.push_back(name);
     file_.roles.push_back(place->role);
     file_.leaflet_ids.insert(file_.leaflet_ids.end(), place->leaflet_ids.begin(), place->leaflet_ids.end());
@@ -465,6 +470,19 @@ void LandmarkFile::convert(Axes to) {
 }
 
 void check_names_of_cusps(const LandmarkFile &landmarks, const std::string &kind) {
+  const auto n_cusps = static_cast<std::int32_t>(n_cusps_of(kind));
+  const std::string points = " valve has the points " + joined_by(names_of_cusps(kind), ", ");
+  for (std::size_t i = 0; i < landmarks.roles.size() && n_cusps > 0; ++i)
+    if (std::max(landmarks.leaflet_ids[2 * i], landmarks.leaflet_ids[2 * i + 1]) >= n_cusps)
+      refuse_file(landmarks.path,
+                  quoted(landmarks.names[i]) + " names a cusp that a " + kind + " valve lacks: a " + kind + points);
+  for (const RoleWord &word : role_words) {
+    const auto n = std::count(landmarks.roles.begin(), landmarks.roles.end(), word.role);
+    const bool is_of_cusp = word.role == RIIS_LANDMARK_NADIR || word.role == RIIS_LANDMARK_COMMISSURE;
+    if (n_cusps > 0 && is_of_cusp && n > n_cusps)
+      refuse_file(landmarks.path, "has " + std::to_string(n) + " " + word.word + "s, which are " +
+                                      std::to_string(n - n_cusps) + " too many: a " + kind + points);
+  }
   std::set<std::array<std::int32_t, 3>> given;
   std::size_t n_without = 0;
   for (std::size_t i = 0; i < landmarks.roles.size(); ++i) {

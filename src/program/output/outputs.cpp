@@ -346,6 +346,7 @@ std::vector<std::string> held_locks;
 // A file of this process, and the folder that contains it. A signal that ends the process removes the file and the folder. An
 // empty name stands for no file or no folder.
 char scratch_file[PATH_MAX], scratch_folder[PATH_MAX];
+std::atomic<const char *> last_words{nullptr};
 
 void remove_held() {
   for (const std::string &path : held_locks) unlink(path.c_str());
@@ -357,6 +358,9 @@ void remove_and_end(int signal) {
   remove_held();
   unlink(scratch_file);
   rmdir(scratch_folder);
+  if (const char *const words = last_words)
+    if (write(STDERR_FILENO, words, std::strlen(words)) < 0) {  // the process ends in any case
+    }
   std::raise(signal);
 }
 
@@ -440,6 +444,8 @@ void remove_if_ended(const std::string &folder, const std::string &file) {
   std::strcpy(scratch_folder, folder.c_str());
   std::strcpy(scratch_file, file.c_str());
 }
+
+void say_if_ended(const char *text) { last_words = text; }
 
 OutputLocks::OutputLocks(const std::vector<std::string> &paths) {
   const SignalsWait wait;

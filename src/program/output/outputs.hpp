@@ -16,6 +16,10 @@ namespace riis::program {
 // this file and this folder. An empty name stands for no file or no folder.
 void remove_if_ended(const std::string &folder, const std::string &file);
 
+// Stores a text, which must live as long as the process. A signal that ends the process while this process holds locks then
+// prints this text on stderr. nullptr stands for no text.
+void say_if_ended(const char *text);
+
 // A temporary folder. The destructor removes the folder with its content.
 class TemporaryFolder {
  public:

@@ -10,14 +10,18 @@ All numbers are in SI units. A step of the solver is a dictionary:
   fastest, band  the fastest speed of all, and the fastest in the band of the valve, where the solver's files have them
   leak           of an ideal valve at this difference of pressures, if it is known
   arterial       the pressure in the aorta, if an aortic valve leads there
-  orifice        the area between the leaflets, if the solver's files have it
+  orifice, free  the area between the leaflets, and the part of it that the band leaves open, if the solver's files have them
+
+riis patient writes orifice.json beside this file: the two areas of the fully open valve, and words on a thinner band.
 """
+import json
 import pathlib
 
 PASCALS_OF_MMHG = 133.322387415
 REST = 0.05  # the leak is steady so long after the valve has closed [s]
 # Bounds of a beat.
 MOST_BACK = 0.12          # of the forward volume
+LEAST_FREE = 0.8          # of the orifice: the band narrows the valve, and a narrower valve has other flows and gradients
 MOST_OFF_FORECAST = 0.03  # of the leak
 MOST_AT_BAND = 2          # m/s
 MOST_WHILE_MOVING = 8     # m/s
@@ -46,7 +50,7 @@ class Lines:
     """The rows of the table. `is_fine` tells whether all bounds hold."""
 
     def __init__(self, is_judged):
-        self.rows, self.is_judged, self.is_fine = [], is_judged, True
+        self.rows, self.advice, self.is_judged, self.is_fine = [], [], is_judged, True
 
     def head(self, text):
         self.rows.append(text)
@@ -57,6 +61,10 @@ class Lines:
             self.is_fine = self.is_fine and bound[0]
             note = f"{'met' if bound[0] else 'MISSED'}: {bound[1]}"
         self.rows.append(f"  {text:<54} {shown or f'{value:.4g}':>9} {unit:<7} {note}".rstrip())
+
+    def advise(self, *sentences):
+        """Adds sentences that follow the table."""
+        self.advice += sentences
 
     def add_speed(self, text, steps, name, most):
         """Adds the fastest speed of the steps that have one, and returns them. A bound judges it if all of them have one."""
@@ -77,9 +85,41 @@ def steady_leak(beat, motions):
     return [step for step in still if step["difference"] < 0.8 * most]
 
 
-def add_clinical(lines, beat, dt, period, motions):
+def read_orifice():
+    """Returns the numbers of orifice.json, or {} for a case without them."""
+    path = pathlib.Path(__file__).resolve().parent / "orifice.json"
+    return json.loads(path.read_text("utf-8")) if path.exists() else {}
+
+
+def add_orifice(lines, opened, motions, orifice):
+    """Adds the areas of the open valve. The blood does not see the orifice, but the part of it that the band leaves open."""
+    still = [step for step in opened if step["opening"] > 0.999 and not is_moving(step, motions)]
+    areas = [(step["orifice"], step.get("free")) for step in opened if step.get("orifice") is not None]
+    if not areas and still and orifice:
+        areas = [(orifice["area_m2"], orifice["free_m2"])]
+    if areas:
+        area, free = max(areas, key=lambda pair: pair[0])
+        lines.add("orifice of the open valve", 1e4 * area, "cm2")
+        if free is not None and area > 0:
+            share = free / area
+            lines.add("of the orifice, left open by the band", 1e4 * free, "cm2",
+                      (share >= LEAST_FREE, f"at least {100 * LEAST_FREE:.0f} %, {100 * share:.0f} %"))
+            if share < LEAST_FREE:
+                lines.advise(f"The band on both sides of the leaflets closes {100 * (1 - share):.0f} % of the orifice, so the "
+                             "blood meets a narrower valve than yours.",
+                             "Its volumes and gradients are those of the narrower valve. A bound on a share of the flow may be "
+                             "missed only because little flows.",
+                             *([orifice["cure"]] if orifice.get("cure") else []))
+    jets = [step for step in still if step.get("fastest") and step["flow"] > 0]
+    if jets:
+        most = max(jets, key=lambda step: step["flow"])
+        lines.add("effective area: largest flow over its fastest blood", 1e4 * most["flow"] / most["fastest"], "cm2")
+
+
+def add_clinical(lines, beat, dt, period, motions, orifice):
     """Adds the numbers that a physician compares."""
-    lines.add("heart rate", 60 / period, "/min")
+    if lines.is_judged:
+        lines.add("heart rate", 60 / period, "/min", shown=f"{60 / period:.3g}")
     forward, back = (dt * sum(max(sign * step["flow"], 0) for step in beat) for sign in (1, -1))
     lines.add("forward volume", 1e6 * forward, "ml", None if forward > 0 else (False, "above 0"))
     share = back / forward if forward > 0 else float("inf")
@@ -98,9 +138,7 @@ def add_clinical(lines, beat, dt, period, motions):
                   "mmHg")
     lines.add_speed("jet: fastest blood while the valve is fully open",
                     [step for step in opened if step["opening"] > 0.999 and not is_moving(step, motions)], "fastest", None)
-    areas = [step["orifice"] for step in opened if step.get("orifice") is not None]
-    if areas:
-        lines.add("orifice of the open valve", 1e4 * max(areas), "cm2")
+    add_orifice(lines, opened, motions, orifice)
     arterial = [step["arterial"] for step in beat if step.get("arterial") is not None]
     if arterial:
         lines.add("systolic pressure in the aorta", max(arterial) / PASCALS_OF_MMHG, "mmHg")
@@ -121,7 +159,7 @@ def add_checks(lines, beat, dt, motions, drop, where):
         else:
             lines.add("leak, as a multiple of the forecast for this mesh", share, "",
                       (abs(share - 1) < MOST_OFF_FORECAST, f"{1 - MOST_OFF_FORECAST:g} to {1 + MOST_OFF_FORECAST:g}"))
-            lines.add("forecast: drop, as a share of an ideal valve's drop", drop)
+            lines.add("forecast of the pressure that the closed valve holds", 100 * drop, "%", note="of an ideal valve's")
     moving = [step for step in beat if is_moving(step, motions)]
     closed = [step for step in beat if step["opening"] == 0 and not is_moving(step, motions)]
     if not lines.add_speed(f"fastest {where} at the closed valve", closed, "band", MOST_AT_BAND):
@@ -159,14 +197,15 @@ def beat_table(steps, period, drop=None, where="cell"):
     if not is_complete:
         said.append(f"the tables have {len(beat) * dt:.3g} s of a beat of {period:g} s: what follows is preliminary")
     shown = [motion for motion in motions if motion[2] > beat[0]["time"]]
-    said += [f"the valve {word} from {start:.3f} to {last:.3f} s" for word, start, last in shown] or ["the valve does not move"]
+    said += [f"the valve {word} from {start:.3f} to {last:.3f} s" for word, start, last in shown] or [
+        "the valve does not move" if is_complete else "the valve has not moved yet"]
     lines = Lines(is_complete)
     lines.head(f"the beat that ends at {end:g} s")
-    add_clinical(lines, beat, dt, period, motions)
+    add_clinical(lines, beat, dt, period, motions, read_orifice())
     lines.head("numerical checks")
     add_checks(lines, beat, dt, motions, drop, where)
     status = INCOMPLETE if not is_complete else FINE if lines.is_fine else MISSED
-    return "\n".join([*said, *lines.rows]), status
+    return "\n".join([*said, *lines.rows, *lines.advice]), status
 
 
 def save_and_print(text, folder):

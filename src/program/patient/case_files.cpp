@@ -88,6 +88,7 @@ void make_runnable(const SolverCase &solver, const std::string &name) {
 
 void write_scripts(const SolverCase &solver, const std::string &of, const std::string &run) {
   write_into(solver, "beat_table.py", case_texts().at("beat_table.py"));
+  write_orifice(solver);
   for (const std::string &name : {run, std::string("report.py")}) {
     write_into(solver, name, case_texts().at(of + "/" + name));
     make_runnable(solver, name);
@@ -108,14 +109,24 @@ std::string filled(std::string text, const std::map<std::string, std::string> &n
   return text;
 }
 
-void announce_beat(const SolverCase &solver, const std::string &program, double step, double seconds) {
-  const int n_steps = static_cast<int>(beat_period / step + 0.5);
-  const double whole = seconds * static_cast<double>(solver.n_cells) * n_steps;
-  print_line("a beat has " + std::to_string(n_steps) + " steps of " + shortest(step) + " s; " + program +
-             " needs about " +
-             (whole < 90     ? shown(std::ceil(whole)) + " seconds"
-              : whole < 5400 ? shown(std::ceil(whole / 60)) + " minutes"
-                             : printed("%.1f", whole / 3600) + " hours") +
+void write_orifice(const SolverCase &solver) {
+  if (!solver.open_area) return;
+  const OpenArea &open = *solver.open_area;
+  Json json = {{"area_m2", open.orifice}, {"free_m2", open.free}};
+  if (!open.cure.empty()) json["cure"] = open.cure;
+  write_into(solver, "orifice.json", json.dump(1) + "\n");
+}
+
+std::string time_of_beat(const SolverCost &cost, double n_cells, double period) {
+  const double seconds = cost.seconds * n_cells * std::round(period / cost.step);
+  return seconds < 90     ? shown(std::ceil(seconds)) + " seconds"
+         : seconds < 5400 ? shown(std::ceil(seconds / 60)) + " minutes"
+                          : printed("%.1f", seconds / 3600) + " hours";
+}
+
+void announce_beat(const SolverCase &solver, const SolverCost &cost) {
+  print_line("a beat has " + printed("%.0f", solver.period / cost.step) + " steps of " + shortest(cost.step) + " s; " +
+             cost.program + " needs about " + time_of_beat(cost, static_cast<double>(solver.n_cells), solver.period) +
              " on one processor");
 }
 

@@ -3,6 +3,7 @@
 // @NAME@ in texts. Also the physiological defaults of one beat.
 #pragma once
 
+#include <cmath>
 #include <map>
 #include <string>
 #include <vector>
@@ -30,8 +31,21 @@ void write_into(const SolverCase &solver, const std::string &name, const std::st
 void make_runnable(const SolverCase &solver, const std::string &name);
 // Writes beat_table.py, report.py, and the script `run`, which runs the case. `of` is the folder of the scripts among case_texts.
 void write_scripts(const SolverCase &solver, const std::string &of, const std::string &run);
-// Prints how long a beat takes. `step` is a time step, and `seconds` is the processor time per cell and step.
-void announce_beat(const SolverCase &solver, const std::string &program, double step, double seconds);
+// Writes orifice.json, from which beat_table.py takes the areas of the open valve.
+void write_orifice(const SolverCase &solver);
+
+// A solver's time step, and its measured processor time per cell and step: docs/patient_openfoam.md, "The beat",
+// docs/patient_svmultiphysics.md, "What it costs", and docs/patient_fenicsx.md, "What was run".
+struct SolverCost {
+  const char *program;
+  double step, seconds;
+};
+inline constexpr SolverCost openfoam_cost{"OpenFOAM", 1e-3, 5e-6}, svmultiphysics_cost{"svMultiPhysics", 0.002, 7e-5},
+    dolfinx_cost{"dolfinx", 0.002, 4e-5};
+// Returns words for the processor time of a beat, such as "3 minutes".
+std::string time_of_beat(const SolverCost &cost, double n_cells, double period);
+// Prints how long a beat takes.
+void announce_beat(const SolverCase &solver, const SolverCost &cost);
 
 // Replaces each @NAME@ by the text that belongs to the name. Every name in the text must be in the list of names.
 std::string filled(std::string text, const std::map<std::string, std::string> &names);
@@ -43,8 +57,10 @@ const std::map<std::string, std::string> &case_texts();
 
 // The physiological defaults of one beat, in SI units: the pressures in a heart at rest, and the body behind the aorta.
 
-inline constexpr double mmHg = 133.322;         // Pa
-inline constexpr double beat_period = 0.8;      // s
+inline constexpr double mmHg = 133.322;      // Pa
+inline constexpr double usual_period = 0.8;  // s
+// The time between two files, of which the duration of a beat is a multiple. Otherwise the end of a run would have no file.
+inline constexpr double seconds_between_files = 0.02;
 inline constexpr double motion_seconds = 0.04;  // in which a valve opens, and in which it closes
 // The dwell time of the law of opening. Closing leaflets push blood back, and the pressure of this blood must not open the valve
 // again. Each motion of the leaflets therefore ends before the next motion may begin, as in svMultiPhysics.
@@ -54,12 +70,34 @@ inline constexpr double opening_pressure = 50;
 // m3/s. A mitral valve closes when the flow falls below a small value, so that less blood returns.
 inline constexpr double closing_flow_of_mitral = 1e-4;
 
-// A pressure as a function of time, which is linear between its keys. The function repeats with the period beat_period.
+// The systole at another heart rate than usual, as a share of the usual systole. At N beats a minute, the time from the Q wave to
+// the second heart sound is 546 ms - 2.1 ms N (A. M. Weissler et al., Circulation 37, 1968, 149-159, for men).
+inline double systole_at(double period) {
+  const auto seconds = [](double duration) { return 0.546 - 2.1e-3 * 60 / duration; };
+  return seconds(period) / seconds(usual_period);
+}
+
+// A pressure as a function of time, which is linear between its keys. The function repeats with its last time.
 struct PressureCurve {
   struct Key {
     double time, pressure;  // s, mmHg
   };
   std::vector<Key> keys;
+
+  // Returns the curve of a beat of another duration. The beat consists of a systole and a diastole, and `middle` is the time
+  // between them. The systole changes by systole_at, and the diastole has the rest of the beat.
+  PressureCurve lasting(double period, double middle, bool is_systole_first) const {
+    if (period == usual_period) return *this;
+    const double rest = usual_period - middle, factor = systole_at(period);
+    const double new_middle = is_systole_first ? factor * middle : period - factor * rest;
+    PressureCurve made = *this;
+    for (Key &key : made.keys) {
+      const double time = key.time <= middle ? key.time * new_middle / middle
+                                             : new_middle + (key.time - middle) * (period - new_middle) / rest;
+      key.time = std::round(1e4 * time) / 1e4;
+    }
+    return made;
+  }
 
   double at(double time) const {  // in Pa, from 0 to the period
     std::size_t i = 1;
@@ -70,16 +108,16 @@ struct PressureCurve {
 };
 
 // The pressure of the ventricle in a beat that begins at the end of diastole. It drives an aortic valve.
-inline const PressureCurve &pressure_of_left_ventricle() {
-  static const PressureCurve curve{
+inline PressureCurve pressure_of_left_ventricle(double period) {
+  const PressureCurve curve{
       {{0, 8}, {0.04, 8}, {0.09, 78}, {0.14, 108}, {0.2, 120}, {0.27, 112}, {0.32, 95}, {0.38, 8}, {0.8, 8}}};
-  return curve;
+  return curve.lasting(period, 0.38, true);
 }
 // The pressure of the ventricle in a beat that begins before the ventricle is filled. Blood from the atrium fills the ventricle
 // through a mitral valve.
-inline const PressureCurve &pressure_of_filling_ventricle() {
-  static const PressureCurve curve{{{0, 12}, {0.03, 12}, {0.08, 4}, {0.4, 4}, {0.5, 100}, {0.76, 100}, {0.8, 12}}};
-  return curve;
+inline PressureCurve pressure_of_filling_ventricle(double period) {
+  const PressureCurve curve{{{0, 12}, {0.03, 12}, {0.08, 4}, {0.4, 4}, {0.5, 100}, {0.76, 100}, {0.8, 12}}};
+  return curve.lasting(period, 0.4, false);
 }
 inline constexpr double pressure_of_left_atrium = 10 * mmHg;
 

@@ -7,26 +7,23 @@
 namespace riis::program {
 namespace {
 
-constexpr double dolfinx_step = 0.002;  // s
-// The measured processor time per cell and step (docs/patient_fenicsx.md, "What was run").
-constexpr double dolfinx_seconds = 4e-5;
-
 Json keys_of(const PressureCurve &curve) {
   Json keys = Json::array();
   for (const PressureCurve::Key &key : curve.keys) keys.push_back({key.time, mmHg * key.pressure});
   return keys;
 }
 
-Json constant(double pressure) { return {{0, pressure}, {beat_period, pressure}}; }
+Json constant(double pressure, double period) { return {{0, pressure}, {period, pressure}}; }
 
 Json numbers_of(const SolverCase &solver, const Ends &ends) {
   Json boundaries = Json::object(), pressures = Json::object(), windkessels = Json::object();
   for (const Boundary &boundary : solver.boundaries) boundaries[boundary.name] = boundary.group;
-  pressures["inlet"] = solver.is_mitral ? constant(pressure_of_left_atrium) : keys_of(pressure_of_left_ventricle());
+  pressures["inlet"] = solver.is_mitral ? constant(pressure_of_left_atrium, solver.period)
+                                        : keys_of(pressure_of_left_ventricle(solver.period));
   const Windkessel body;
   for (const Boundary &outlet : ends.outlets) {
     if (solver.is_mitral) {
-      pressures[outlet.name] = keys_of(pressure_of_filling_ventricle());
+      pressures[outlet.name] = keys_of(pressure_of_filling_ventricle(solver.period));
       continue;
     }
     // Several outlets share the flow of blood in proportion to their areas.
@@ -57,9 +54,9 @@ Json numbers_of(const SolverCase &solver, const Ends &ends) {
             {"close_below", solver.is_mitral ? closing_flow_of_mitral : 0.0},
             {"filter_time", 0.002},
             {"dwell_time", dwell_seconds}}},
-          {"period", beat_period},
-          {"time_step", dolfinx_step},
-          {"steps", static_cast<int>(beat_period / dolfinx_step + 0.5)}};
+          {"period", solver.period},
+          {"time_step", dolfinx_cost.step},
+          {"steps", static_cast<int>(solver.period / dolfinx_cost.step + 0.5)}};
 }
 
 }  // namespace
@@ -71,7 +68,7 @@ void write_fenicsx_case(const SolverCase &solver) {
     if (solver.skirt > 0 || name != std::string("wall.stl")) copy_into(solver, name, name);
   write_into(solver, "case.json", numbers_of(solver, ends).dump(1) + "\n");
   write_scripts(solver, "fenicsx", "run.py");
-  announce_beat(solver, "dolfinx", dolfinx_step, dolfinx_seconds);
+  announce_beat(solver, dolfinx_cost);
 }
 
 }  // namespace riis::program

@@ -446,10 +446,11 @@ WallFrame frame_of_wall(const PatientWall &wall, const LandmarkFile &landmarks, 
         landmarks.path + ": the landmarks are " + mm_text(best.away) + " from the wall of " + wall.path + " on average";
     if (all[0].away <= at_wall)
       refuse_data(text + "; they are " + mm_text(all[0].away) + " from it with " + options_of(all[0], best));
-    refuse_data(text + ", and farther away with other units and axes. Landmarks on their own wall are nearer than " +
-                mm_text(at_wall) +
-                ": do both files belong to the same patient and the same image? Load both in 3D Slicer, and set the "
-                "landmarks anew");
+    refuse_data(
+        text + ", and farther away with other units and axes. Landmarks on their own wall are nearer than " +
+        mm_text(at_wall) +
+        ": do both files belong to the same patient and the same image, and is neither mirrored? Load both in 3D "
+        "Slicer, and set the landmarks anew");
   }
   if (allowed.size() > 1 && allowed[1].away <= std::min(at_wall, clearly_farther * best.away))
     refuse_usage(wall.path + ": its " + (allowed[1].unit == best.unit ? "axes are" : "unit is") +

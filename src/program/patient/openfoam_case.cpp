@@ -97,14 +97,14 @@ Pressures pressures_of(const SolverCase &the, const Ends &ends) {
   const PressureWriter writer(the.density);
   Pressures made;
   if (the.is_mitral) {
-    made.start = writer.kinematic(pressure_of_filling_ventricle().at(0));
+    made.start = writer.kinematic(pressure_of_filling_ventricle(the.period).at(0));
     made.patches = writer.constant("inlet", "The atrium", pressure_of_left_atrium);
     for (const Boundary &outlet : ends.outlets)
-      made.patches += writer.curve(outlet.name, "The ventricle", pressure_of_filling_ventricle());
+      made.patches += writer.curve(outlet.name, "The ventricle", pressure_of_filling_ventricle(the.period));
     return made;
   }
-  made.start = writer.kinematic(pressure_of_left_ventricle().at(0));
-  made.patches = writer.curve("inlet", "The ventricle", pressure_of_left_ventricle());
+  made.start = writer.kinematic(pressure_of_left_ventricle(the.period).at(0));
+  made.patches = writer.curve("inlet", "The ventricle", pressure_of_left_ventricle(the.period));
   for (const Boundary &outlet : ends.outlets)
     made.patches += writer.arteries(outlet.name, outlet.area / ends.outlet_area);
   return made;
@@ -149,7 +149,10 @@ void write_openfoam_case(const SolverCase &the) {
       {"KINEMATIC_VISCOSITY", printed("%.6g", the.viscosity / the.density)},
       {"MMHG", printed("%.6g", mmHg / the.density)},
       {"CLOSE_BELOW", shortest(the.is_mitral ? closing_flow_of_mitral : 0)},
-      {"PERIOD", shortest(beat_period)},
+      {"PERIOD", shortest(the.period)},
+      {"TIME_STEP", shortest(openfoam_cost.step)},
+      {"WRITE_INTERVAL", shortest(seconds_between_files)},
+      {"SECONDS_PER_CELL", shortest(openfoam_cost.seconds)},
       {"MOTION_SECONDS", shortest(motion_seconds)},
       {"DWELL_SECONDS", shortest(dwell_seconds)},
       {"OPEN_ABOVE", the.hold ? never + shortest(*the.hold) : shortest(opening_pressure)},
@@ -165,6 +168,7 @@ void write_openfoam_case(const SolverCase &the) {
   make_case_folder(the);
   for (const auto &[path, file] : foam_files) write_into(the, path, filled(case_texts().at(file), values));
   make_runnable(the, "Allrun");
+  write_orifice(the);
   for (const char *const name : {"mesh.msh", "placed.json", "wall.stl"}) copy_into(the, name, name);
 }
 

@@ -17,6 +17,7 @@
 #include "program/input/valve_source.hpp"
 #include "program/mark/warnings.hpp"
 #include "program/output/report.hpp"
+#include "program/patient/case_files.hpp"
 #include "program/patient/flat_ends.hpp"
 #include "program/patient/patient_mesh.hpp"
 #include "program/patient/patient_steps.hpp"
@@ -53,6 +54,11 @@ constexpr std::int64_t many_nodes = 40000;
 // The number of nodes grows with a power of 1 / (edge length in the band). The power was found by meshes of a root and a
 // ventricle.
 constexpr double power_of_nodes = 2.5;
+// The same power of 1 / (half thickness), with which all edge lengths change. The power was found by a root.
+constexpr double power_of_thinner = 2.4;
+// The least share of the open valve that the band should leave open. A narrower valve has other flows: the gradient grows with
+// the square of 1 / area. beat_table.py judges the same share.
+constexpr double least_open_share = 0.8;
 constexpr int n_marked_openings = 11;
 
 // The opening of a valve during a beat of 0.72 s. The times are in seconds, as in examples/demo. The text `times` has the times
@@ -79,7 +85,8 @@ void check_kind(const std::string &kind) {
   if (kinds.count(kind) > 0) return;
   if (kind == "aortic")
     refuse_usage("--valve: the aortic valve does not close: write --valve coapting or --valve trileaflet");
-  refuse_usage("--valve: riis patient takes " + one_of({kinds.begin(), kinds.end()}) + ", not " + kind +
+  refuse_usage("--valve: riis patient takes " + one_of({kinds.begin(), kinds.end()}) +
+               ", or a disease of riis help diseases, not " + kind +
                "; docs/patient.md has the single commands, which take every kind");
 }
 
@@ -132,6 +139,8 @@ class PatientRun {
     the_.folder = ".";
     the_.solver = options_.solver;
     the_.hold = options_.hold;
+    if (options_.heart_rate)
+      the_.period = std::round(60 / *options_.heart_rate / seconds_between_files) * seconds_between_files;
     const std::string kind_by_roles = kind_of_roles(landmarks_);
     if (options_.has_valve && !kind_by_roles.empty() && is_mitral_kind(kind_by_roles) != the_.is_mitral)
       refuse_usage("--valve: the landmarks of " + options_.landmarks + " are those of " +
@@ -183,11 +192,18 @@ class PatientRun {
     const auto in_unit = [&](double mm) { return *number_in(printed("%.12g", mm * millimetre_)); };
     if (!given) return in_unit(usual_mm);
     const double mm = given->number * (given->has_unit ? 1000 : factor_between(frame_.unit, Unit::millimetre));
-    if (mm < least_mm || mm > most_mm)
-      refuse_usage(
-          given->subject + ": " + given->text + (given->has_unit ? "" : std::string(" ") + name_of(frame_.unit)) +
-          " is not from " + shown(least_mm) + " to " + shown(most_mm) + " mm" +
-          (given->has_unit ? "" : ": write " + given->subject + " '" + given->text + " mm' if millimetres are meant"));
+    if (mm < least_mm || mm > most_mm) {
+      std::string cure;
+      for (const Unit unit : {Unit::millimetre, Unit::centimetre, Unit::metre}) {
+        const double meant = given->number * factor_between(unit, Unit::millimetre);
+        if (!given->has_unit && cure.empty() && meant >= least_mm && meant <= most_mm)
+          cure = std::string("; without a unit, the number has that of WALL: write ") + given->subject + " '" +
+                 given->text + " " + name_of(unit) + "' if " + words_of(unit) + " are meant";
+      }
+      refuse_usage(given->subject + ": " + given->text +
+                   (given->has_unit ? "" : std::string(" ") + name_of(frame_.unit)) + " is not from " +
+                   shown(least_mm) + " to " + shown(most_mm) + " mm" + cure);
+    }
     return in_unit(mm);
   }
 
@@ -230,9 +246,12 @@ class PatientRun {
     check_flow();
     static const char *const names[] = {"none", "exact", "smoothed"};
     const Words noise_words = options_.noise ? Words{"--noise", shortest(noise())} : Words();
-    const StepEnd end = steps_.run(
+    StepEnd end = steps_.run(
         "place",
         place_words(joined({{"--warp", names[options_.warp_choice]}, noise_words, {"--output", "placed.json"}})));
+    // The step reads a copy of the landmarks, and a message should name the file of the user.
+    for (std::string &message : end.messages)
+      if (message.rfind(landmarks_name_ + ":", 0) == 0) message.replace(0, landmarks_name_.size(), options_.landmarks);
     if (!end.is_fine()) steps_.refuse("place", end, cure_of_folds(end));
     show_warnings(end);
     const Json placed = parse_json_file("placed.json", "a placed valve");
@@ -322,8 +341,8 @@ class PatientRun {
     const Json gap = stats_of("crossings")["gap"];
     report_["gap"] = gap;
     const double least = gap["least"], most = gap["most"];
-    std::string text = "closes the gap between valve and wall, at most " + in_mm(std::max(most, 0.0));
-    if (least < 0) text += "; elsewhere the valve reaches up to " + in_mm(-least) + " into the wall";
+    std::string text = "closes the gap between the closed valve and the wall, at most " + in_mm(std::max(most, 0.0));
+    if (least < 0) text += "; elsewhere the closed valve reaches up to " + in_mm(-least) + " into the wall";
     steps_.say("skirt", text + "; no leaflets go through each other at 101 openings", end.seconds);
   }
 
@@ -397,9 +416,23 @@ class PatientRun {
                    names_of_boundaries(),
                steps_.seconds() - begin);
     if (the_.n_nodes <= many_nodes) return;
-    steps_.say("mesh", "more than " + grouped(many_nodes) + " nodes take long to compute: --half-thickness " +
-                           option_mm(the_.half_thickness * std::cbrt(static_cast<double>(the_.n_nodes) / many_nodes)) +
-                           " would need about " + grouped(many_nodes));
+    const double thicker =
+        the_.half_thickness *
+        std::pow(static_cast<double>(the_.n_nodes) / static_cast<double>(many_nodes), 1 / power_of_thinner);
+    steps_.say("mesh", "more than " + grouped(many_nodes) + " nodes take long to compute" +
+                           time_with(static_cast<double>(the_.n_nodes), ": ") + ": --half-thickness " +
+                           option_mm(thicker) + " would need about " + grouped(many_nodes));
+  }
+
+  // Returns words for how long the solver takes for a beat with this number of nodes, or "" without a solver.
+  std::string time_with(double n_nodes, const std::string &begin) const {
+    const SolverCost *const cost = options_.solver == "openfoam"         ? &openfoam_cost
+                                   : options_.solver == "svmultiphysics" ? &svmultiphysics_cost
+                                   : options_.solver == "fenicsx"        ? &dolfinx_cost
+                                                                         : nullptr;
+    if (cost == nullptr) return "";
+    const double n_cells = n_nodes * static_cast<double>(the_.n_cells) / static_cast<double>(the_.n_nodes);
+    return begin + "about " + time_of_beat(*cost, n_cells, the_.period) + " of a processor for a beat";
   }
 
   std::string names_of_boundaries() const {
@@ -490,8 +523,52 @@ class PatientRun {
       const double effective = square_cm * open["orifice"]["effective_area"].get<double>();
       text += ": the band leaves " + printed("%.3g", effective) + " of " + printed("%.3g", orifice) + " cm2";
       report_["effective_area_cm2"] = effective;
+      the_.open_area = OpenArea{1e-4 * orifice, 1e-4 * effective, ""};
     }
     steps_.say("passage", text, steps_.seconds() - begin);
+    say_outside(open);
+    if (the_.open_area) check_open_share(open["orifice"]);
+  }
+
+  // Says how much of the open valve lies in the wall, where it marks nothing.
+  void say_outside(const Json &open) {
+    const Json outside = open.value("outside", Json());
+    constexpr double least_said = 0.01;
+    const double share = outside.is_object() ? outside["share"].get<double>() : 0.0;
+    if (share < least_said) return;
+    std::vector<std::string> leaflets;
+    for (const Json &leaflet : outside["leaflets"])
+      leaflets.push_back(leaflet["name"].get<std::string>() + " " +
+                         printed("%.2g", 100 * leaflet["share"].get<double>()) + " %");
+    const double least = open.contains("gap") ? open["gap"]["least"].get<double>() : 0.0;
+    steps_.say("outside", "of the open leaflets, " + printed("%.2g", 100 * share) + " % of the area" +
+                              (leaflets.empty() ? "" : " (" + joined_by(leaflets, ", ") + ")") +
+                              " is outside the mesh, where nothing resists the blood" +
+                              (least < 0 ? "; the open valve reaches up to " + in_mm(-least) + " into the wall" : ""));
+  }
+
+  // Warns if the band takes much of a small orifice. Along the orifice's edge, the band takes the reach of the rim, in half
+  // thicknesses.
+  void check_open_share(const Json &orifice) {
+    const double area = orifice["area"], free = orifice["effective_area"], perimeter = orifice["perimeter"];
+    if (!(area > 0) || free >= least_open_share * area) return;
+    report_["open_share"] = free / area;
+    const double thinner = (1 - least_open_share) * area / (orifice["rim_reach"].get<double>() * perimeter);
+    const double thinner_mm = std::floor(100 * thinner / millimetre_ + 1e-6) / 100;
+    const std::string share = printed("%.0f", 100 * least_open_share) + " %";
+    const double n_nodes = static_cast<double>(the_.n_nodes) *
+                           std::pow(the_.half_thickness / (thinner_mm * millimetre_), power_of_thinner);
+    the_.open_area->cure = perimeter > 0 && thinner_mm >= least_half_thickness_mm
+                               ? "In riis patient, --half-thickness '" + shortest(thinner_mm) +
+                                     " mm' would leave about " + share + ". It needs about " +
+                                     grouped(std::int64_t(1000 * std::round(n_nodes / 1000))) + " nodes" +
+                                     time_with(n_nodes, ", and ") + "."
+                               : "No half thickness of riis patient would leave " + share + ": " +
+                                     shown(least_half_thickness_mm) + " mm is the least.";
+    warn("the band, " + in_mm(the_.half_thickness) + " on each side of the leaflets, closes " +
+         printed("%.0f", 100 * (1 - free / area)) +
+         " % of the orifice. The blood will meet a narrower valve than yours, with less flow and a larger gradient. " +
+         the_.open_area->cure);
   }
 
   // Refuses ends that lie on the wrong side of the closed valve. If the user chose one of them, the message names the option.
@@ -644,7 +721,7 @@ class PatientRun {
       steps_.say("edges", "the mesh of " + grouped(the_.n_nodes) +
                               " nodes is ready for a run; for a comparison with a finer mesh, --band-edge " +
                               printed("%.2f", finer * band_edge_) + " makes about " + grouped(many_nodes) +
-                              " nodes in place of --band-edge " + shown(band_edge_));
+                              " nodes in place of --band-edge " + shown(band_edge_) + time_with(many_nodes, ": "));
     steps_.say("done", "in " + printed("%.0f", steps_.seconds()) + " s. " + options_.folder + " has:");
     const std::pair<std::string, const char *> files[] = {
         {"mesh.msh",

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "program/patient/patient_steps.hpp"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
@@ -62,6 +66,48 @@ std::string computed_in(const fs::path &folder) {
   return "";
 }
 
+// The locks of the solvers' runs in the folder. A run holds the lock as long as one of its processes lives.
+class RunLocks {
+ public:
+  RunLocks(const fs::path &folder, const std::string &path) {
+    for (const char *const solver : {"openfoam", "svmultiphysics", "fenicsx"}) {
+      const std::string lock = (folder / solver / ".lock").string();
+      const int file = open(lock.c_str(), O_RDONLY | O_CLOEXEC);
+      if (file < 0) continue;
+      files_.push_back(file);
+      if (flock(file, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) continue;
+      const std::string owner = trimmed(text_of_file(lock));
+      release();
+      refuse_folder(path, "a run in its folder " + std::string(solver) + " has not ended" +
+                              (owner.empty() ? "" : " (process " + owner + ")") +
+                              ", and nothing is removed: wait for its end, end it, or name another folder");
+    }
+  }
+  ~RunLocks() { release(); }
+  RunLocks(const RunLocks &) = delete;
+  RunLocks &operator=(const RunLocks &) = delete;
+
+ private:
+  void release() {
+    for (const int file : files_) close(file);
+    files_.clear();
+  }
+
+  std::vector<int> files_;
+};
+
+// Removes what an earlier run wrote. All checks come before this. The report is removed first, so that a folder that has lost
+// some of its files never looks finished.
+void remove_own_files(const fs::path &folder, const std::string &path) {
+  const RunLocks locks(folder, path);
+  for (const char *const name : own_names) {
+    std::error_code error;
+    fs::remove_all(folder / name, error);
+    if (error) refuse_folder(path, "its " + std::string(name) + " cannot be removed: " + error.message());
+  }
+}
+
+// Checks the folder, or makes it.
 std::string taken_folder(const std::string &path, bool replace, const std::vector<std::string> &inputs,
                          std::string &removed) {
   std::error_code error;
@@ -79,8 +125,6 @@ std::string taken_folder(const std::string &path, bool replace, const std::vecto
       refuse_folder(path, "the folder has the results of an earlier run: name another, or write --replace" +
                               (removed.empty() ? "" : ", which also removes " + removed));
     check_inputs(folder, path, inputs);
-    // The report is removed first. A folder that has lost some of its files therefore never looks finished.
-    for (const char *const name : own_names) fs::remove_all(folder / name, error);
   } else {
     fs::create_directories(folder, error);
     if (error) refuse_folder(path, "cannot be made: " + error.message());
@@ -92,10 +136,14 @@ std::string taken_folder(const std::string &path, bool replace, const std::vecto
 
 PatientFolder::PatientFolder(const std::string &path, bool replace, const std::vector<std::string> &inputs)
     : path_(taken_folder(path, replace, inputs, removed_)), locks_({(fs::path(path_) / marker_file).string()}) {
+  say_if_ended("\nriis: stopped before the folder was finished: the same command makes it anew\n");
+  remove_own_files(path_, path);
   std::error_code error;
   fs::current_path(path_, error);
   if (error) refuse_folder(path, "cannot be entered: " + error.message());
-  write_text(marker_file, "riis patient has not finished this folder. If riis patient no longer runs, run it again.\n");
+  write_text(
+      marker_file,
+      "riis patient has not finished this folder. If riis patient no longer runs, the same command makes it anew.\n");
   fs::create_directory("logs", error);
   if (error) refuse_folder(path, "cannot be written to: " + error.message());
 }
@@ -104,6 +152,7 @@ void PatientFolder::finish() {
   std::error_code error;
   fs::remove(marker_file, error);
   if (error) refuse_data(std::string(marker_file) + ": cannot be removed: " + error.message());
+  say_if_ended(nullptr);
 }
 
 std::string cure_of_full_disc(const std::string &reason) {

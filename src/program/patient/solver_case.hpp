@@ -26,6 +26,13 @@ struct Boundary {
   std::int64_t n_faces = 0;
 };
 
+// The fully open valve: the area between its leaflets, the part that the band leaves open, and advice if this part is small.
+// Areas are in m2.
+struct OpenArea {
+  double orifice = 0, free = 0;
+  std::string cure;
+};
+
 // The data that every solver needs. Lengths are in the mesh's unit. R, density and viscosity are in SI units.
 struct SolverCase {
   std::string folder;       // of riis patient: mesh.msh, faces/NAME.vtp, wall.stl and placed.json lie here
@@ -48,6 +55,8 @@ struct SolverCase {
   std::vector<Boundary> boundaries;  // the inlet, the outlets, the wall
   std::int64_t n_nodes = 0, n_cells = 0;
   double band_edge = 0;  // edge length in the band
+  double period = 0.8;   // of a beat [s], a multiple of the time between two files
+  std::optional<OpenArea> open_area{};
 };
 
 // Writes a folder that OpenFOAM 1912 runs as it is: the mesh, the dictionaries, and the scripts Allrun and report.py. An aortic

@@ -14,14 +14,12 @@
 namespace riis::program {
 namespace {
 
-constexpr double solver_step = 0.002;  // s
-constexpr int steps_between_files = 10;
+constexpr double solver_step = svmultiphysics_cost.step;  // s
+constexpr int steps_between_files = 10;                   // seconds_between_files
 // The largest edge of the leaflets' triangles, in half thicknesses. With such triangles, the K that the solver computes is
 // correct to 5 %, and the K that riis computes in the solver is exact (docs/export.md, "How fine the triangles must be"). With
 // finer triangles, the solver would need hours.
 constexpr double largest_edge = 0.5;
-// The measured processor time per cell and step (docs/patient_svmultiphysics.md, "What it costs").
-constexpr double seconds_of_cell = 7e-5;
 constexpr int n_modes = 128;  // of a curve of pressure, which differs from its polygon by less than 0.5 mmHg
 
 constexpr double dyn_per_cm2 = 10;                                   // in a Pa
@@ -142,8 +140,9 @@ void write_svmultiphysics_case(const SolverCase &solver) {
   copy_into(solver, "mesh.vtu", "mesh-complete/mesh-complete.mesh.vtu");
   const std::string faces = faces_of(solver), valve = write_valve(solver);
   write_into(solver, "ventricle.dat",
-             temporal_values(solver.is_mitral ? pressure_of_filling_ventricle() : pressure_of_left_ventricle()));
-  const int n_steps = static_cast<int>(beat_period / solver_step + 0.5);
+             temporal_values(solver.is_mitral ? pressure_of_filling_ventricle(solver.period)
+                                              : pressure_of_left_ventricle(solver.period)));
+  const int n_steps = static_cast<int>(solver.period / solver_step + 0.5);
   write_into(solver, "solver.xml",
              filled(case_texts().at("svmultiphysics/solver.xml"),
                     {{"TITLE", "One beat of a " + in_xml(solver.kind) + " valve, written by riis patient."},
@@ -156,7 +155,7 @@ void write_svmultiphysics_case(const SolverCase &solver) {
                      {"VISCOSITY", printed("%.6g", solver.viscosity * factor_from_si(a_viscosity, Unit::centimetre))},
                      {"CONDITIONS", conditions_of(solver, ends)}}));
   write_scripts(solver, "svmultiphysics", "Allrun");
-  announce_beat(solver, "svMultiPhysics", solver_step, seconds_of_cell);
+  announce_beat(solver, svmultiphysics_cost);
 }
 
 }  // namespace riis::program

@@ -4,7 +4,10 @@
 #include <riis/riis.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "base/errors.hpp"
 #include "common/elementary.hpp"
@@ -87,6 +90,30 @@ Order turn_of(const Landmarks &landmarks, Vec3 axis, Vec3 middle) {
   return order;
 }
 
+// Returns whether the names fit one of the orders that begin at another leaflet.
+bool fits_turned(const Landmarks &landmarks, const LeafletsAround &leaflets, const Order &turn) {
+  for (std::size_t by = 0; by < leaflets.n(); ++by)
+    if (fits(landmarks, leaflets, rotated(turn, by))) return true;
+  return false;
+}
+
+// If all names fit after one pair of landmarks has exchanged its names, and no other pair does so, names this pair.
+void refuse_exchanged(Landmarks landmarks, const LeafletsAround &leaflets, const Order &turn) {
+  std::vector<std::array<std::size_t, 2>> found;
+  for (std::size_t i = 0; i < landmarks.list.size(); ++i)
+    for (std::size_t j = i + 1; j < landmarks.list.size(); ++j) {
+      Landmark &a = landmarks.list[i], &b = landmarks.list[j];
+      if (a.role != b.role || (a.role != RIIS_LANDMARK_NADIR && a.role != RIIS_LANDMARK_COMMISSURE)) continue;
+      if (a.leaflet_ids[0] == -1 || b.leaflet_ids[0] == -1) continue;  // a landmark without a name
+      std::swap(a.leaflet_ids, b.leaflet_ids);
+      if (fits_turned(landmarks, leaflets, turn)) found.push_back({i, j});
+      std::swap(a.leaflet_ids, b.leaflet_ids);
+    }
+  if (found.size() == 1)
+    fail(RIIS_INVALID_ARGUMENT, "landmarks.leaflet_id of ", words_for(landmarks, found[0][0]), " and that of ",
+         words_for(landmarks, found[0][1]), " are exchanged: all names fit if these two change places");
+}
+
 // Names the first landmark that does not fit the order.
 [[noreturn]] void refuse_names(const Landmarks &landmarks, const LeafletsAround &leaflets, const Order &order) {
   for (std::size_t k = 0; k < leaflets.n(); ++k) {
@@ -126,10 +153,7 @@ void check_leaflet_ids(const Landmarks &landmarks, const LeafletsAround &leaflet
 }
 
 bool names_fit(const Landmarks &landmarks, const LeafletsAround &leaflets, Vec3 axis, Vec3 middle) {
-  const Order turn = turn_of(landmarks, axis, middle);
-  for (std::size_t by = 0; by < leaflets.n(); ++by)
-    if (fits(landmarks, leaflets, rotated(turn, by))) return true;
-  return false;
+  return fits_turned(landmarks, leaflets, turn_of(landmarks, axis, middle));
 }
 
 // The names determine which of the possible orders about the axis is right.
@@ -150,6 +174,7 @@ Order order_around(const Landmarks &landmarks, const LeafletsAround &leaflets, V
       fail(RIIS_INVALID_ARGUMENT, "landmarks.leaflet_id: seen along the flow, ", listed(leaflets.names),
            " follow each other ", are, ", but they must follow ", must, ": the landmarks or their names are mirrored");
     }
+  refuse_exchanged(landmarks, leaflets, turn);
   for (std::size_t by = 0; by < n && !turn.nadir.empty(); ++by)
     if (landmarks.list[rotated(turn, by).nadir[0]].leaflet_ids[0] == 0)
       refuse_names(landmarks, leaflets, rotated(turn, by));

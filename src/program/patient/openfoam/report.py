@@ -12,7 +12,6 @@ import sys
 
 from beat_table import beat_table, save_and_print
 
-BEAT = float("@PERIOD@")  # of the tables in 0/p [s]
 CASE = pathlib.Path(__file__).resolve().parent
 
 
@@ -36,6 +35,14 @@ def rows_of(case, name, file):
 def number_after(word, text):
     match = re.search(rf"{word}\s+([-+.\de]+)", text)
     return float(match[1]) if match else None
+
+
+def period_of(case):
+    """Returns the duration of a beat [s]."""
+    period = number_after(r"\n\s*period", (case / "system/controlDict").read_text())
+    if not period or period <= 0:
+        sys.exit(f"report.py: {case}/system/controlDict has no positive period, the duration of a beat in seconds")
+    return period
 
 
 def forecast_of(case):
@@ -66,7 +73,7 @@ def steps_of(case, closed_area):
         speed = float(fastest[time][2 if len(fastest[time]) < 5 else 3])
         steps.append({"time": time, "opening": opening, "difference": difference, "flow": flow, "band": float(valve[time][8]),
                       "arterial": rho * float(arterial[time][0]) if time in arterial else None,
-                      "orifice": float(valve[time][5]), "fastest": speed,
+                      "orifice": float(valve[time][5]), "free": float(valve[time][6]), "fastest": speed,
                       "balance": sum(float(table[time][0]) for table in flows),
                       "leak": closed_area and -difference * half_thickness * closed_area / resistance})
     return steps
@@ -79,7 +86,7 @@ def picture_words(case):
     written = {float(name): name for name in names if re.fullmatch(r"[\d.e-]+", name)}
     end = max(valve, default=0.0)
     # The table of the valve gets the row of a time after the fields of this time are written.
-    shown = [time for time in written if time in valve and time > end - BEAT - 1e-9]
+    shown = [time for time in written if time in valve and time > end - period_of(case) - 1e-9]
     if not shown:
         sys.exit("report.py: no written time has a row in postProcessing/valve: there is nothing to draw yet")
     # While the valve still opens, the jet has not formed.
@@ -97,7 +104,7 @@ def main():
     if len(sys.argv) > 1:
         sys.exit(f"report.py takes --picture or nothing, but got '{' '.join(sys.argv[1:])}'")
     area, drop = forecast_of(CASE)
-    text, status = beat_table(steps_of(CASE, area), BEAT, drop)
+    text, status = beat_table(steps_of(CASE, area), period_of(CASE), drop)
     save_and_print(text, CASE)
     return status
 
