@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The options of each command, as the user gave them. The program checks only the form of an option. The library checks its
-// value. The library checks the values.
+// value.
 #pragma once
 
 #include <riis/riis_vtk.h>
@@ -23,10 +23,10 @@ struct ValveOptions {
   std::string valve = "aortic";            // a kind, or a .json file; unused if there is a surface
   std::string disease;                     // the name of a disease, whose kind is then `valve`; "": none
   std::string placed;                      // the file of a placed valve, whose kind is then `valve`; "": none
-  std::string surface;                     // a file, or "" for the valve; of several files a name for all
+  std::string surface;                     // a file, or "" for the valve; one name for all if there are several files
   std::vector<std::string> surface_files;  // the files of the surface, one for each leaflet if there are several
   double frame_step = 1;                   // the time between frames of svMultiPhysics
-  std::string leaflets;        // leaflets of that file: "connected", the name of a cell array, or "" for riis_leaflet
+  std::string leaflets;        // leaflets of the surface: "connected", the name of a cell array, or "" for riis_leaflet
   std::optional<double> time;  // the time of a surface that moves
   double period = 0;           // period of the surface's motion or of the cycle; 0 if there is none
   std::string params, params_open;    // JSON files; "": none
@@ -40,7 +40,7 @@ struct ValveOptions {
   std::optional<Unit> unit, surface_unit;  // units of the mesh and of the surface's file; they give the scale
   std::optional<Unit> placed_unit;         // unit of the file of a placed valve
   bool takes_placed_unit = false;          // the user named no unit, so `unit` is that of the placed valve
-  bool has_doubted_unit = false;  // the sizes contradict `unit`, so no text names this unit for the mesh's lengths
+  bool has_doubted_unit = false;  // the sizes contradict `unit`, so messages give the mesh's lengths without it
   // True if the user gave the values as numbers. The reader of a case and the checks of the command line set these members.
   bool has_scale = false, has_half_thickness = false, has_tolerance = false;
   std::int32_t n_threads = 0;  // 0: the library chooses by the amount of work
@@ -118,7 +118,7 @@ struct MarkOptions : ValveOptions {
   std::optional<Amount> given_resistance, given_drop, density;
   std::optional<std::string> chosen_K_unit;
   std::optional<double> resistance;           // R in the units of the mesh
-  double K_factor = 1;                        // K in the file over K in the units of the mesh
+  double K_factor = 1;                        // K in the file, divided by K in the units of the mesh
   std::string K_unit, K_u_surface_unit;       // in the file; "" if the unit of the mesh is not known
   std::string output, surface_output, stats;  // "" if not wanted
   std::string surface_output_option = "--surface-output";
@@ -132,7 +132,7 @@ struct MarkOptions : ValveOptions {
   std::optional<LeakCheck> check_leaks;
   bool demand_sealed = false;  // a leak changes the exit status
   bool first_passage = false;  // looks for the opening at which the points are first joined
-  bool measures = false;       // measures what the valve means for the flow, also without --stats
+  bool measures = false;       // takes the measures that matter for a flow, also without --stats
   SeriesOptions series;
 };
 
@@ -142,9 +142,9 @@ struct SizeFieldOptions : MarkOptions {
 
   std::string field;                   // the file of the grid; "-" is stdout
   double band_edge = 0.95;             // edge length in the band, in half thicknesses
-  double growth = 0.3;                 // how much longer an edge is at a point that is one length farther away
+  double growth = 0.3;                 // increase of the edge length per unit of distance from the band
   std::optional<double> largest_edge;  // default 4 half thicknesses
-  std::optional<double> spacing;       // spacing of the grid; default half a half thickness
+  std::optional<double> spacing;       // spacing of the grid; by default half of the half thickness
   std::int32_t n_openings = 41;        // number of openings of a valve
 };
 
@@ -161,10 +161,10 @@ struct AreaOptions : ValveOptions {
   std::optional<double> area;            // the area of the valve, or nothing if a file has areas
   std::string areas;                     // a file of areas in time; "": none
   std::optional<std::string> area_unit;  // the unit of the areas in that file
-  double area_factor = 1;                // from the areas in that file to the mesh's unit
+  double area_factor = 1;                // factor from the areas in that file to the mesh's unit
   bool is_effective = false;             // the areas are effective areas
   std::string solve = "opening";         // "opening", "scale" or a parameter
-  std::optional<double> from, to;        // the values to search
+  std::optional<double> from, to;        // the range of the search
   std::string output;                    // the file of the cycle; "-" is stdout, "": none
 };
 
@@ -215,12 +215,12 @@ struct PatientOptions : ValveOptions {
   std::string landmarks, folder;             // a file, and the folder for the results
   bool has_valve = false;                    // whether the user named the kind
   std::string solver = "none";               // one of solver_names
-  std::optional<Unit> wall_unit;             // of the wall's file; nothing: found by the landmarks
-  std::string axes;                          // of the wall: "LPS" or "RAS"; "": found by the landmarks
+  std::optional<Unit> wall_unit;             // of the wall's file; nothing: found from the landmarks
+  std::string axes;                          // of the wall: "LPS" or "RAS"; "": found from the landmarks
   std::int32_t warp_choice = smoothed_warp;  // a LandmarkWarp
   std::optional<Amount> noise;               // of the landmarks
   std::optional<std::vector<double>> flow;   // in the wall's axes
-  std::optional<std::vector<double>> inlet;  // a point near the flat end that the blood comes from
+  std::optional<std::vector<double>> inlet;  // a point near the flat end where the blood enters
   std::vector<std::vector<double>> outlets;  // points near the other ends
   std::optional<Amount> given_half_thickness, given_skirt, given_largest_edge, given_resistance;
   std::optional<double> band_edge;  // in half thicknesses

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The stages of a run. Each stage is timed. A stage that takes longer than a second prints a line on the terminal. In a log,
-// where each line stays, a stage is silent for half a minute.
+// where each line stays, a stage prints nothing for half a minute.
 #pragma once
 
 #include <chrono>

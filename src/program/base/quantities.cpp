@@ -146,7 +146,7 @@ Amount parse_amount(const std::string &text, const std::string &subject, const Q
   Amount amount;
   amount.text = text;
   amount.subject = subject;
-  // The only letter in a number is the e before its exponent. Words such as inf have no unit.
+  // The number ends before the first letter, except for an e before an exponent. A word such as inf cannot have a unit.
   std::size_t end = 0;
   const auto is_digit = [&](std::size_t at) {
     return at < text.size() && std::isdigit(static_cast<unsigned char>(text[at]));

@@ -30,7 +30,7 @@ class ElementType {
   MPI_Datatype type_ = MPI_DATATYPE_NULL;
 };
 
-// The number of elements of each rank, and the position of each rank's first element, as MPI takes them.
+// The number of elements of each rank, and the position of each rank's first element, in the form that MPI takes.
 struct Counts {
   explicit Counts(std::size_t n) : n_of(n), first(n) {}
   void add_up() { std::exclusive_scan(n_of.begin(), n_of.end(), first.begin(), 0); }
@@ -114,7 +114,7 @@ void agree(const Refusal *failure) {
   if (failure) throw AgreedRefusal{*failure};
 }
 
-// The two functions are not called with a single rank, because gather and exchange then return their argument.
+// These two functions are never called, because with a single rank gather and exchange return their argument.
 std::vector<std::byte> gather_bytes(const void *, std::size_t, std::size_t) { return {}; }
 std::vector<std::byte> exchange_bytes(const void *, const std::vector<std::size_t> &, std::size_t) { return {}; }
 

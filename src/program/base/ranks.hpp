@@ -32,8 +32,8 @@ int n_ranks();
 // Only the first rank prints, and it writes the files that all ranks share.
 inline bool is_first() { return rank() == 0; }
 
-// While an object of this type lives, the first rank works alone. While the first rank works alone, exchanges and agreements have
-// no partner. The other ranks wait in the agreement at the end of the program.
+// While an object of this type lives, the first rank works alone, and exchanges and agreements do not involve the other ranks.
+// The other ranks wait in the agreement at the end of the program.
 class Alone {
  public:
   Alone();

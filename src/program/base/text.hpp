@@ -12,7 +12,7 @@
 
 namespace riis::program {
 
-// The inputs are words of the command line. The results are numbers, which are read alike in every locale. If other characters
+// The inputs are words of the command line. The results are numbers, which are the same in every locale. If other characters
 // follow the number, the word is refused as wrong usage. `subject` names the value in the refusal.
 
 // Returns the number if the whole text is one number, or nothing.
@@ -61,19 +61,19 @@ std::string system_text(int error);
 
 // The input is a path. The result is the ending of the path, or the text of the file. Refusals name the file.
 
-// Returns the ending of a path in small letters, from its last point on.
+// Returns the ending of a path in small letters. The ending begins with the path's last dot.
 std::string ending_of(const std::string &path);
 // Returns whether the path has this ending, in small letters or in capitals.
 bool has_ending(const std::string &path, const std::string &ending);
 
-// Refuses the file. The reason of a refusal may quote parts of the file of any length.
+// Refuses the file. The reason may quote parts of the file, however long they are.
 [[noreturn]] void refuse_file(const std::string &path, const std::string &reason);
 
 // Refuses a file that cannot be read or is empty.
 std::string text_of_file(const std::string &path);
 
-// The input is the text of a CSV. The results are the rows, and the facts that lines of the form # NAME = VALUE state. Lines that
-// begin with # and have another form are comments.
+// The input is the text of a CSV. The results are the rows, and the facts from lines of the form # NAME = VALUE. Lines that begin
+// with # and have another form are comments.
 
 std::string trimmed(const std::string &text);
 // Returns the cells of a line. Commas or semicolons separate cells, except within quotation marks. Within a quoted cell, two

@@ -74,12 +74,12 @@ namespace {
 constexpr double least_width = 0.4, largest_width = 4;
 // The longest edge of a mesh that can show the valve, as a share of the valve's largest side.
 constexpr double longest_edge = 0.3;
-// The usual upper limit of edges in a mesh for the default half thickness, in half thicknesses.
+// The usual upper limit of edge lengths in a mesh that was made for the default half thickness, in half thicknesses.
 constexpr double usual_edge = 3;
-// The usual lower limit of edges near the valve, in half thicknesses.
+// The usual lower limit of edge lengths near the valve, in half thicknesses.
 constexpr double shortest_edge = 0.3;
-// Longer edges mean that the mesh was made for another valve. The limits are a number of half thicknesses, and a share of the
-// valve's largest side.
+// Longer edges mean that the mesh was made for another valve. With the default half thickness, the limit is a number of half
+// thicknesses. Otherwise the limit is a share of the valve's largest side.
 constexpr double most_edge = 10, most_edge_of_valve = 0.4;
 // The least half thickness, as a share of the mesh's edge length. A thinner band fits between two layers of nodes, and contains
 // few nodes.

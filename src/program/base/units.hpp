@@ -25,7 +25,7 @@ double factor_between(Unit from, Unit to);
 // Returns the paper's half thickness, which is 0.1 cm, in the given unit.
 double paper_half_thickness(Unit unit);
 
-// Returns the unit in which lengths are `factor` times their numbers in the unit `from`, or none.
+// Returns the unit in which the number of a length is `factor` times its number in the unit `from`, or none.
 std::optional<Unit> unit_reached(Unit from, double factor);
 // Returns the units of a surface and a mesh between which the factor converts. Returns none for the factor 1, and for a factor
 // that belongs to no two units.
@@ -91,7 +91,7 @@ struct Sizes {
   bool is_unit_known = false;   // the user named the unit
   bool has_usual_half = false;  // the half thickness is the default of a parametric valve
   double near_edge = 0;         // about the length of edges near the surface; 0 if unknown
-  double unnamed_factor = 1;    // the factor that stands for a run without a unit
+  double unnamed_factor = 1;    // the factor of the unit that a run has without --unit
 };
 
 // The limits of the half thickness, as shares of the surface's largest side. The paper's half thickness, 0.1 cm, is 0.04 of the
@@ -109,7 +109,7 @@ double better_half_thickness(const Sizes &sizes);
 // The judgement of a mesh's unit. A factor stands for a unit. Multiplied by the factor, the mesh's lengths are in the surface's
 // unit.
 struct UnitJudgement {
-  bool is_right;  // nothing speaks against the present unit, so there is no advice
+  bool is_right;  // the sizes fit the present unit, so there is no advice
   std::vector<double>
       factors;  // all that are possible, the likeliest first; 1 is the present unit; empty if none is possible
 

@@ -211,7 +211,7 @@ MarkOptions finish_mark(const Command &command, MarkOptions options) {
     if (!options.pictures.empty()) refuse_usage("--cells: --picture shows marks of nodes");
     if (!options.series.movie.empty()) refuse_usage("--cells: --movie shows marks of nodes");
     if (options.n_steps > 0) refuse_usage("--cells: --steps marks nodes, not centres");
-    options.series.all_cells = true;  // centres have no parts
+    options.series.all_cells = true;  // files of centres always have the whole mesh
   }
   if (options.n_steps > 0 && (has_case || !options.series.times.empty()))
     refuse_usage("--steps has no effect with --times and --case, which move the valves themselves");

@@ -537,7 +537,7 @@ void declare_states(Command command, StatesOptions &options) {
   CLI::Option *const surface = declare_surface_files(command, options);
   for (const char *name : {"--valve", "--params", "--params-open", "--set", "--warp", "--tolerance", "--count"})
     surface->excludes(command.option(name));
-  command.option("--wall")->remove_needs(command.option("--skirt"));  // the wall of a surface bounds its orifice
+  command.option("--wall")->remove_needs(command.option("--skirt"));  // without a skirt, the wall bounds the orifice
   declare_leaflets(command, surface, options);
   declare_unit(command, options);
   declare_half_thickness(command, options);

@@ -41,7 +41,7 @@ struct UrisExport {
 UrisExport write_uris(const ExportOptions &options, const std::string &named_folder);
 
 // riis size-field. The inputs are valves and their motion. The result is a grid of edge lengths that gmsh reads. The edges are
-// short near the valves. Each edge length follows from the distance between the grid's point and the valves at all times.
+// short near the valves. Each edge length follows from the least distance of the grid's point from the valves at any time.
 ExitCode run_size_field(const SizeFieldOptions &options);
 
 // The input is the user's request. The results are the files, and the report on stdout. Returns exit_none_marked if no node was

@@ -119,7 +119,7 @@ class Search {
   riis_area_search search_ = defaults<riis_area_search>();
 };
 
-// Tells where the area stops growing or falling. If the area turns, several openings or sizes have one area.
+// Tells where the area stops growing or falling. If the area turns, several openings or sizes have the same area.
 void warn_of_turns(const AreaOptions &options, const riis_area_range &range) {
   if (range.n_turns == 0) return;
   std::vector<std::string> places;
@@ -132,7 +132,8 @@ void warn_of_turns(const AreaOptions &options, const riis_area_range &range) {
        "; if there are several solutions, the command finds " + taken + ", and --from and --to lead to the others");
 }
 
-// With adapted triangles, the area jumps by less than a small share of its value, except for small areas.
+// A run warns of a larger relative error. Where adapted triangles change, the area jumps by less than this, except for small
+// areas.
 constexpr double fair_error = 1e-4;
 
 void warn_of_jumps(const Areas &wanted, const Solution &found) {
@@ -162,7 +163,7 @@ std::string text_of_size(const AreaOptions &options, const riis_valve *valve, co
          summary_line("range", text_of_range(options, found.range)) + summary_line("cost", text_of_cost(found.range));
 }
 
-// The rate of a cubic is a parabola between two keys. The opening is therefore fastest at a key or at the parabola's vertex.
+// The rate of a cubic is a parabola between two keys. The opening therefore changes fastest at a key or at the parabola's vertex.
 std::string text_of_rate(const OpeningLaw &law, std::vector<double> times, double period) {
   if (period > 0) times.push_back(times.front() + period);
   double fastest = 0, at = times.front();

@@ -61,9 +61,9 @@ std::vector<Edges> edges_of(const SizeFieldOptions &options, const std::vector<M
   for (const MovingValve &valve : valves) {
     const riis_surface_info info = info_of(valve.surface());
     const double half_thickness = info.half_thickness, o = info.offset, band = options.band_edge * half_thickness;
-    // Edges leak if they are longer than 2 half thicknesses. If the band has an offset o, edges beside rims leak above 2 sqrt(1 -
-    // o^2) half thicknesses (docs/theory/marks.md, "Offset"). Each leaking edge beside a rim has one end within `band_reach` of
-    // the rim.
+    // Edges leak if they are longer than 2 half thicknesses. If the band has an offset o, edges beside rims already leak if they
+    // are longer than 2 sqrt(1 - o^2) half thicknesses (docs/theory/marks.md, "Offset"). Each leaking edge beside a rim has one
+    // end within `band_reach` of the rim.
     edges.push_back({half_thickness, o, (1 + std::abs(o)) * half_thickness, band, band * std::sqrt((1 - o) * (1 + o)),
                      options.growth, 0});
     thickest = std::max(thickest, info.half_thickness);

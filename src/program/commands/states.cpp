@@ -271,7 +271,7 @@ std::string text_of_changes(const States &states) {
   return text.empty() ? "all " + range : "not " + range + ": " + text;
 }
 
-// Returns names of columns: blanks and dashes in the names of leaflets become _. If a name has other special characters, as "x >
+// Returns names of columns. Blanks and dashes in the names of leaflets become _. If a name has other special characters, as "x >
 // 0" has, all leaflets get numbers as names.
 std::vector<std::string> columns_of(const States &states) {
   std::vector<std::string> columns = states.names;

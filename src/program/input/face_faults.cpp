@@ -21,9 +21,9 @@
 namespace riis::program {
 namespace {
 
-// Faces that are joined along sides, as disjoint sets. The disjoint sets also tell how the faces are oriented against each other.
-// The number i stands for face i as it is, and the number n + i stands for face i turned over. Two numbers are in one set if the
-// faces are joined and have the same orientation.
+// Faces that are joined along sides, as disjoint sets. The sets also tell how the faces of a piece are oriented relative to each
+// other. The number i stands for face i as it is, and the number n + i stands for face i turned over. Two numbers are in one set
+// if the faces are joined and have the same orientation.
 class Pieces {
  public:
   explicit Pieces(std::int64_t n) : n_(n), sets_(2 * n) {}
@@ -101,7 +101,7 @@ class FaceCheck {
   // Joins the faces of one leaflet that share a side. For each face, returns whether one of its sides is open. If more than two
   // faces share a side, the side joins none of the faces.
   std::vector<char> join_along_sides(const std::vector<std::int64_t> &faces, Pieces &pieces) const {
-    std::vector<Triangles::Corners> corners;  // with other numbers for each leaflet
+    std::vector<Triangles::Corners> corners;  // the leaflets share no numbers
     for (const std::int64_t face : faces) {
       corners.push_back(view(corners_)[face]);
       for (std::int64_t &id : corners.back()) id += triangles_.n_vertices * triangles_.leaflet_id[face];

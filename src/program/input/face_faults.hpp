@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The input is a surface from a file. The results are lines of open edges, and warnings about triangles whose side or area may
-// not be as the user expects.
+// The input is a surface from a file. The results are lines of open edges, and warnings about triangles that the user probably
+// did not intend.
 #pragma once
 
 #include <riis/riis.h>

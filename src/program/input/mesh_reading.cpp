@@ -48,8 +48,8 @@ class PassingFolder {
   const TemporaryFolder folder_;
 };
 
-// Limits the memory of this process, because damaged files may claim any size. Reading needs a few times the size of an undamaged
-// file in memory. A compressed file may need a thousand times its size. Builds with the address sanitizer have no limit, because
+// Limits the memory of this process, because damaged files may claim any size. Reading an undamaged file needs a few times its
+// size in memory. A compressed file may need a thousand times its size. Builds with the address sanitizer have no limit, because
 // the sanitizer reserves terabytes.
 void limit_memory([[maybe_unused]] const std::string &path) {
 #ifndef __SANITIZE_ADDRESS__
@@ -170,7 +170,7 @@ std::vector<std::string> data_files_of(const std::string &path) {
   constexpr std::size_t longest = PATH_MAX;
   while (std::getline(file, text, '<')) {
     text.erase(0, text.find('>') + 1);
-    if (text.size() > longest) continue;  // numbers
+    if (text.size() > longest) continue;  // numbers, not a file's name
     const std::size_t begin = text.find_first_not_of(" \t\r\n"), end = text.find_last_not_of(" \t\r\n");
     if (begin == std::string::npos) continue;
     text = text.substr(begin, end + 1 - begin);

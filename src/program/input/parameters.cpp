@@ -131,7 +131,7 @@ Row row_of(const riis_valve *valve, const riis_parameter &parameter) {
           text_of(parameter.minimum) + " to " + text_of(parameter.maximum), description_of(parameter)};
 }
 
-// The rows of a numbered part of the valve, such as bump_0. A parameter without a numbered part has a separate row.
+// The rows of a numbered part of the valve, such as bump_0. A parameter without a numbered part is a Part with one row.
 struct Part {
   std::string name;  // "" without a number
   std::vector<Row> rows;
@@ -144,7 +144,7 @@ std::string numbered_part(const std::string &name) {
   return has_number ? name.substr(0, dot) : "";
 }
 
-// Returns the rows of the table. The rows of a part follow each other.
+// Returns the rows of the table. The rows of a part stand together.
 std::vector<Part> parts_of(const riis_valve *valve) {
   std::vector<Part> parts = {{"", {{"name", "value", "unit", "range", "description"}}}};
   for (const riis_parameter &parameter : all_parameters(valve)) {

@@ -49,11 +49,11 @@ bool is_mitral_kind(const std::string &kind);
 
 // Returns the ending of a file of landmarks, such as ".mrk.json". The ending tells the file's format.
 std::string landmark_ending(const std::string &path);
-// Reads the text of a file of landmarks. The ending of its path tells the format. If a name is wrong, the message lists the names
-// for the kind of valve that the user named, or "".
+// Reads the text of a file of landmarks. The ending of its path tells the format. `kind` is the kind of valve that the user
+// named, or "". If a name is wrong, the message lists the names for this kind.
 LandmarkFile read_landmarks(const std::string &path, const std::string &text, const std::string &kind = "");
-// Refuses landmarks of which most name their cusps, if a nadir or a commissure of this kind of valve is missing. The message has
-// its name.
+// Refuses landmarks that all name their cusps if a nadir or a commissure of this kind of valve is missing. The message names the
+// missing landmark.
 void check_names_of_cusps(const LandmarkFile &landmarks, const std::string &kind);
 // Reads landmarks in memory from an object that has the keys of a file. `subject` names the landmarks in refusals.
 LandmarkFile landmarks_of_json(const std::string &subject, const Json &root);
@@ -91,7 +91,7 @@ struct Placed {
   std::vector<Size> sizes;
   riis_placement placement{};
   std::vector<double> residuals;
-  double noise = 0;                                               // stated, mesh units
+  double noise = 0;                                               // as stated, in the mesh's unit
   std::vector<double> places;                                     // (3, n), of the landmarks on the valve
   riis_surface_options where = defaults<riis_surface_options>();  // the placement
   bool is_warped = false;
@@ -100,7 +100,7 @@ struct Placed {
   std::vector<double> sources, targets;
   std::vector<std::string> paired_names;
   double warp_noise = 0;          // the noise that smooths the warp; 0: the warp meets the landmarks
-  std::vector<double> still_off;  // distances of the landmarks from the warped closed valve, right to a micrometre
+  std::vector<double> still_off;  // distances of the landmarks from the warped closed valve, exact to a micrometre
 };
 
 // Finds the sizes and the placement of the valve from the landmarks. The parameters in `held` and the parameters that the

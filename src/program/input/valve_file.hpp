@@ -36,7 +36,7 @@ struct ValveFile {
 struct PlacedFile {
   std::string kind;
   Unit unit = Unit::centimetre, own_unit = Unit::centimetre;      // of the placement, and of the file
-  double factor = 1;                                              // from the file's unit to this one
+  double factor = 1;                                              // from the file's unit to the placement's
   riis_surface_options where = defaults<riis_surface_options>();  // the placement
   Json parameters, warp;                                          // null: the valve has no warp
 };
@@ -48,7 +48,7 @@ struct Disease {
   const char *name, *kind;
   const char *parameters;  // a JSON object, as the file of --params
   int opening;             // 1: `area` is that of the open valve, 0: it is the gap of the closed valve
-  double area;             // the orifice in cm2; 0: the disease changes no orifice that is seen along the axis
+  double area;             // the orifice in cm2; 0: the disease does not change the orifice as seen along the axis
   const char *diagnosis;
 };
 
@@ -59,8 +59,8 @@ const Disease *disease_named(const std::string &name);
 std::string table_of_diseases();
 
 // If --valve is a disease or the file of a placed valve, replaces it by the valve's kind. The file's placement becomes the
-// placement of the options. An option that the file already contains is refused. set_own_parameters sets the parameters of the
-// disease or of the file. Other valves are left unchanged.
+// placement of the options. An option is refused if the file already gives its value. set_own_parameters sets the parameters of
+// the disease or of the file. Other valves are left unchanged.
 void use_named_valve(ValveOptions &options);
 void set_own_parameters(const ValveOptions &options, riis_valve *valve);
 

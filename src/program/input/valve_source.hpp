@@ -101,8 +101,8 @@ KeyframeFiles read_keyframes(const ValveOptions &options, Seconds &seconds);
 
 // The input is a file in a format that the program does not read. The result is a command that converts the file.
 
-// Returns a hint such as "; gmsh converts it: gmsh -save in.msh -format vtk -o in.vtk". Returns "" if the program can read the
-// ending, or if the ending is unknown.
+// Returns a hint such as "; gmsh converts it: gmsh -save in.msh -format vtk -o in.vtk". Returns "" if the program reads files
+// with this ending, or if the ending is unknown.
 std::string conversion_hint(const std::string &path, Content wanted, const std::string &refusal);
 
 }  // namespace riis::program

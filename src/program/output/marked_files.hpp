@@ -43,10 +43,10 @@ class SeriesFiles {
   bool is_wanted() const { return !pvd_.empty(); }
   // Refuses a folder without permission to write, and a path that is a file.
   void check_folder() const;
-  // Finds files of further steps: steps that an earlier run wrote and this run does not write. Such files would look like a part
-  // of this run's series. An earlier list by riis must name the files of further steps. Refuses files of further steps that the
-  // earlier list does not name, and files that a list of another series names. `parts` are the parts that path_of accepts.
-  // `has_pieces` says whether each step also has files of pieces, whose parts are p0000, p0001 and so on.
+  // Finds the files of steps that an earlier run wrote and this run does not write. These files would look like a part of this
+  // run's series, so make_folder removes them. Refuses such a file if no earlier list by riis names it, or if the list of another
+  // series names it. `parts` are the parts that path_of accepts. `has_pieces` says whether each step also has files of pieces,
+  // whose parts are p0000, p0001 and so on.
   void find_earlier(const std::vector<std::string> &parts, bool has_pieces);
   // Makes the folder if the user wants one and it does not exist. Removes the files of an earlier run.
   void make_folder() const;

@@ -44,8 +44,8 @@ void check_ending(const std::string &path, const std::string &ending, const std:
   refuse_data(path + ": cannot be written: " + reason);
 }
 
-// Returns whether the path is a device or a pipe. If the path is a device or a pipe, the program writes into it. Any other file
-// is replaced as a whole.
+// Returns whether the path is a device or a pipe. The program writes into a device or a pipe, but replaces any other file as a
+// whole.
 bool is_special(const std::string &path) {
   std::error_code error;
   return fs::exists(path, error) && !fs::is_regular_file(path, error);
@@ -199,7 +199,8 @@ fs::path folder_of(const fs::path &place) { return place.has_parent_path() ? pla
 
 namespace {
 
-// Returns whether the output's format stores no points, although the mesh may have been read as axes.
+// Returns whether the output is a grid, whose file stores axes instead of points. The file of the mesh must have a format for
+// grids.
 bool is_grid_of(const std::string &mesh, const std::string &output) {
   if (!has_ending(output, ".vti") && !has_ending(output, ".vtr")) return false;
   return has_ending(mesh, ".vti") || has_ending(mesh, ".vtr") || has_ending(mesh, ".vtk");

@@ -119,8 +119,7 @@ std::string orifice_text(const riis_surface *surface, const std::optional<Unit> 
   return ", orifice " + (unit ? fixed(area * factor * factor, 2) + " cm2" : printed("%.3g", area));
 }
 
-// Returns the line of a title with the half thickness. The line with the half thickness begins with a line break. Returns "" if
-// the valves have different half thicknesses.
+// Returns a line break and the line of a title with the half thickness. Returns "" if the valves have different half thicknesses.
 std::string half_thickness_line(const std::vector<MovingValve> &valves, const std::optional<Unit> &unit) {
   const double first = info_of(valves[0].surface()).half_thickness;
   for (const MovingValve &valve : valves)

@@ -57,8 +57,8 @@ class Keys {
   const OpeningTable &table_;
 };
 
-// Returns the span from a key with the opening `from` to a later key with the opening `to`. The span ends at the first key with
-// the opening `to`. The span starts at the last key with the opening `from` before its end.
+// Returns the span from a key with the opening `from` to a later key with the opening `to`. The span ends at the first such key
+// with the opening `to`. The span starts at the last key with the opening `from` before this end.
 std::optional<TimeSpan> way_between(const Keys &keys, double from, double to) {
   std::optional<double> start;
   for (std::size_t i = 0; i < keys.size(); ++i) {
@@ -128,8 +128,7 @@ void warn_of_jump(const char *from, double before, const char *to, double after)
        " begins at " + shortest(after));
 }
 
-// Two neighbouring frames are one time step apart. The last frame is at the end of the span, so that the last step may be
-// shorter.
+// Two neighbouring frames are one time step apart. The last frame is at the end of the span, so the last step may be shorter.
 UrisMotion uris_motion_of(const ExportOptions &options) {
   const LawWithSpans motion = options.cycle.empty() ? law_of_seconds(options) : law_of_cycle(options);
   UrisMotion frames{frames_of(motion.law, motion.opening, options.time_step, "opening"),

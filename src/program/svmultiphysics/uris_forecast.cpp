@@ -235,9 +235,9 @@ class Forecaster {
            text_of_finer_mesh(near, above);
   }
 
-  // Returns the shorter edge length that has the same effect as a half thickness times `factor`. The drop depends on the ratio of
-  // edge and half thickness. All elements are assumed to become shorter by the same length, as with size fields of different
-  // edges in the band.
+  // Returns the shorter edge length that has the same effect as multiplying the half thickness by `factor`. The drop depends on
+  // the ratio of edge and half thickness. All elements are assumed to become shorter by the same length. Two size fields with
+  // different edges in the band differ in this way.
   std::string text_of_finer_mesh(const std::vector<double> &near, double factor) const {
     std::vector<double> lengths, volumes;
     const SolverElement &element = *mesh_.element;

@@ -82,8 +82,8 @@ class FinerTriangles {
 double uris_grid(double largest);
 
 // Three triangles, one along each axis. The middle of each added triangle is also the middle of a triangle of the valve. In the
-// solver, an added triangle is therefore never nearer than the triangle of the valve. Two corners of each triangle lie outside
-// the valve's box, at both ends.
+// solver, an added triangle is therefore never nearer than the triangle of the valve. Two corners of each added triangle lie
+// outside the valve's box, one beyond each end.
 class UrisBox {
  public:
   static constexpr std::int64_t n_nodes = 9;

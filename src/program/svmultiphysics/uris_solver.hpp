@@ -125,8 +125,8 @@ double exact_area(const SolverMesh &mesh, const riis_surface *surface, const std
                   double half_thickness, std::int32_t n_threads, bool at_solver_points, double error = 0);
 
 // Returns the area of a closed valve in a mesh (docs/theory/measures.md, "Closed area"), in the mesh's unit squared. Returns
-// nothing if the mesh has no volume elements of one type that exact_area knows. The distances from the surface may be too large
-// by up to `error`.
+// nothing if the mesh has no volume elements, has several types of them, or has a type that exact_area does not know. The
+// distances from the surface may be too large by up to `error`.
 std::optional<double> closed_area_in(const riis_vtk_mesh *file, const riis_surface *surface, std::int32_t n_threads,
                                      double error);
 
