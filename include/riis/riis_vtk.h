@@ -381,7 +381,7 @@ enum {
   RIIS_VTK_VIEW_VALVE_OBLIQUE = 6, /* as RIIS_VTK_VIEW_OBLIQUE, by the axes of the valve */
   RIIS_VTK_VIEW_VALVE_THREE = 7,   /* as RIIS_VTK_VIEW_THREE, by the axes of the valve */
   RIIS_VTK_VIEW_VALVE_LONG = 8     /* as RIIS_VTK_VIEW_VALVE_SIDE, turned about the valve's z in steps of 15 degrees, so that
-                                      the plane of the view cuts two leaflets in lines that are as long as possible */
+                                      the plane of the view passes near the centres of two leaflets */
 };
 
 /* The texts of a picture. */

@@ -539,6 +539,37 @@ static double share_of_changes(const char *a, const char *b) {
   return n / (double)n_all;
 }
 
+/* The long view is the view from the side after a turn about the valve's z: by 30 degrees for three cusps, of which the plane then
+ * cuts two, and by 90 degrees for a mitral valve, whose plane then goes from one leaflet to the other. Another turn shows another
+ * picture. The opening does not change the turn. */
+TEST(test_long_view) {
+  static const char *const kinds[4] = {"aortic", "coapting", "mitral", "mitral_coapting"};
+  for (int i = 0; i < 8; ++i) {
+    riis_valve *valve = NULL;
+    placed what = {NULL, NULL, {0, 0, 1}, 0};
+    riis_vtk_picture_options options;
+    expect_fine(riis_valve_create(kinds[i / 2], &valve));
+    expect_fine(riis_valve_set_scalar(valve, "opening", i % 2));
+    expect_fine(riis_surface_create(valve, NULL, &what.surface));
+    expect_fine(riis_vtk_picture_options_init(&options, sizeof options));
+    options.width = wide, options.height = high;
+    options.view = RIIS_VTK_VIEW_VALVE_LONG;
+    expect_fine(riis_vtk_draw(what.surface, NULL, &options, scratch_path("long.png")));
+    options.view = RIIS_VTK_VIEW_VALVE_SIDE;
+    const double turn = i / 2 < 2 ? 30 : 90;
+    for (int other = 0; other < 2; ++other) {
+      options.rotation_angle = turn + 45 * other;
+      expect_fine(riis_vtk_draw(what.surface, NULL, &options, scratch_path("side.png")));
+      const double changed = share_of_changes("long.png", "side.png");
+      if (other ? changed < 0.03 : changed > 0.015)
+        fail_msg("%s, opening %d: %g of the pixels differ from a turn by %g", kinds[i / 2], i % 2, changed,
+                 options.rotation_angle);
+    }
+    riis_surface_destroy(&what.surface);
+    riis_valve_destroy(&valve);
+  }
+}
+
 /* If a valve and its mesh are turned and moved together, views by the valve's axes stay the same. Views by the mesh's axes
  * change. */
 TEST(test_valve_axes) {

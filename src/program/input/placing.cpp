@@ -79,6 +79,8 @@ void check_landmarks(riis_status status, const LandmarkFile &landmarks, Reader r
   std::string text = in_words_of_file(riis_last_error(), landmarks);
   if (reader == Reader::program && text.rfind("the landmarks give ", 0) == 0)
     text += "; --set sets sizes that do not follow from landmarks, in centimetres";
+  if (text.rfind("flow is 0 0 0", 0) == 0)
+    text += reader == Reader::program ? ": state it by --flow X,Y,Z" : ": state it by flow=(x, y, z)";
   throw Refusal{exit_bad_data, landmarks.path + ": " + text, status};
 }
 
@@ -185,10 +187,34 @@ std::string kind_of(const LandmarkFile &landmarks, const std::string &given, Rea
   return given.empty() ? landmarks.valve : given;
 }
 
-Placed place_by_landmarks(const LandmarkFile &landmarks, riis_valve *valve, const std::string &kind,
+namespace {
+
+// Removes the landmarks of a role, and returns their number.
+std::size_t leave_out(LandmarkFile &landmarks, std::int32_t role) {
+  LandmarkFile kept = landmarks;
+  kept.names.clear(), kept.xyz.clear(), kept.roles.clear(), kept.leaflet_ids.clear();
+  for (std::size_t i = 0; i < landmarks.names.size(); ++i) {
+    if (landmarks.roles[i] == role) continue;
+    const auto at = landmarks.xyz.begin() + static_cast<std::ptrdiff_t>(3 * i);
+    kept.names.push_back(landmarks.names[i]);
+    kept.xyz.insert(kept.xyz.end(), at, at + 3);
+    kept.roles.push_back(landmarks.roles[i]);
+    const auto ids = landmarks.leaflet_ids.begin() + static_cast<std::ptrdiff_t>(2 * i);
+    kept.leaflet_ids.insert(kept.leaflet_ids.end(), ids, ids + 2);
+  }
+  std::swap(landmarks, kept);
+  return kept.names.size() - landmarks.names.size();
+}
+
+}  // namespace
+
+Placed place_by_landmarks(const LandmarkFile &of_file, riis_valve *valve, const std::string &kind,
                           const std::vector<std::string> &held, Reader reader) {
   Placed made;
-  made.landmarks = landmarks;
+  made.landmarks = of_file;
+  // Landmarks of a mitral valve serve both mitral kinds.
+  if (kind == "mitral_coapting") made.n_trigones_left_out = leave_out(made.landmarks, RIIS_LANDMARK_TRIGONE);
+  const LandmarkFile &landmarks = made.landmarks;
   made.kind = kind;
   auto given = defaults<riis_landmarks>();
   given.n_landmarks = static_cast<int64_t>(landmarks.names.size());
@@ -461,6 +487,8 @@ std::string place_report(const Placed &placed, Reader reader) {
             " behind the anterior horn, where the valve has none: " +
             (at.n_as_annulus == 1 ? "it counts as a point" : "they count as points") +
             " of the annulus, and IT_distance does not follow from trigones.\n";
+  if (placed.n_trigones_left_out > 0)
+    text += "The trigones are left out, because the " + placed.kind + " valve has none.\n";
   if (placed.kind == "aortic")
     text +=
         "The paper's aortic valve does not close at opening 0. The kinds coapting and trileaflet take the same "

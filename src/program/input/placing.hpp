@@ -89,6 +89,7 @@ struct Placed {
   LandmarkFile landmarks;
   std::string kind;
   std::vector<Size> sizes;
+  std::size_t n_trigones_left_out = 0;
   riis_placement placement{};
   std::vector<double> residuals;
   double noise = 0;                                               // as stated, in the mesh's unit

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <functional>
 #include <iterator>
 #include <map>
 #include <vector>
@@ -114,10 +113,20 @@ vtkSmartPointer<vtkPolyData> strips(vtkPolyData *lines, const View &view, double
   return made;
 }
 
-// Returns the centre of the surface's area.
-Vector middle_of(vtkPolyData *surface) {
+// An area, and the sum of its parts' centres, each multiplied by the part's area.
+struct AreaMoment {
   Vector sum = {0, 0, 0};
   double area = 0;
+  void add(const Vector &centre_times_area, double part) {
+    for (std::size_t k = 0; k < 3; ++k) sum[k] += centre_times_area[k];
+    area += part;
+  }
+  Vector centre() const { return {sum[0] / area, sum[1] / area, sum[2] / area}; }
+};
+
+std::map<int, AreaMoment> moments_of_leaflets(vtkPolyData *surface) {
+  vtkDataArray *const leaflets = surface->GetCellData()->GetArray(leaflet_array);
+  std::map<int, AreaMoment> moments;
   vtkNew<vtkIdList> corners;
   for (vtkIdType face = 0; face < surface->GetNumberOfCells(); ++face) {
     surface->GetCellPoints(face, corners);
@@ -126,11 +135,18 @@ Vector middle_of(vtkPolyData *surface) {
     surface->GetPoint(corners->GetId(1), b);
     surface->GetPoint(corners->GetId(2), c);
     const double part = vtkTriangle::TriangleArea(a, b, c);
-    area += part;
-    for (std::size_t k = 0; k < 3; ++k) sum[k] += part * (a[k] + b[k] + c[k]) / 3;
+    Vector centre;
+    for (std::size_t k = 0; k < 3; ++k) centre[k] = part * (a[k] + b[k] + c[k]) / 3;
+    moments[static_cast<int>(leaflets->GetComponent(face, 0))].add(centre, part);
   }
-  for (double &coordinate : sum) coordinate /= area;
-  return sum;
+  return moments;
+}
+
+// Returns the centre of the surface's area.
+Vector middle_of(const std::map<int, AreaMoment> &leaflets) {
+  AreaMoment whole;
+  for (const auto &[leaflet, moment] : leaflets) whole.add(moment.sum, moment.area);
+  return whole.centre();
 }
 
 // Returns the lines of which both ends are inside the grid. A leaflet that reaches into the wall meets no flow there.
@@ -173,7 +189,8 @@ Flow flow_of(const riis_vtk_mesh &mesh, const std::string &name) {
   }
   vtkDataArray *const found = at_points ? at_points : in_cells;
   if (!found && !mesh.foam_case.empty())
-    refuse_argument("options->velocity is \"", name, "\", which is no array of the mesh; for a field of OpenFOAM, name ",
+    refuse_argument("options->velocity is \"", name,
+                    "\", which is no array of the mesh; for a field of OpenFOAM, name ",
                     "a time in place of the case: ", foam_times_of(mesh.foam_case));
   if (!found) refuse_argument("options->velocity is \"", name, "\", which is no array of the mesh");
   if (found->GetNumberOfComponents() != 3)
@@ -209,20 +226,18 @@ Colour colour_of_speed(double share) {
   return colour;
 }
 
-double length_in_second_leaflet(vtkPolyData *surface, const View &view) {
-  const vtkSmartPointer<vtkPolyData> lines = cut(surface, view, middle_of(surface));
-  vtkDataArray *const leaflets = lines->GetCellData()->GetArray(leaflet_array);
-  std::map<int, double> length_in;
-  for (vtkIdType line = 0; line < lines->GetNumberOfCells(); ++line) {
-    double a[3], b[3];
-    lines->GetCell(line)->GetPoints()->GetPoint(0, a);
-    lines->GetCell(line)->GetPoints()->GetPoint(1, b);
-    length_in[static_cast<int>(leaflets->GetComponent(line, 0))] += std::sqrt(vtkMath::Distance2BetweenPoints(a, b));
+double distance_from_two_leaflets(vtkPolyData *surface, const View &view) {
+  const std::map<int, AreaMoment> leaflets = moments_of_leaflets(surface);
+  const Vector middle = middle_of(leaflets);
+  std::vector<double> distances;
+  for (const auto &[leaflet, moment] : leaflets) {
+    const Vector centre = moment.centre();
+    double away = 0;
+    for (std::size_t k = 0; k < 3; ++k) away += (centre[k] - middle[k]) * view.away()[k];
+    distances.push_back(std::abs(away));
   }
-  std::vector<double> lengths = {0, 0};
-  for (const auto &[leaflet, length] : length_in) lengths.push_back(length);
-  std::partial_sort(lengths.begin(), lengths.begin() + 2, lengths.end(), std::greater<>());
-  return lengths[1];
+  std::sort(distances.begin(), distances.end());
+  return distances[std::min<std::size_t>(1, distances.size() - 1)];
 }
 
 FlowPanel::FlowPanel(const Flow &flow, vtkPolyData *wall, const Colour &line)
@@ -256,7 +271,7 @@ vtkSmartPointer<vtkPolyData> FlowPanel::plane_of(const View &view) const {
 
 void FlowPanel::show(vtkPolyData *surface, const std::vector<View> &views) {
   surface_ = surface;
-  middle_ = middle_of(surface);
+  middle_ = middle_of(moments_of_leaflets(surface));
   fastest_ = 0;
   for (const View &view : views) {
     const vtkSmartPointer<vtkPolyData> plane = plane_of(view);

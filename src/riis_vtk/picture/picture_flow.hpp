@@ -33,9 +33,9 @@ Flow flow_of(const riis_vtk_mesh &mesh, const std::string &name);
 // Returns the colour of a speed. `share` is the speed divided by the speed at the upper end of the bar of colours.
 Colour colour_of_speed(double share);
 
-// Cuts the surface by the plane of the view through the middle of the surface. Returns the length of the cut in the leaflet that
-// has the second longest cut, or 0 if the plane cuts fewer than two leaflets.
-double length_in_second_leaflet(vtkPolyData *surface, const View &view);
+// Returns how far the plane of the view through the middle of the surface passes from the centres of two leaflets: the second
+// smallest distance of all leaflets, or the distance of the only leaflet.
+double distance_from_two_leaflets(vtkPolyData *surface, const View &view);
 
 class FlowPanel {
  public:
