@@ -37,7 +37,7 @@ std::vector<std::int64_t> pieces_of(const TriangleSet &set) {
 }
 
 // A side of a triangle: the distinct positions of its ends.
-struct Side {
+struct TriangleSide {
   std::int64_t piece, low, high, triangle;
   bool is_upwards;
 
@@ -58,21 +58,22 @@ std::vector<std::vector<Neighbour>> neighbours_of(const TriangleSet &set, const 
   const auto position = distinct_positions(set, n_positions);
   std::vector<Vec3> place(static_cast<std::size_t>(n_positions));
   for (std::int64_t i = 0; i < set.n_vertices(); ++i) view(place)[view(position)[i]] = set.vertex(i);
-  std::vector<Side> sides;
+  std::vector<TriangleSide> sides;
   sides.reserve(set.vertex_id.size());
   for (std::int64_t i = 0; i < 3 * set.n_triangles(); ++i) {
     const std::int64_t from = view(position)[view(set.vertex_id)[i]],
                        to = view(position)[view(set.vertex_id)[i % 3 == 2 ? i - 2 : i + 1]];
     sides.push_back({view(piece)[i / 3], std::min(from, to), std::max(from, to), i / 3, from < to});
   }
-  const auto edge_of = [](const Side &side) { return std::tuple(side.piece, side.low, side.high); };
-  std::sort(sides.begin(), sides.end(), [&](const Side &a, const Side &b) { return edge_of(a) < edge_of(b); });
+  const auto edge_of = [](const TriangleSide &side) { return std::tuple(side.piece, side.low, side.high); };
+  std::sort(sides.begin(), sides.end(),
+            [&](const TriangleSide &a, const TriangleSide &b) { return edge_of(a) < edge_of(b); });
   std::vector<std::vector<Neighbour>> made(static_cast<std::size_t>(set.n_triangles()));
-  const auto join = [&](const Side &one, const Side &other, bool is_turned) {
+  const auto join = [&](const TriangleSide &one, const TriangleSide &other, bool is_turned) {
     view(made)[one.triangle].push_back({other.triangle, is_turned});
     view(made)[other.triangle].push_back({one.triangle, is_turned});
   };
-  std::map<std::pair<std::int64_t, std::int64_t>, std::vector<Side>> single_at;  // by the piece and an end
+  std::map<std::pair<std::int64_t, std::int64_t>, std::vector<TriangleSide>> single_at;  // by the piece and an end
   for (std::size_t i = 0, end = 0; i < sides.size(); i = end) {
     while (end < sides.size() && edge_of(sides[end]) == edge_of(sides[i])) ++end;
     if (end == i + 2) join(sides[i], sides[i + 1], sides[i].is_upwards == sides[i + 1].is_upwards);
@@ -84,7 +85,7 @@ std::vector<std::vector<Neighbour>> neighbours_of(const TriangleSet &set, const 
   for (const auto &[at, single] : single_at) {
     const std::int64_t vertex = at.second;
     std::vector<Vec3> direction;
-    for (const Side &side : single) {
+    for (const TriangleSide &side : single) {
       const Vec3 way = view(place)[side.other_end(vertex)] - view(place)[vertex];
       direction.push_back((1 / length(way)) * way);
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The boundary of leaflets, from the triangles of a valve or of arrays, and the closed lines of open edges at which the leaflets of
-// arrays may be attached (docs/theory/measures.md, "Outline").
+// The boundary of leaflets, from the triangles of a valve or of arrays (docs/theory/measures.md, "Outline"). For arrays, this
+// file also finds the closed lines of open edges at which the leaflets may be attached.
 #pragma once
 
 #include <cstdint>
