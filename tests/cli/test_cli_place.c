@@ -203,6 +203,13 @@ TEST(closed_curve_is_an_annulus) {
   strcpy(by_name, program_out);
   RUN_FINE("place", scratch_path("curve.mrk.json"), "--valve", "mitral", "--output", "-");
   assert_string_equal(program_out, by_name);
+  /* The curves of two valves are no annulus. */
+  static char two[8192];
+  const char *const end = "{\"coordinateSystem\"", *const rest = strstr(curve, end);
+  snprintf(two, sizeof two, "%.*s%s", (int)(rest - curve), curve, strchr(curve, '[') + 1);
+  scratch_write_text("two.mrk.json", two);
+  RUN_REFUSED(1, "markups 1 is a second curve of an annulus, after markups 0: save the curves of one valve only",
+              "place", scratch_path("two.mrk.json"), "--valve", "mitral");
   /* Eight points do not determine all sizes. */
   RUN_FINE("place", scratch_path("a.json"), "--valve", "mitral");
   assert_non_null(strstr(program_out, "\nThe landmarks do not determine "));
@@ -662,8 +669,10 @@ TEST(wrong_landmarks_are_refused) {
     const double kept = annulus[4][k];
     annulus[4][k] = annulus[6][k], annulus[6][k] = kept;
   }
-  RUN_REFUSED(1, "the annulus crosses itself: the line from \"annulus_", "place", json_of_points(n, labels, annulus),
-              "--valve", "mitral", "--flow", "0,0,-1", "--quiet");
+  RUN_REFUSED(1,
+              "the annulus crosses itself: the line from \"annulus_3\" to \"annulus_4\" crosses the line from "
+              "\"annulus_6\" to \"annulus_7\"; give the annulus points in their order around it",
+              "place", json_of_points(n, labels, annulus), "--valve", "mitral", "--flow", "0,0,-1", "--quiet");
 }
 
 /* Two landmarks of one cusp's attachment are far apart, and every smooth map through both of them folds the valve. */

@@ -238,6 +238,10 @@ TEST(refusals) {
   RUN_REFUSED(2, "--largest-edge: 0.05 is below the edge length in the band, 0.095", "size-field", "-",
               "--largest-edge", "0.05");
   RUN_REFUSED(2, "--spacing: the grid would have ", "size-field", "-", "--spacing", "1e-4");
+  /* A half thickness in another unit is refused before the states are collected, which would take minutes. */
+  RUN_REFUSED(2, "the spacing is half of the half thickness, and the largest side is 2", "size-field", "-", "--valve",
+              "trileaflet", "--unit", "mm", "--half-thickness", "0.001");
+  assert_null(strstr(program_err, "collecting"));
   RUN_REFUSED(2, "--spacing: inf is not above 0 and finite", "size-field", "-", "--spacing", "inf");
   RUN_REFUSED(2, "--count: 1 is not from 2 to 100001", "size-field", "-", "--count", "1");
   RUN_REFUSED(2, "--count has no effect, because the command uses only one opening", "size-field", "-", "--opening",

@@ -156,7 +156,8 @@ Box box_around(const std::vector<Zone> &zones) {
   return box;
 }
 
-Grid grid_in(const Box &box, double spacing) {
+// Returns the grid in a box. The spacing may come from the user.
+Grid grid_in(const Box &box, double spacing, bool is_given) {
   Grid grid{{box.lower[0], box.lower[1], box.lower[2]}, spacing, {}};
   double n_points = 1;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -166,7 +167,10 @@ Grid grid_in(const Box &box, double spacing) {
   }
   if (!(n_points <= static_cast<double>(most_field_points)))
     refuse_usage("--spacing: the grid would have " + shown(n_points) + " points with a spacing of " +
-                 shortest(spacing) + "; at most " + grouped(most_field_points) + " are possible");
+                 shortest(spacing) + "; at most " + grouped(most_field_points) + " are possible" +
+                 (is_given ? ""
+                           : "; the spacing is half of the half thickness, and the largest side is " +
+                                 shown(box.largest_side()) + ": write a larger --half-thickness or --spacing"));
   return grid;
 }
 
@@ -250,9 +254,14 @@ ExitCode run_size_field(const SizeFieldOptions &options) {
   double spacing = std::numeric_limits<double>::infinity();
   for (const Edges &one : edges) spacing = std::min(spacing, 0.5 * one.half_thickness);
   if (options.spacing) spacing = *options.spacing;
+  // The grid around the first states shows early whether the points are too many. Collecting all states may take minutes.
+  Box first = empty_box();
+  for (std::size_t i = 0; i < valves.size(); ++i)
+    first.grow(box_of(info_of(valves[i].surface())).widened(edges[i].reach()));
+  grid_in(first, spacing, options.spacing.has_value());
   std::vector<Zone> zones;
   for (std::size_t i = 0; i < valves.size(); ++i) add_zones(valves[i], edges[i], all, zones);
-  const Grid grid = grid_in(box_around(zones), spacing);
+  const Grid grid = grid_in(box_around(zones), spacing, options.spacing.has_value());
   const std::vector<double> lengths = lengths_at(grid, zones, options);
   write_text(options.field, text_of(grid, lengths));
   print_summary(options, all, edges, grid);

@@ -286,7 +286,8 @@ void read_slicer(const Json &root, LandmarkFile &file) {
     return found->get<std::string>();
   };
   Collector to(file);
-  std::size_t n_annulus = 0;
+  std::size_t n_annulus = 0, annulus_list = 0;
+  bool is_whole = false;  // whether a closed curve has given the annulus
   for (std::size_t i = 0; i < lists.size(); ++i) {
     const std::string where = "markups " + std::to_string(i);
     const Json &list = lists[i];
@@ -305,6 +306,7 @@ void read_slicer(const Json &root, LandmarkFile &file) {
     const bool is_curve = list.contains("type") && list["type"] == "Curve";
     const auto points = list.find("controlPoints");
     if (points == list.end() || !points->is_array()) refuse_file(path, where + " has no array \"controlPoints\"");
+    const std::size_t n_annulus_before = n_annulus;
     for (std::size_t k = 0; k < points->size(); ++k) {
       const Json &point = (*points)[k];
       const std::string at = where + ", control point " + std::to_string(k);
@@ -321,6 +323,13 @@ void read_slicer(const Json &root, LandmarkFile &file) {
       if (position == point.end()) refuse_file(path, quoted(label) + " has no position");
       to.add(label, point_of(path, quoted(label), *position));
     }
+    if (n_annulus == n_annulus_before) continue;
+    // Two open curves may be two parts of an annulus. A closed curve is a whole annulus.
+    if (n_annulus_before > 0 && (is_closed_curve || is_whole))
+      refuse_file(path, where + " is a second curve of an annulus, after markups " + std::to_string(annulus_list) +
+                            ": save the curves of one valve only");
+    is_whole = is_closed_curve;
+    annulus_list = i;
   }
   to.finish();
 }

@@ -2,6 +2,7 @@
 #include "program/input/wall.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <vector>
 
@@ -140,7 +141,10 @@ AttachedReport attached_edges_of(const riis_surface *surface) {
     made.length += length;
     for (int k = 0; k < 3; ++k) made.middle[k] += 0.5 * length * (p[k] + p[k + 3]);
   }
-  for (double &x : made.middle) x /= made.length > 0 ? made.length : 1;
+  for (double &x : made.middle) {
+    x /= made.length > 0 ? made.length : 1;
+    if (std::abs(x) < 1e-9 * made.length) x = 0;  // by rounding
+  }
   return made;
 }
 

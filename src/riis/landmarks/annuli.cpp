@@ -93,8 +93,8 @@ void check_outline(const Landmarks &landmarks, const std::vector<std::size_t> &r
       if (i == 0 && j == n - 1) continue;  // the two edges have a common point
       const Flat &a = flat[i], &b = flat[i + 1], &c = flat[j], &d = flat[(j + 1) % n];
       if (turn(a, b, c) * turn(a, b, d) < 0 && turn(c, d, a) * turn(c, d, b) < 0)
-        fail(RIIS_INVALID_ARGUMENT, "the annulus crosses itself: the line from landmark ", ring[i], " to ", ring[i + 1],
-             " crosses the line from ", ring[j], " to ", ring[(j + 1) % n],
+        fail(RIIS_INVALID_ARGUMENT, "the annulus crosses itself: the line from landmark ", ring[i], " to landmark ",
+             ring[i + 1], " crosses the line from landmark ", ring[j], " to landmark ", ring[(j + 1) % n],
              "; give the annulus points in their order around it");
     }
 }
