@@ -112,8 +112,8 @@ def test_refused(tmp_path):
     refused('the unit is "inch"', named, "trileaflet", unit="inch")
     refused("the unit is centimetres.*in millimetres", named, "trileaflet", unit="cm")
     refused("valve is needed", named, unit="mm")
-    refused('"nadir_rigth" is not the name of a landmark, did you mean "nadir_right".*docs/formats.md#landmarks', named | {"nadir_rigth": (0, 0, 0)},
-            "trileaflet", unit="mm")
+    refused('"nadir_rigth" is not the name of a landmark, did you mean "nadir_right".*docs/formats.md#landmarks',
+            named | {"nadir_rigth": (0, 0, 0)}, "trileaflet", unit="mm")
     refused('"nadir_right": y is nan', named | {"nadir_right": (0, numpy.nan, 0)}, "trileaflet", unit="mm")
     refused("must be three numbers", named | {"nadir_right": (0, 1)}, "trileaflet", unit="mm")
     refused('"nadir-right" is given twice', named | {"nadir-right": (0, 0, 0)}, "trileaflet", unit="mm")
