@@ -413,6 +413,9 @@ def _judge(surface: Surface, mesh: Mesh, mask: Any, marks: Marks) -> str | None:
 
 def warn(surface: Surface, mesh: Mesh, mask: Any, marks: Marks) -> None:
     """Warns at the line that called riis.mark, if the marks look wrong."""
-    text = _judge(surface, mesh, mask, marks)
+    try:
+        text = _judge(surface, mesh, mask, marks)
+    except Error:  # the caller or another thread has changed the valve since the surface was made
+        return
     if text is not None:
         warnings.warn(text, MarksWarning, stacklevel=2)
