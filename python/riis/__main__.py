@@ -36,7 +36,10 @@ _NEEDED = ("pyvista", "vtk", "trame", "trame-vuetify", "meshio", "imageio", "ima
 def _say_missing(error: ImportError) -> int:
     """Says which package is missing, or why an installed package cannot be loaded."""
     is_missing = isinstance(error, ModuleNotFoundError) and error.name
-    text = f"{error.name} is missing: pip install {' '.join(_NEEDED)}" if is_missing else str(error)
+    text = str(error)
+    if is_missing:
+        text = (f"{error.name} is missing: pip install {' '.join(_NEEDED)}, or in the top folder of the sources pip install "
+                "'.[view]'")
     print(f"riis view: {text}", file=sys.stderr)
     return 1
 

@@ -166,6 +166,8 @@ def _constant_of(match: re.Match[str]) -> str:
 
 _CHANGES: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (r"riis_valve_get_parameter and riis params list them", "Valve.parameters lists them"),
+    (r"riis help landmarks lists all names", "docs/formats.md#landmarks lists all names"),
+    (r"is not a kind of valve; there are: .*", r"\g<0>. A mechanical valve is 'bileaflet', and a pulmonary valve 'coapting'"),
     (rf"\boptions\.(fields|{'|'.join(WORDS)})( is | = )(\d+)", _word_of),
     (rf"\bRIIS_(AREA|FIELD|INTERPOLATION|PHASE|RIM|{'|'.join(WORDS).upper()})_([A-Z0-9_]+|\*)(?:, \d+)?", _constant_of),
     (r"RIIS_ALL_LEAFLETS, -1, stands", "None stands"),

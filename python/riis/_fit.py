@@ -4,6 +4,7 @@ points."""
 
 from __future__ import annotations
 
+import difflib
 import json
 import operator
 import os
@@ -221,6 +222,26 @@ def _pair(given: Any, name: str) -> tuple[float, float]:
     return low, high
 
 
+def _second_names(valve: Valve) -> dict[str, tuple[str, float]]:
+    """Returns the parameters that have a second name, such as "annulus", with the factor from the parameter to this name."""
+    return {
+        ".".join([*name.split(".")[:-1], parameter.other_name]): (name, parameter.other_factor)
+        for name, parameter in valve.parameters.items() if parameter.other_name
+    }
+
+
+def _in_own_names(valve: Valve, names: list[str], bounds: Any) -> tuple[list[str], Any]:
+    """Returns names and bounds with the first names of parameters in place of their second names."""
+    second = {name: own for name, own in _second_names(valve).items() if name in names and name not in valve.parameters}
+    if isinstance(bounds, Mapping):
+        bounds = {
+            second[name][0] if name in second else name:
+            tuple(number / second[name][1] for number in _pair(pair, name)) if name in second else pair
+            for name, pair in bounds.items()
+        }
+    return list(dict.fromkeys(second[name][0] if name in second else name for name in names)), bounds
+
+
 def _bounds_of(valve: Valve, free: list[str], given: Any, size: float) -> Reals:
     if not isinstance(given, Mapping):
         raise TypeError(f"bounds: must be a dict from names to pairs, not {given!r}")
@@ -228,8 +249,10 @@ def _bounds_of(valve: Valve, free: list[str], given: Any, size: float) -> Reals:
     bounds = []
     for name in free:
         if name not in table:
-            raise InvalidArgumentError(
-                f"free: '{name}' is not a parameter of a {valve.kind} valve; the parameters are {', '.join(table)}")
+            known = [*table, *_second_names(valve)]
+            near = difflib.get_close_matches(name, known, 1)
+            raise InvalidArgumentError(f"free: '{name}' is not a parameter of a {valve.kind} valve; " + (
+                f"did you mean '{near[0]}'? Valve.parameters lists them" if near else f"the parameters are {', '.join(known)}"))
         if table[name].n_values != 1:
             raise InvalidArgumentError(f"free: '{name}' has three values; only parameters with one can be free")
         if re.fullmatch(r"bump_\d+\.(leaflet|commissure)", name):
@@ -368,8 +391,9 @@ def fit(
 
     points     (n, 3) float64; or a Surface or a pyvista.PolyData, whose vertices are taken
     valve      a kind, or a Valve with the start values, which is not changed
-    free       names of the parameters to fit, each with one value; the others stay. Only ratios of the sectors of cusps
-               count, so a result with a free sector has a sum of 360 degrees
+    free       names of the parameters to fit, each with one value; the others stay. A second name such as "annulus" frees its
+               parameter, whose own name the result has. Only ratios of the sectors of cusps count, so a result with a free
+               sector has a sum of 360 degrees
     placement  which of rotation, translation and scale to fit
     start      a dict of the start values of scale, rotation_axis, rotation_angle and translation. Without a
                translation, the middle of the valve starts at the middle of the points. Without a scale, a free scale
@@ -424,6 +448,7 @@ def fit(
         if from_start.kind != own.kind:
             raise InvalidArgumentError(f"start: its valve is of the kind {from_start.kind}, but valve is {own.kind}")
         own, given = from_start.copy(), getattr(start, "placement", None)
+    names, bounds = _in_own_names(own, names, bounds)
     asked, names = names, _without_last_sector(names, own, bounds)
     _placed(given)
     given = _with_unit(unit, given, moves, own.kind)

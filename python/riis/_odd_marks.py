@@ -12,7 +12,8 @@ import numpy
 
 from riis._errors import Error, MarksWarning
 from riis._riis import (
-    LARGEST_HALF_THICKNESS, Adjacency, Marks, Mesh, Surface, Valve, area_samples, find_leaks, judge_sizes, mark, units,
+    LARGEST_HALF_THICKNESS, Adjacency, Marks, Mesh, Surface, Valve, area_samples, find_crossings, find_leaks, judge_sizes,
+    mark, units,
 )
 from riis._tube import Reals, nodes_of
 
@@ -110,7 +111,8 @@ class _Case:
         self.width = self.height = 0.0
         self.is_flat = False
         if self.valve is not None:
-            samples = area_samples(surface)[0]
+            is_fine = self.info.n_triangles > 100_000  # a coarser surface has the same place
+            samples = area_samples(Surface(self.valve, **placement, half_thickness=self.side / 50.0) if is_fine else surface)[0]
             samples = samples[:: 1 + len(samples) // 300]
             self.share_out = float(1.0 - nodes.are_near(samples, self.reach).mean())
             self.width, self.height = (self.scale * size for size in _sizes(self.valve))
@@ -128,10 +130,12 @@ class _Case:
         known = (self.scale, *(size for size, _ in units().values()))
         return next((size for size in known if _LEAST_VESSEL <= diameter / size < _LARGEST_VESSEL), None)
 
-    def key(self) -> tuple[Any, ...]:
-        """Returns what decides about the judgement, but not the opening."""
-        kind = None if self.valve is None else self.valve.kind
-        return kind, self.scale, self.half, *self.translation, *self.axis, self.mesh._has_edges
+
+def _key(surface: Surface, mesh: Mesh) -> tuple[Any, ...]:
+    """Returns what decides about the judgement, but not the opening."""
+    kind = None if surface._valve is None else surface._valve.kind
+    values = surface._placement.values()
+    return kind, surface.half_thickness, mesh._has_edges, *(number for value in values for number in numpy.ravel(value))
 
 
 def _turned(rotation_axis: Any, angle: float) -> Reals:
@@ -330,6 +334,18 @@ def _beside(case: _Case) -> str | None:
     return f"A gap of about {gap:.2g} between the valve and the tube is wider than the half thickness, so blood passes there"
 
 
+def _crossing(case: _Case) -> str | None:
+    """Says if leaflets go through each other, as the library's log does."""
+    if case.valve is None or case.valve.kind == "bileaflet":  # its hinges reach into the housing
+        return None
+    found = find_crossings(case.surface, depth=min(1.0, max(1e-6, case.info.contact_depth / case.half)))
+    if found.n_pairs == 0:
+        return None
+    one, other = (int(leaflet) for leaflet in found.deepest_leaflet_id)
+    who = f"Leaflet {one} goes through itself" if one == other else f"Leaflets {one} and {other} go through each other"
+    return f"{who}, up to {found.deepest_depth:.2g} deep: change the sizes. riis.find_crossings lists the places"
+
+
 def _judge(surface: Surface, mesh: Mesh, mask: Any, marks: Marks) -> str | None:
     """Returns the text of a warning, or None if the marks look right."""
     is_grid = hasattr(mesh, "axes")
@@ -337,10 +353,10 @@ def _judge(surface: Surface, mesh: Mesh, mask: Any, marks: Marks) -> str | None:
     if nodes is None or nodes.n < LEAST_NODES:
         return None
     n_marked, n = len(marks), nodes.n
-    case = _Case(surface, mesh, nodes, n_marked)
-    key = case.key()
+    key = _key(surface, mesh)
     if key in nodes.fine and n_marked >= _FEW:
         return None
+    case = _Case(surface, mesh, nodes, n_marked)
     sides = nodes.sides
     even = float(numpy.prod(sides) / n) ** (1.0 / 3.0)
     fits, factor = judge_sizes(sides, (case.info.lower, case.info.upper), even, case.half, False)
@@ -354,7 +370,8 @@ def _judge(surface: Surface, mesh: Mesh, mask: Any, marks: Marks) -> str | None:
     if not is_out and not is_thick and not is_thin:
         n_leaks, case.closing = _leaks(surface, mesh, marks)
         case.n_leaks = n_leaks if case.closing > 1.001 * case.half else 0
-    if not (is_out or beside or is_thick or is_thin or case.n_leaks):
+    crossing = None if is_out or is_thick or is_thin else _crossing(case)
+    if not (is_out or beside or is_thick or is_thin or case.n_leaks or crossing):
         nodes.fine.add(key)
         return None
     is_only_thin = is_thin and case.share_out <= _MOST_OUT and not case.is_flat and factor is None
@@ -381,6 +398,8 @@ def _judge(surface: Surface, mesh: Mesh, mask: Any, marks: Marks) -> str | None:
         )
     elif case.n_leaks:
         said.append(_of_leaks(case.n_leaks))
+    if crossing:
+        said.append(crossing)
     few = "no node is marked" if n_marked == 0 else (
         f"only {n_marked} of {n:,} nodes {'is' if n_marked == 1 else 'are'} marked" if n_marked < _FEW
         else f"all {n:,} nodes are marked" if n_marked == n else f"{n_marked:,} of {n:,} nodes are marked")
@@ -394,6 +413,9 @@ def _judge(surface: Surface, mesh: Mesh, mask: Any, marks: Marks) -> str | None:
 
 def warn(surface: Surface, mesh: Mesh, mask: Any, marks: Marks) -> None:
     """Warns at the line that called riis.mark, if the marks look wrong."""
-    text = _judge(surface, mesh, mask, marks)
+    try:
+        text = _judge(surface, mesh, mask, marks)
+    except Error:  # the caller or another thread has changed the valve since the surface was made
+        return
     if text is not None:
         warnings.warn(text, MarksWarning, stacklevel=2)

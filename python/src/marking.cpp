@@ -150,7 +150,8 @@ nb::object mark(nb::handle surface_, nb::handle mesh_, nb::handle into, nb::hand
     result.places = mesh.places;
     result.half_thickness = half_thickness_of(surface);
   }
-  if (!may_find_none) warn_of_odd_marks(surface_, mesh_, mask, result_object);
+  // The judgement makes surfaces, which a child of fork() may not be able to do.
+  if (!may_find_none && !is_forked()) warn_of_odd_marks(surface_, mesh_, mask, result_object);
   return result_object;
 }
 

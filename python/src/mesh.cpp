@@ -179,6 +179,11 @@ Adjacency *from_cells(nb::handle nodes, nb::handle n_nodes, nb::handle offsets_,
   cells.n_threads = thread_count(n_threads);
   std::optional<Array> offsets;
   if (offsets_.is_none()) {
+    if (ids.n_dimensions() == 1)
+      refuse_value("cells", "its shape is (", ids.size(0),
+                   ",); without offsets it must be (n, 4, 5, 6 or 8). A mesh of PyVista has such arrays in "
+                   "grid.cells_dict, such as grid.cells_dict[10] for tetrahedra. Or pass grid.cell_connectivity with "
+                   "offsets=grid.offset");
     ids.expect({-1, -1});
     cells.n_cells = ids.size(0);
     cells.nodes_per_cell = static_cast<std::int32_t>(ids.size(1));

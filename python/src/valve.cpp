@@ -274,6 +274,7 @@ void add_valve(nb::module_ &module) {
 kind is 'aortic' (the paper's three cusps), 'mitral', 'coapting' (three cusps with a zone of coaptation), 'bicuspid' and
 'quadricuspid' (two and four such cusps), 'mitral_coapting' and 'tricuspid' (leaflets with a zone of coaptation, hung
 from a saddle), 'trileaflet' (three equal cusps that close in straight lines) or 'bileaflet' (a mechanical prosthesis).
+The opening is 0, closed, to 1, open. By default 'mitral' is open, and all other kinds are closed.
 Keywords set parameters: Valve('mitral', opening=0.3), Valve('bicuspid', **{'cusp_0.sector': 150}).
 
 A valve is a mapping from names to values: valve['AP_diameter'] = 3.1 sets a parameter, valve['opening'] reads it,

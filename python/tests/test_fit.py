@@ -135,6 +135,16 @@ def test_bounds_hold_and_are_told():
     assert "at a bound" in found.report()
 
 
+def test_a_second_name_frees_its_parameter():
+    points = fit_table.cloud("trileaflet", 400, 0.01)
+    options = {"n_starts": 1, "start": {"translation": (0.0, 0.0, 0.0)}}
+    first = riis.fit(points, "trileaflet", free=["root_radius"], bounds={"root_radius": (1.0, 1.5)}, **options)
+    second = riis.fit(points, "trileaflet", free=["annulus"], bounds={"annulus": (2.0, 3.0)}, **options)
+    assert first.parameters == second.parameters and second.valve["annulus"] == 2.0 * second.parameters["root_radius"]
+    with pytest.raises(riis.InvalidArgumentError, match="^free: 'anulus' is not .* valve; did you mean 'annulus'"):
+        riis.fit(points, "trileaflet", free=["anulus"])
+
+
 def test_what_the_data_do_not_say_is_told():
     """A closed valve is the same for any open radius, so the data do not determine this radius."""
     valve = riis.Valve("trileaflet", opening=0.0)

@@ -118,6 +118,31 @@ def test_the_calls_of_a_warning_put_a_valve_across_a_tube(kind, in_mm, unit, has
                 assert riis.find_passage(surface, with_edges, *ends).state == "closed"
 
 
+def test_a_warning_names_the_half_thickness_and_leaflets_that_cross():
+    mesh, middle, axis = placed_tube(5, 1.0)
+    bare = riis.Mesh(mesh.xyz)
+    valve = riis.Valve("coapting", annulus=2.8)
+    across = {"scale": 10.0, "translation": middle, "axis": axis}
+    for half, on, text in (
+        (2e-2, bare, "The half thickness is 0.02, and the nodes are about "), (40.0, bare, "The half thickness is 40, and the largest"),
+        (1.0, mesh, " edges of the mesh cross the leaflets between unmarked nodes, so the valve leaks there. Try"),
+    ):
+        [found] = warnings_of(lambda: riis.mark(riis.Surface(valve, half_thickness=half, **across), on))
+        assert text in found and "scale=" not in found and "axis=" not in found
+        half = float(re.search(r"Try riis.Surface\(valve, half_thickness=(.*?)\)", found)[1])
+        assert 1.0 < half < 3.5
+        for opening in 0.0, 0.5, 1.0:
+            surface = riis.Surface(riis.Valve("coapting", annulus=2.8, opening=opening), half_thickness=half, **across)
+            assert riis.find_leaks(surface, mesh, riis.mark(surface, mesh)).n_edges == 0
+            assert not warnings_of(lambda: riis.mark(surface, bare))
+    crossed = riis.Valve("trileaflet", annulus=2.7, stj=2.7, bending_height=0.55, opening=0.0)
+    surface = riis.Surface(crossed, half_thickness=2.6, **across)
+    found = warnings_of(lambda: riis.mark(surface, bare))
+    pairs = riis.find_crossings(surface, depth=surface.info.contact_depth / surface.half_thickness)
+    assert len(found) == (pairs.n_pairs > 0) == 1 and "go through each other, up to " in found[0]
+    assert not warnings_of(lambda: riis.mark(riis.Surface(crossed, **across), bare, allow_none=True))
+
+
 def test_a_time_loop_warns_once():
     xyz, _ = a_box(1.0)
     mesh, valve, marks = riis.Mesh(xyz), riis.Valve("coapting"), riis.Marks()

@@ -60,6 +60,9 @@ def test_least_squares(seed):
     places = at["scale"] * Rotation.from_rotvec(numpy.radians(degrees) * axis).apply(local) + at["translation"]
     numpy.testing.assert_allclose(numpy.linalg.norm(places - points, axis=1), found.residuals, atol=1e-6)
     assert "NOT DETERMINED" in found.report() or not found.undetermined
+    assert found.report().startswith("trileaflet valve from 6 landmarks, axes mesh, noise ")
+    stated = float(found.report().split("noise ")[1].split()[0])
+    assert ("which the residuals show" in found.report()) == (found.noise > 1.05 * stated)
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -109,8 +112,8 @@ def test_refused(tmp_path):
     refused('the unit is "inch"', named, "trileaflet", unit="inch")
     refused("the unit is centimetres.*in millimetres", named, "trileaflet", unit="cm")
     refused("valve is needed", named, unit="mm")
-    refused('"nadir_rigth" is not the name of a landmark, did you mean "nadir_right"', named | {"nadir_rigth": (0, 0, 0)},
-            "trileaflet", unit="mm")
+    refused('"nadir_rigth" is not the name of a landmark, did you mean "nadir_right".*docs/formats.md#landmarks',
+            named | {"nadir_rigth": (0, 0, 0)}, "trileaflet", unit="mm")
     refused('"nadir_right": y is nan', named | {"nadir_right": (0, numpy.nan, 0)}, "trileaflet", unit="mm")
     refused("must be three numbers", named | {"nadir_right": (0, 1)}, "trileaflet", unit="mm")
     refused('"nadir-right" is given twice', named | {"nadir-right": (0, 0, 0)}, "trileaflet", unit="mm")

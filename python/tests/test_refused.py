@@ -88,7 +88,8 @@ REFUSED = {
     "z missing": (TypeError, "z: must be a numpy array", lambda o: riis.Mesh(o.reals, o.reals)),
     "update NaN": (riis.InvalidMeshError, "7.*nan", lambda o: riis.Mesh(o.xyz).update(with_nan(o.xyz))),
     # Valves
-    "kind": (riis.InvalidParameterError, "'pulmonary' is not a kind of valve", lambda o: riis.Valve("pulmonary")),
+    "kind": (riis.InvalidParameterError, "'pulmonary' is not a kind of valve; there are: .* A mechanical valve is 'bileaflet'",
+             lambda o: riis.Valve("pulmonary")),
     "type of kind": (TypeError, "kind: must be a str, not int", lambda o: riis.Valve(3)),
     "null in kind": (Argument, "kind: contains a null", lambda o: riis.Valve("mit\0ral")),
     "name": (riis.InvalidParameterError, "'height'", lambda o: riis.Valve("mitral", height=1.0)),
@@ -232,6 +233,8 @@ REFUSED = {
     "other size": (riis.Error, "^the number of rows is 8; the mesh has 60 nodes",
                    lambda o: o.mesh.set_adjacency(riis.Adjacency.from_grid(2, 2, 2))),
     "cells": (Argument, "cells: has 3 nodes per cell", lambda o: riis.Adjacency.from_cells(o.faces, 3)),
+    "cells in one row": (Argument, r"cells: its shape is \(4,\); without offsets it must be .* grid.cells_dict",
+                         lambda o: riis.Adjacency.from_cells(o.tetrahedron[0], 4)),
     "node of a cell": (riis.InvalidMeshError, "3", lambda o: riis.Adjacency.from_cells(o.tetrahedron, 3)),
     "type of cells": (TypeError, "cells: its dtype is float64", lambda o: riis.Adjacency.from_cells(o.vectors, 3)),
     "offsets of cells": (Argument, "offsets: span 5 nodes; cells has 4",

@@ -430,9 +430,10 @@ std::string place_report(const Placed &placed, Reader reader) {
   const LandmarkFile &landmarks = placed.landmarks;
   const riis_placement &at = placed.placement;
   const std::string unit = name_of(landmarks.unit);
-  std::string text = placed.kind + " valve from " + std::to_string(landmarks.names.size()) + " landmarks of " +
-                     landmarks.path + ", axes " + name_of(landmarks.axes) + ", noise " + digits(placed.noise, 3) + " " +
-                     unit + "\n\n";
+  const bool is_mapping = reader == Reader::python && landmarks.path == "landmarks";
+  std::string text = placed.kind + " valve from " + std::to_string(landmarks.names.size()) + " landmarks" +
+                     (is_mapping ? "" : " of " + landmarks.path) + ", axes " + name_of(landmarks.axes) + ", noise " +
+                     digits(placed.noise, 3) + " " + unit + "\n\n";
   std::size_t width = 16;
   for (const Size &size : placed.sizes) width = std::max(width, std::string(size.parameter.name).size() + 2);
   text += filled("parameter", width) + filled("value", 26) + filled("std. error", 12) + "from\n";
@@ -458,7 +459,8 @@ std::string place_report(const Placed &placed, Reader reader) {
           " degrees about " + numbers_text(at.rotation_axis, 3, " ", four_digits) + ", translation " +
           numbers_text(at.translation, 3, " ", four_digits) + " " + unit + "\nstd. errors     " +
           digits(at.rotation_error, 2) + " degrees, " + digits(at.position_error, 2) + " " + unit + ", by a noise of " +
-          digits(at.noise, 2) + " " + unit + "\n";
+          digits(at.noise, 2) + " " + unit + (at.noise > 1.05 * placed.noise ? ", which the residuals show" : "") +
+          "\n";
   std::size_t name_width = 16;
   for (const std::string &name : landmarks.names) name_width = std::max(name_width, name.size() + 2);
   // Distances between valve and landmarks are in millimetres in every unit, because a person reads and compares them.
