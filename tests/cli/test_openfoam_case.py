@@ -315,6 +315,9 @@ class OpenfoamCase(unittest.TestCase):
         self.assertRegex(done.stdout, "left open by the band +2.37 cm2 +MISSED")
         self.assertRegex(done.stdout, "(?s)numerical checks.*closes 21 % of the orifice, so the blood meets a narrower valve "
                          ".*\nA thinner band.\n")
+        case, _ = self.write()  # as if the valve were held: the open valve needs no cure
+        done = self.run_case(case, tools=self.tools(*self.programs), FAULT="band_of_orifice")
+        self.assertIn("\nIn riis patient, a smaller --half-thickness leaves more.\n", done.stdout)
 
     def test_changed_inputs_need_a_fresh_run(self):
         case, _ = self.write()

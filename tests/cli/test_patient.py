@@ -15,6 +15,7 @@ import re
 import resource
 import shlex
 import shutil
+import signal
 import struct
 import subprocess
 import sys
@@ -233,6 +234,16 @@ class Patient(unittest.TestCase):
                          "--picture talk.png")
         self.assertNotIn("$ riis", done.stdout)
         self.assertIn("commands.sh has the command of each next step", done.stdout)
+        # The thick band narrows the valve. A check with the half thickness of the warning leaves 80 %.
+        warned = re.search(r"the band, 1.6 mm on each side of the leaflets, closes (\d+) % of the orifice\. .* --half-thickness "
+                           r"'([\d.]+) mm' would leave about 80 %\. It needs about [\d,]+ nodes\.\n", done.stderr)
+        self.assertTrue(warned, done.stderr)
+        self.assertAlmostEqual(report["open_share"], 1 - int(warned[1]) / 100, delta=0.006)
+        cured = self.run_riis("check", "leaks", case / "mesh.msh", "--valve", case / "placed.json", "--skirt", "6", "--wall",
+                              case / "wall.stl", "--half-thickness", warned[2], "--opening", "1", "--stats", "-",
+                              "--between=" + points[0], points[1], "--quiet")
+        orifice = json.loads(cured.stdout)["orifice"]
+        self.assertAlmostEqual(orifice["effective_area"] / orifice["area"], 0.8, delta=0.015)
         self.assertRegex(done.stdout, r"skirt +closes the gap between the closed valve and the wall, at most [\d.]+ mm")
         before = {name: (case / name).read_bytes() for name in ("placed.json", "valve.dat")}
         for command in printed:
@@ -305,6 +316,16 @@ exec '{shutil.which("gmsh")}' "$@" $longer
             run.kill()
         self.assertTrue((case / "UNFINISHED.txt").exists())
         self.assertTrue((case / "gmsh" / "surface.msh").exists())
+        # Ctrl-C says how to go on, and the same command takes the folder over.
+        (case / "placed.json").unlink()
+        with subprocess.Popen(command, cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+                              env=environment) as run:
+            while run.poll() is None and not (case / "placed.json").exists():
+                time.sleep(0.01)
+            run.send_signal(signal.SIGINT)
+            said = run.communicate()[1]
+        self.assertEqual(run.returncode, -signal.SIGINT)
+        self.assertIn("riis: stopped before the folder was finished: the same command makes it anew\n", said)
         (case / "mine.txt").write_text("kept", encoding="utf-8")
 
         done = self.refused(1, r"\d+ edges? leaks? at 11 openings also in the second mesh, whose edges in the band have 0.855 "
@@ -371,7 +392,13 @@ exec '{shutil.which("gmsh")}' "$@" $longer
             self.skipTest("there is no vtk")
         write_stl(self.folder / "lv.stl", triangles, 1e-3)
         write_landmarks(self.folder / "landmarks.json", ventricle.landmarks(random.Random(3)))
-        report, _ = self.made("--half-thickness", "2 mm", "--largest-edge", "8 mm", wall="lv.stl")
+        report, done = self.made("--half-thickness", "2 mm", "--largest-edge", "8 mm", "--solver", "openfoam", "--heart-rate",
+                                 "70", wall="lv.stl")
+        # The duration of a beat is rounded to the time between two files, in the pressures and in the end of the run.
+        self.assertIn("for openfoam, at 69.8 beats a minute: a beat lasts 0.86 s, a multiple of", done.stdout)
+        self.assertRegex((self.folder / "case/openfoam/0/p").read_text(encoding="utf-8"), r"p0 table \(.* \(0.86 [\d.]+\)\);")
+        self.assertRegex((self.folder / "case/openfoam/system/controlDict").read_text(encoding="utf-8"),
+                         r"(?s)endTime 0\.86;.*period 0\.86;")
         self.assertEqual((report["valve"], report["unit"]), ("mitral", "m"))
         # The horns show the side of the atrium. A flow into the atrium is refused before the mesh is made.
         along = report["flow"]
@@ -526,8 +553,9 @@ exec '{shutil.which("gmsh")}' "$@" $longer
             self.assertRegex(done.stdout, f"(?m)^replaced  removed {words}$")
             self.assertFalse((self.folder / "old" / computed).exists())
         # While a solver runs there, nothing is removed.
+        shutil.rmtree(self.folder / "old")
         lock = self.folder / "old/openfoam/.lock"
-        lock.parent.mkdir()
+        lock.parent.mkdir(parents=True)
         (self.folder / "old/patient.json").write_text("{}", encoding="utf-8")
         owner = subprocess.Popen(["flock", lock, "sleep", "60"])
         self.addCleanup(owner.wait)

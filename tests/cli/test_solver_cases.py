@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """test_solver_cases.py WRITE_SOLVER_CASE TEXTS: reads the folders of solvers again, and runs stand-ins for the solvers."""
 import base64
+import fcntl
 import importlib.util
 import json
 import math
@@ -211,6 +212,27 @@ class Cases(unittest.TestCase):
         self.assertEqual(tree.find("Add_URIS_mesh").get("name"), "second")
         self.assertEqual(tree.find("Add_URIS_mesh/Valve_starts_as_closed").text.strip(), "false")
 
+    def test_another_heart_rate(self):
+        """At 120 beats a minute, the systole of both curves is shorter by the same factor, and diastole has the rest."""
+        factor = (0.546 - 2.1e-3 * 120) / (0.546 - 2.1e-3 * 75)
+        for is_mitral in (False, True):
+            numbers = self.numbers("svmultiphysics", period=0.5, is_mitral=is_mitral)
+            self.assertIn("a beat has 250 steps of 0.002 s", self.write("svmultiphysics", numbers))
+            self.assertEqual(self.value(self.read(numbers), ".//Number_of_time_steps"), 250)
+            rows = (pathlib.Path(numbers["solver"]) / "ventricle.dat").read_text().splitlines()[1:]
+            times = [float(row.split()[0]) for row in rows]
+            self.assertEqual((times[0], times[-1], times), (0, 0.5, sorted(times)))
+            systole = 0.5 - times[3] if is_mitral else times[-2]  # the aortic beat ends with diastole, the mitral one begins so
+            self.assertAlmostEqual(systole, factor * (0.4 if is_mitral else 0.38), delta=2e-4)
+            numbers = self.numbers("fenicsx", period=0.5, is_mitral=is_mitral)
+            self.write("fenicsx", numbers)
+            case = json.loads((pathlib.Path(numbers["solver"]) / "case.json").read_text())
+            self.assertEqual((case["period"], case["steps"]), (0.5, 250))
+            curve = case["pressures"]["outlet" if is_mitral else "inlet"]
+            self.assertEqual([time for time, _ in curve], times)
+            for pressure in case["pressures"].values():
+                self.assertEqual(pressure[-1][0], 0.5)
+
     def test_mitral(self):
         numbers = self.numbers("svmultiphysics", is_mitral=True, name="mitral_valve")
         self.write("svmultiphysics", numbers)
@@ -243,6 +265,11 @@ class Cases(unittest.TestCase):
         self.assertIn("the program '/no/solver' is missing. Write SVMULTIPHYSICS=PATH/svmultiphysics ./Allrun",
                       allrun(status=1, program="/no/solver"))
         self.assertIn("'two' is not a number of ranks: write ./Allrun 2", allrun("two", status=2))
+        with open(folder / ".lock", "w", encoding="ascii") as lock:
+            lock.write("77\n")
+            lock.flush()
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            self.assertIn("another run in this folder has not ended (process 77): wait for its end", allrun(status=1))
         self.assertIn("ended with the status 1", allrun(status=1, program="false"))
         said = allrun(status=2)
         self.assertIn("what follows is preliminary\nthe valve has not moved yet\n", said)
@@ -432,6 +459,15 @@ class Cases(unittest.TestCase):
         text.write_text("solid w\n" + 2 * facet + "endsolid w\n", encoding="ascii")
         for path in (binary, text):
             self.assertEqual(run.read_stl(path).tolist(), [[list(corner) for corner in corners]] * 2)
+        # Two runs cannot have one folder.
+        one = types.SimpleNamespace(rank=0, bcast=lambda value: value)
+        lock = run.locked(one)
+        self.assertEqual((run.HERE / ".lock").read_text(), f"{os.getpid()}\n")
+        with self.assertRaisesRegex(SystemExit, "run.py: another run in .* has not ended: wait for its end"):
+            run.locked(one)
+        self.assertIsNone(run.locked(types.SimpleNamespace(rank=1, bcast=lambda _: True)))
+        lock.close()
+        run.locked(one).close()
         # The curve repeats and is linear between its keys.
         pressure = run.curve([[0, 10], [0.2, 30], [0.8, 10]])
         for now, expected in ((0.1, 20), (0.9, 20), (0.5, 20), (1.6, 10)):

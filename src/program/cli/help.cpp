@@ -225,7 +225,8 @@ and skirt_length.
 coapting    3 commissures and 3 nadirs, with names as above or as lists: "nadir": [[1,2,3], ...]; perhaps coaptation, and
             for a warp up to 900 points of the attachment, as attachment_1 or, with the cusp, attachment_left_1
 trileaflet  the same
-bicuspid    the same with 2 of each, quadricuspid with 4; cusps have names as in nadir_cusp_0
+bicuspid    nadir_cusp_0, nadir_cusp_1, commissure_1 and commissure_2
+quadricuspid  4 commissures and 4 nadirs, with names as in nadir_cusp_0 and commissure_cusp_0_cusp_1
 aortic      the same as coapting; the names must say which cusp is which
 mitral      "annulus": 4 points or more in their order around it, anterior_horn; perhaps posterior_horn, 2 trigone,
             posteromedial_commissure and anterolateral_commissure. 16 annulus points determine the sizes, 8 do not
@@ -258,7 +259,7 @@ other, if an edge leaks at one of 11 openings, or if the closed valve does not s
 another mesh with shorter edges. FOLDER has the file UNFINISHED.txt until all steps are done. A sick valve that never closes
 need not seal.
 --replace removes what riis patient wrote to FOLDER before, and also what a solver computed in the case there. A line on stdout
-says so.
+says so. While a solver runs there, nothing is removed.
 --solver writes a case into FOLDER, and the last line on stdout is the command that runs the case.
 )"},
     {"pictures", "views, sizes, backgrounds, captions",

@@ -359,9 +359,10 @@ void remove_and_end(int signal) {
   remove_held();
   unlink(scratch_file);
   rmdir(scratch_folder);
-  if (const char *const words = last_words)
-    if (write(STDERR_FILENO, words, std::strlen(words)) < 0) {  // the process ends in any case
-    }
+  if (const char *const words = last_words) {
+    const auto n_written = write(STDERR_FILENO, words, std::strlen(words));
+    static_cast<void>(n_written);  // the process ends in any case
+  }
   std::raise(signal);
 }
 

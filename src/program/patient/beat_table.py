@@ -109,7 +109,7 @@ def add_orifice(lines, opened, motions, orifice):
                              "blood meets a narrower valve than yours.",
                              "Its volumes and gradients are those of the narrower valve. A bound on a share of the flow may be "
                              "missed only because little flows.",
-                             *([orifice["cure"]] if orifice.get("cure") else []))
+                             orifice.get("cure") or "In riis patient, a smaller --half-thickness leaves more.")
     jets = [step for step in still if step.get("fastest") and step["flow"] > 0]
     if jets:
         most = max(jets, key=lambda step: step["flow"])

@@ -34,7 +34,7 @@ void write_scripts(const SolverCase &solver, const std::string &of, const std::s
 // Writes orifice.json, from which beat_table.py takes the areas of the open valve.
 void write_orifice(const SolverCase &solver);
 
-// A solver's time step, and its measured processor time per cell and step: docs/patient_openfoam.md, "The beat",
+// A solver's time step, and its measured processor time per cell and step: docs/patient_openfoam.md,
 // docs/patient_svmultiphysics.md, "What it costs", and docs/patient_fenicsx.md, "What was run".
 struct SolverCost {
   const char *program;

@@ -140,7 +140,8 @@ class PatientRun {
     the_.solver = options_.solver;
     the_.hold = options_.hold;
     if (options_.heart_rate)
-      the_.period = std::round(60 / *options_.heart_rate / seconds_between_files) * seconds_between_files;
+      the_.period =
+          std::round(60 / (*options_.heart_rate * seconds_between_files)) / std::round(1 / seconds_between_files);
     const std::string kind_by_roles = kind_of_roles(landmarks_);
     if (options_.has_valve && !kind_by_roles.empty() && is_mitral_kind(kind_by_roles) != the_.is_mitral)
       refuse_usage("--valve: the landmarks of " + options_.landmarks + " are those of " +
@@ -674,7 +675,13 @@ class PatientRun {
     if (options_.solver == "openfoam") write_openfoam_case(the_);
     if (options_.solver == "svmultiphysics") write_svmultiphysics_case(the_);
     if (options_.solver == "fenicsx") write_fenicsx_case(the_);
-    steps_.say("case", "for " + options_.solver, steps_.seconds() - begin);
+    steps_.say(
+        "case",
+        "for " + options_.solver +
+            (options_.heart_rate ? ", at " + printed("%.3g", 60 / the_.period) + " beats a minute: a beat lasts " +
+                                       shortest(the_.period) + " s, a multiple of the time between two files"
+                                 : ""),
+        steps_.seconds() - begin);
     if (the_.is_mitral)
       steps_.say("case",
                  "the ventricle of the case has a rigid wall and cannot fill: blood that passes the valve leaves at "

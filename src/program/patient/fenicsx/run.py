@@ -10,7 +10,9 @@ quadrature points. A run that was cut off goes on. valve.csv has a row for each 
 it prints the table of report.py.
 """
 import csv
+import fcntl
 import json
+import os
 import pathlib
 import sys
 import time
@@ -151,8 +153,26 @@ def curve(keys):
     return lambda now: numpy.interp(now % CASE["period"], times, pressures)
 
 
+def locked(comm):
+    """Locks this folder for as long as the returned file is open. Ends the program if another run has the lock."""
+    file, is_free = None, True
+    if comm.rank == 0:
+        file = open(HERE / ".lock", "a", encoding="utf-8")
+        try:
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError:
+            is_free = False
+    if not comm.bcast(is_free):
+        sys.exit(f"run.py: another run in {HERE} has not ended: wait for its end")
+    if file:
+        file.truncate(0)
+        print(os.getpid(), file=file, flush=True)
+    return file
+
+
 def main(n_steps):
     comm = MPI.COMM_WORLD
+    lock = locked(comm)
     mesh, _, tags = io.gmshio.read_from_msh(str(HERE / "mesh.msh"), comm, 0, gdim=3)
     groups = CASE["boundaries"]
     P1, P1_3 = (basix.ufl.element("Lagrange", mesh.basix_cell(), 1, shape=shape) for shape in ((), (3,)))
@@ -257,6 +277,7 @@ def main(n_steps):
     file.close()
     if comm.rank == 0:
         report.table()
+        lock.close()
 
 
 if __name__ == "__main__":
