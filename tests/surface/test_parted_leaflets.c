@@ -181,7 +181,7 @@ static void check_sample(int kind, int opening, int share, int how) {
   for (int c = 0; c < 3; ++c)
     placed.rotation_axis[c] = between(-1, 1) + (c == 0 ? 2 : 0), placed.translation[c] = s * between(-3, 3);
   placed.rotation_angle = between(-180, 180);
-  const riis_orifice found = orifice_of(surface_of_soup(&triangles, how / n_turnings % 2 == 0 || share == 0, &placed));
+  const riis_orifice found = orifice_of(surface_of_soup(&triangles, how / n_turnings % 2 == 0, &placed));
   const double area = found.area / (s * s);
   printf("%s at %d/8, shrunk by %g, turned %d: %.4f, the valve's %.4f\n", kinds[kind].name, opening, shares[share],
          turning, area, of_valve.area);

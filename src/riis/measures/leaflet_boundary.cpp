@@ -273,6 +273,8 @@ LeafletBoundary boundary_of_leaflets(const TriangleSet &set) {
     wound.set = std::move(*joined);
     edges = open_edges(wound.set, false);
   }
+  // If a file does not name its leaflets, touching leaflets are one piece of several sheets.
+  const std::vector<std::int64_t> &part = n_pieces > 1 ? piece : wound.sheet;
   // Leaflets may have different windings. Each sheet but the last is tried with both windings.
   constexpr std::int64_t most_sheets = 5;
   const std::int64_t n_windings = wound.n_sheets <= most_sheets ? std::int64_t{1} << (wound.n_sheets - 1) : 1;
@@ -283,7 +285,7 @@ LeafletBoundary boundary_of_leaflets(const TriangleSet &set) {
     const LargestBoundary largest = largest_boundary(wound.set, edges_of_winding);
     ClosedLine line{{}, length(largest.area)};
     for (const OpenEdge &edge : largest.edges)
-      line.edges.push_back({wound.set.vertex(edge.from), wound.set.vertex(edge.to), view(piece)[edge.triangle]});
+      line.edges.push_back({wound.set.vertex(edge.from), wound.set.vertex(edge.to), view(part)[edge.triangle]});
     boundary.perhaps_attached.push_back(std::move(line));
   }
   return boundary;
