@@ -124,7 +124,8 @@ def test_a_warning_names_the_half_thickness_and_leaflets_that_cross():
     valve = riis.Valve("coapting", annulus=2.8)
     across = {"scale": 10.0, "translation": middle, "axis": axis}
     for half, on, text in (
-        (2e-2, bare, "The half thickness is 0.02, and the nodes are about "), (40.0, bare, "The half thickness is 40, and the largest"),
+        (2e-2, bare, "The half thickness is 0.02, and the nodes are about "),
+        (40.0, bare, "The half thickness is 40, and the largest"),
         (1.0, mesh, " edges of the mesh cross the leaflets between unmarked nodes, so the valve leaks there. Try"),
     ):
         [found] = warnings_of(lambda: riis.mark(riis.Surface(valve, half_thickness=half, **across), on))
