@@ -40,7 +40,7 @@ typedef struct riis_direction {
                           divided by the parameter's unit. Within a triangle the rate is linear */
   double area_rate;    /* the derivative of riis_surface_info.area. Each call computes it again from all triangles */
 } riis_direction;
-/* Gives the rates of a surface's vertices along a direction, until the surface's next update or its destruction.
+/* Gives the rates of a surface's vertices along a direction. They are valid until the surface is updated or destroyed.
  *   `direction_id`: 0 for the direction that was added first after the last update, 1 for the next direction, and so on. From the
  *     rates a caller can compute the derivative of any number that depends on the triangles (docs/theory/gradients.md). The rates
  *     are those of the triangles, even if distances are measured by sampling or minimisation.

@@ -267,7 +267,7 @@ TEST(report_has_sizes_and_residuals) {
   for (const char *const *words =
            (const char *const[]){"trileaflet valve from 6 landmarks", "noise 0.5 mm", "root_radius", "1.1 cm",
                                  "landmarks", "proportion", "residual mm", "nadir_right", "rms 0.5", "scale 10,",
-                                 "determine every size", NULL};
+                                 "determine all sizes", NULL};
        *words; ++words)
     if (!strstr(program_out, *words)) fail_msg("no %s in %s", *words, program_out);
   if (strstr(program_out, "leaflet_height")) fail_msg("a held size is in the report: %s", program_out);

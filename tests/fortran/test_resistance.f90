@@ -508,7 +508,7 @@ contains
     call result%add_reaction(R, velocity, weight, leaflet_force=of_leaflets(:, :3, 2))
     call result%add_reaction(R, velocity, weight, alone)
     call result%add_reaction(R, velocity, weight, status=status)
-    call check_refused(status, RIIS_INVALID_ARGUMENT, 'reaction has no sum to add to')
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'reaction has no array to add to')
     call result%add_reaction(R, velocity, weight, alone, leaflet_force=of_leaflets(:, :2, 1), status=status)
     call check_refused(status, RIIS_INVALID_ARGUMENT, 'reaction.n_leaflets is 2, but the surface has the leaflet id 2')
     call result%add_reaction(R, velocity, weight, alone, leaflet_force=of_leaflets(:2, :3, 1), status=status)

@@ -269,7 +269,7 @@ TEST(sums_over_no_nodes) {
     CHECK_OK(add_resistance_to(result, &resistance, 0, nothing, nothing));
     CHECK_OK(add_reaction_to(result, &resistance, 0, nothing, nothing, force));
     CHECK_OK(add_reaction_to(result, &resistance, 0, NULL, NULL, force));
-    CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "reaction has no sum to add to",
+    CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "reaction has no array to add to",
                   add_reaction_to(result, &resistance, 0, NULL, NULL, NULL));
   }
   assert_true(nothing[0] == 4 && nothing[2] == 4 && force[0] == 1 && force[1] == 2 && force[2] == 3);

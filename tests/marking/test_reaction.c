@@ -543,7 +543,7 @@ TEST(refusals_leave_the_sums) {
     CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "struct size of reaction", riis_reaction_init(&bad, sizes[i]));
   }
   CHECK_OK(riis_reaction_init(&bad, sizeof bad));
-  REFUSED_BY(f.marks, RIIS_INVALID_ARGUMENT, "reaction has no sum to add to");
+  REFUSED_BY(f.marks, RIIS_INVALID_ARGUMENT, "reaction has no array to add to");
 
   /* The forces on the whole surface and on leaflets do not need RIIS_FIELD_POINT. */
   riis_marks *bare = new_result();

@@ -602,7 +602,7 @@ TEST(refusals_leave_the_arrays) {
   REACTION_REFUSED("resistance is NULL", f.result, NULL, n, f.velocity, f.weight, force);
   REACTION_REFUSED("flow.velocity[0] is NULL", f.result, &resistance, n, NULL, f.weight, force);
   REACTION_REFUSED("flow.weight is NULL", f.result, &resistance, n, f.velocity, NULL, force);
-  REACTION_REFUSED("reaction has no sum to add to", f.result, &resistance, n, f.velocity, f.weight, NULL);
+  REACTION_REFUSED("reaction has no array to add to", f.result, &resistance, n, f.velocity, f.weight, NULL);
 #define SUMS_REFUSED(parts, ...) CHECK_REFUSED(RIIS_INVALID_ARGUMENT, parts, band_sums_of(__VA_ARGS__))
   SUMS_REFUSED("marks is NULL", NULL, 0, 0.1, n, f.value, f.weight, &sums, sizeof sums);
   SUMS_REFUSED("band.value is NULL", f.result, 0, 0.1, n, NULL, f.weight, &sums, sizeof sums);

@@ -131,7 +131,8 @@ Row row_of(const riis_valve *valve, const riis_parameter &parameter) {
           text_of(parameter.minimum) + " to " + text_of(parameter.maximum), description_of(parameter)};
 }
 
-// The rows of a numbered part of the valve, such as bump_0. A parameter without a numbered part is a Part with one row.
+// The rows of a numbered part of the valve, such as bump_0. A parameter outside of numbered parts has a Part of its own, with
+// one row and an empty name.
 struct Part {
   std::string name;  // "" without a number
   std::vector<Row> rows;

@@ -496,7 +496,7 @@ std::string place_report(const Placed &placed, Reader reader) {
         "The paper's aortic valve does not close at opening 0. The kinds coapting and trileaflet take the same "
         "landmarks, and close.\n";
   text += undetermined.empty()
-              ? "\nThe landmarks determine every size that depends on them.\n"
+              ? "\nThe landmarks suffice: they determine all sizes that are fitted to them.\n"
               : "\nThe landmarks do not determine " + joined_by(undetermined, ", ") +
                     ".\nTheir values in the table are guesses from the usual proportions of the kind. Each guess may "
                     "move the valve by more than a\nfifteenth of its radius. Add landmarks" +

@@ -35,7 +35,8 @@ void check_options(const Case &all) {
     refuse_if(!all.valves[0].options.surface.empty(),
               "--first-passage needs a valve, because a surface from a file does not open");
     refuse_if(all.valves.size() > 1,
-              "--first-passage takes one valve, because one of several valves may close the passage through another");
+              "--first-passage takes only one valve: with several valves, one valve may close the passage through "
+              "another valve");
   }
   if (!is_in_pieces(options.mesh)) return;
   const std::string in_pieces = ", and " + options.mesh + " is read in pieces";

@@ -153,8 +153,7 @@ riis_reaction checked_reaction(const riis_reaction *reaction) {
   if (!whole.force && !whole.moment && !whole.leaflet_force && !whole.leaflet_moment && !whole.edge_force &&
       !whole.edge_moment)
     riis::fail(RIIS_INVALID_ARGUMENT,
-               "reaction has no sum to add to, because the fields force and moment, and the fields of leaflets and "
-               "edges, are NULL");
+               "reaction has no array to add to: force, moment and the arrays of leaflets and edges are all NULL");
   return whole;
 }
 

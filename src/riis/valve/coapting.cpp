@@ -285,8 +285,8 @@ struct CuspMotion {
 
 // Returns the states between which a cusp moves. A long open edge hangs deep. If such an edge leaves the commissures steeply, the
 // leaflet folds beside its attachment. The slope at the commissures therefore becomes smaller as the cusp comes nearer to a fold.
-// Three equal cusps keep their usual edge, because their bits must not change. Fused cusps also keep this edge, because the
-// patches beside the fused part would become too narrow.
+// Three equal cusps keep their usual edge, so their triangles are the same, bit for bit, with and without this rule. Fused cusps
+// also keep this edge, because the patches beside the fused part would become too narrow.
 CuspMotion motion_of(const CuspSizes &closed, CuspSizes open) {
   EndStates usual = end_states(closed, open);
   const bool is_fused =
