@@ -251,6 +251,25 @@ TEST(test_limited_size) {
   assert_int_equal(scratch_n_files(), n_files);
 }
 
+/* The table of a series grows by lines. If it may not grow further, it keeps its complete lines. */
+TEST(test_limited_table) {
+  struct rlimit before, small;
+  scratch_write_text("cycle.csv", "time,opening\n0,0\n1,1\n");
+  assert_int_equal(getrlimit(RLIMIT_FSIZE, &before), 0);
+  small = before;
+  small.rlim_cur = 250;
+  assert_int_equal(setrlimit(RLIMIT_FSIZE, &small), 0);
+  run_program("mark", scratch_path("in.vtu"), "--times", "0:1:0.05", "--cycle", scratch_path("cycle.csv"),
+              "--series-table", scratch_path("limit.csv"), "--quiet", "--half-thickness", "0.5", NULL);
+  setrlimit(RLIMIT_FSIZE, &before);
+  expect_run_refused(1, "limit.csv: cannot be written: File too large", __FILE__, __LINE__);
+  char *text = scratch_read(scratch_path("limit.csv"), NULL);
+  int n_lines = 0, n_commas = 0;
+  for (const char *at = text; *at; ++at) n_lines += *at == '\n', n_commas += *at == ',';
+  assert_true(n_lines >= 3 && n_lines < 22 && n_commas == 4 * n_lines && text[strlen(text) - 1] == '\n');
+  free(text);
+}
+
 /* Runs the program. The kernel sends it the signal when the program first writes into a file of the folder, which is
  * marked.vtu under its temporary name, because the locks of both outputs stay empty. */
 static void run_and_interrupt(int signal_number) {

@@ -98,7 +98,6 @@ class PassageCheck {
   // Refuses an end that lies in the band.
   void check_ends_are_open(const riis_surface *surface) const;
   PassageReport find(const riis_surface *surface) const;
-  PassageReport find_in_whole(const riis_surface *surface) const;
   PassageReport find_in_pieces(const riis_surface *surface) const;
   // Returns nothing if the passage is wider than the given limit.
   std::optional<PassageReport> find_within(const riis_surface *surface, double limit) const;

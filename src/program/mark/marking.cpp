@@ -210,7 +210,7 @@ void Marking::mark_step(FileNodes &nodes, riis_vtk_mesh *file, std::size_t step)
 
 void Marking::measure(Piece &piece) {
   counts_.add(piece);
-  loose_.add(piece.nodes);
+  add_loose_nodes(piece.nodes, loose_);
   if (piece.nodes.n() == 0) return;
   check_new_arrays(options(), names_, piece.file.get());
   find_neighbors_for_search(piece);
@@ -282,14 +282,27 @@ void Marking::mark_at_all_times(Piece &piece) {
 void Marking::set_arrays(riis_vtk_mesh *file) const {
   std::int64_t n_nodes = 0;
   check(riis_vtk_mesh_get_nodes(file, &n_nodes, nullptr, nullptr));
-  ResistanceSum resistance(n_nodes, has_velocities());
+  // K is a sum over the valves that have a resistance, which have the same units.
+  std::vector<double> K(all_.has_resistance() ? static_cast<std::size_t>(n_nodes) : 0);
+  std::vector<double> K_u_surface(has_velocities() ? 3 * K.size() : 0);
+  const MarkOptions *with_units = &options();
   for (const MovingValve &valve : valves_) {
     const MarkOptions &own = valve.options();
     check(riis_vtk_mesh_set_marks(file, valve.result(), own.far_distance, own.prefix.c_str()));
     check(riis_vtk_mesh_set_fields(file, valve.result(), fields(), own.prefix.c_str()));
-    resistance.add(own, valve.result());
+    if (!own.resistance) continue;
+    add_resistance(own, valve.result(), K, K_u_surface);
+    with_units = &own;
   }
-  resistance.set_arrays(options().prefix, file);
+  const auto set = [&](const char *end, std::int64_t n_components, const std::vector<double> &values,
+                       const std::string &unit) {
+    const std::string name = options().prefix + end;
+    if (values.empty()) return;
+    check(riis_vtk_mesh_set_point_array(file, name.c_str(), n_nodes, n_components, values.data()));
+    if (!unit.empty()) check(riis_vtk_mesh_set_unit(file, name.c_str(), unit.c_str()));
+  };
+  set("_K", 1, K, with_units->K_unit);
+  set("_K_u_surface", 3, K_u_surface, with_units->K_u_surface_unit);
 }
 
 // ---- Results of all pieces ----
@@ -299,7 +312,7 @@ void Marking::judge() {
   std::vector<MatchedNodes> matched;
   for (ValveSums &sums : sums_)
     matched.push_back(match_nodes(std::move(sums.shared), counts.n_with_ids > 0, mesh_.files()));
-  loose_.check(mesh_);
+  check_loose_nodes(loose_, mesh_);
   const std::int64_t n_nodes = counts.n_nodes + matched[0].n_nodes;
   n_marked_ = node_counts_.sums();
   report_.mesh_name = options().mesh;

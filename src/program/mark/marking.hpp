@@ -87,7 +87,7 @@ class Marking {
   const std::vector<std::string> names_;
   const bool wants_measures_;
   MeshCounts counts_;
-  LooseNodes loose_;
+  std::vector<NodeKey> loose_;
   NodeCounts node_counts_;
   std::vector<std::int64_t> n_marked_;   // by kind of node_counts_, once all pieces are marked
   std::vector<std::size_t> most_steps_;  // by valve: the step with most marked nodes

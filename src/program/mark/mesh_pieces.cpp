@@ -335,14 +335,14 @@ std::int64_t MatchedNodes::n_joins() const {
   return n;
 }
 
-void LooseNodes::add(const PieceNodes &nodes) {
+void add_loose_nodes(const PieceNodes &nodes, std::vector<NodeKey> &keys) {
   if (nodes.is_whole()) return;
   for (std::int64_t i = 0; i < nodes.n(); ++i)
-    if (nodes.is_loose(i)) keys_.push_back(nodes.key(i));
+    if (nodes.is_loose(i)) keys.push_back(nodes.key(i));
 }
 
-void LooseNodes::check(const MeshPieces &mesh) const {
-  const std::vector<NodeKey> keys = gathered(keys_);
+void check_loose_nodes(const std::vector<NodeKey> &own, const MeshPieces &mesh) {
+  const std::vector<NodeKey> keys = gathered(own);
   if (keys.empty()) return;
   std::int64_t n = 0;
   mesh.for_each_own([&](const Piece &piece) {

@@ -256,17 +256,12 @@ MatchedNodes match_nodes(std::vector<std::vector<SharedNode>> by_piece, bool has
 // Warns if no node belongs to more than one piece.
 void warn_of_apart(const MeshCounts &counts, const MatchedNodes &matched, const MeshPieces &mesh);
 
-// The loose nodes: the nodes that no cell of their piece uses. A loose node counts if it is inside no other piece.
-class LooseNodes {
- public:
-  void add(const PieceNodes &nodes);
-  // Refuses a mesh in which a loose node is inside another piece, because the node would be counted twice. The pieces are read
-  // again only if there are loose nodes.
-  void check(const MeshPieces &mesh) const;
-
- private:
-  std::vector<NodeKey> keys_;
-};
+// Adds the keys of the loose nodes: the nodes that no cell of their piece uses. A loose node counts if it is inside no other
+// piece.
+void add_loose_nodes(const PieceNodes &nodes, std::vector<NodeKey> &keys);
+// Refuses a mesh in which a loose node is inside another piece, because the node would be counted twice. The pieces are read
+// again only if there are loose nodes.
+void check_loose_nodes(const std::vector<NodeKey> &own, const MeshPieces &mesh);
 
 // Counts nodes of several kinds, such as the marked nodes at each time. Nodes inside a piece are counted when the piece is added.
 // Nodes that several pieces share are counted once, at the end.

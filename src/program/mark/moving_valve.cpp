@@ -29,32 +29,16 @@ riis_mark_options how_to_mark_again(const MarkOptions &options, double limit) {
 
 bool needs_adjacency(int32_t search) { return search == RIIS_SEARCH_NEIGHBOR || search == RIIS_SEARCH_PAPER; }
 
-void ResistanceSum::add(const MarkOptions &options, const riis_marks *result) {
-  if (!options.resistance) return;
-  has_any_ = true;
-  K_.resize(static_cast<std::size_t>(n_nodes_));
-  if (has_velocities_) K_u_surface_.resize(3 * static_cast<std::size_t>(n_nodes_));
-  K_unit_ = options.K_unit;
-  K_u_surface_unit_ = options.K_u_surface_unit;
+void add_resistance(const MarkOptions &options, const riis_marks *result, std::vector<double> &K,
+                    std::vector<double> &K_u_surface) {
   auto how = defaults<riis_resistance>();
   how.R = *options.resistance * options.K_factor;
   auto to = defaults<riis_resistance_arrays>();
-  to.n_nodes = n_nodes_;
-  to.K = K_.data();
-  for (int c = 0; c < 3 && !K_u_surface_.empty(); ++c) to.K_u_surface[c] = K_u_surface_.data() + c;
+  to.n_nodes = view(K).size();
+  to.K = K.data();
+  for (int c = 0; c < 3 && !K_u_surface.empty(); ++c) to.K_u_surface[c] = K_u_surface.data() + c;
   to.K_u_surface_stride = 3;
   check(riis_marks_add_resistance(result, &how, &to), "--resistance");
-}
-
-void ResistanceSum::set_arrays(const std::string &prefix, riis_vtk_mesh *file) const {
-  if (!has_any_) return;
-  const auto set = [&](const std::string &name, std::int64_t n_components, const std::vector<double> &values,
-                       const std::string &unit) {
-    check(riis_vtk_mesh_set_point_array(file, name.c_str(), n_nodes_, n_components, values.data()));
-    if (!unit.empty()) check(riis_vtk_mesh_set_unit(file, name.c_str(), unit.c_str()));
-  };
-  set(prefix + "_K", 1, K_, K_unit_);
-  if (!K_u_surface_.empty()) set(prefix + "_K_u_surface", 3, K_u_surface_, K_u_surface_unit_);
 }
 
 MovingValve::MovingValve(ValveSource &source, double time, bool moves) : source_(source), result_(new_result()) {
@@ -123,7 +107,8 @@ void rehearse_marking(const MarkOptions &options, const riis_surface *surface) {
   dense.n_nodes = 1;
   dense.far_distance = options.far_distance;
   check(riis_marks_get_dense(result, &dense));
-  ResistanceSum(1, false).add(options, result);
+  std::vector<double> K(1), none;
+  if (options.resistance) add_resistance(options, result, K, none);
 }
 
 }  // namespace

@@ -26,21 +26,9 @@ riis_mark_options how_to_mark_again(const MarkOptions &options, double limit = R
 
 bool needs_adjacency(int32_t search);
 
-// K and K u_surface at every node. Each of the two fields is a sum over the valves that have a resistance.
-class ResistanceSum {
- public:
-  ResistanceSum(int64_t n_nodes, bool has_velocities) : n_nodes_(n_nodes), has_velocities_(has_velocities) {}
-  void add(const MarkOptions &options, const riis_marks *result);
-  // Sets PREFIX_K and PREFIX_K_u_surface. If no valve had a resistance, sets no array.
-  void set_arrays(const std::string &prefix, riis_vtk_mesh *file) const;
-
- private:
-  int64_t n_nodes_;
-  bool has_velocities_;
-  std::vector<double> K_, K_u_surface_;
-  std::string K_unit_, K_u_surface_unit_;  // "" if not known
-  bool has_any_ = false;
-};
+// Adds the K of a valve with a resistance at every node, and K u_surface unless its array (3, n) is empty.
+void add_resistance(const MarkOptions &options, const riis_marks *result, std::vector<double> &K,
+                    std::vector<double> &K_u_surface);
 
 class MovingValve {
  public:

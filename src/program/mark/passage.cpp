@@ -20,22 +20,19 @@ namespace riis::program {
 
 namespace {
 
-// Returns the coordinates of a point as the user wrote them.
-std::string text_of(const double *point) { return numbers_text(point, 3, " "); }
-
 [[noreturn]] void refuse_end(const MarkOptions &options, int end, const std::string &why) {
   const LeakCheck &asked = *options.check_leaks;
-  asked.refuse((end == 0 ? "FROM, " : "TO, ") + text_of(asked.point(end)) + ", " + why);
+  asked.refuse((end == 0 ? "FROM, " : "TO, ") + numbers_text(asked.point(end), 3, " ") + ", " + why);
 }
 
 // --quiet does not silence this warning, because the valve lets flow through.
 // An open valve is meant to have a passage, so its warning has no advice.
 void warn_of_passage(const MarkOptions &options, const PassageReport &report, const std::string &surface,
                      double opening, const std::string &unknown) {
-  const LeakCheck &asked = *options.check_leaks;
   // If the band has an offset, the width of a passage is the half thickness that closes the passage.
   const bool has_offset = options.surface_options.offset != 0;
-  const std::string ends = text_of(asked.point(0)) + " and " + text_of(asked.point(1));
+  const std::string ends = numbers_text(options.check_leaks->point(0), 3, " ") + " and " +
+                           numbers_text(options.check_leaks->point(1), 3, " ");
   const riis_passage &found = report.found;
   if (report.is_unknown)
     warn("whether unmarked nodes join " + ends + " is unknown: " + unknown);
@@ -91,16 +88,9 @@ bool operator<(const PassageNode &a, const PassageNode &b) {
   return std::tie(b.distance, a.id, a.piece) < std::tie(a.distance, b.id, b.piece);
 }
 
-// A node that joins two places.
+// A node that joins two places. For an end of the passage, both places are the place of the end.
 struct Link {
   Place p, q;
-  PassageNode node;
-};
-
-// The place of an end of the passage in the mesh. For an end within the limit, the place is the node of the end.
-struct PlacedEnd {
-  std::int64_t end;
-  Place place;
   PassageNode node;
 };
 
@@ -130,15 +120,10 @@ class PieceWays {
     }
   }
 
-  void add_terminal(std::int64_t node) { view(terminal_)[is_far(node) ? sets_.root(node) : node] = node; }
-
-  Place place_of(std::int64_t node) const {
-    if (!is_far(node)) return {{-1, -1}, nodes_.key(node)};
-    return {{static_cast<std::int32_t>(piece_.number), static_cast<std::int32_t>(view(region_)[node])}, {0, 0}};
-  }
-
-  PlacedEnd placed(std::int64_t end, std::int64_t node) const {
-    return {end, place_of(node), node_of(piece_, node, view(distance_)[node])};
+  // Makes a node an end of the passage, and returns its place.
+  Link end_at(std::int64_t node) {
+    add_terminal(node);
+    return {place_of(node), place_of(node), node_of(piece_, node, view(distance_)[node])};
   }
 
   void add_links(std::vector<Link> &links) {
@@ -154,6 +139,13 @@ class PieceWays {
 
  private:
   bool is_far(std::int64_t node) const { return std::isinf(view(distance_)[node]); }
+
+  void add_terminal(std::int64_t node) { view(terminal_)[is_far(node) ? sets_.root(node) : node] = node; }
+
+  Place place_of(std::int64_t node) const {
+    if (!is_far(node)) return {{-1, -1}, nodes_.key(node)};
+    return {{static_cast<std::int32_t>(piece_.number), static_cast<std::int32_t>(view(region_)[node])}, {0, 0}};
+  }
 
   // Opens a node that is no ghost, and calls `join` for each open neighbour.
   template <class Join>
@@ -188,8 +180,7 @@ std::optional<PassageReport> PassageCheck::find_within(const riis_surface *surfa
   const riis_surface_info info = info_of(surface);
   const Band band{limit, info.offset};
   const riis_mark_options how = how_to_mark_again(options_, band.reach());
-  std::vector<Link> own_links;
-  std::vector<PlacedEnd> own_ends;
+  std::vector<Link> own_links, own_ends;
   std::vector<std::vector<SharedNode>> shared;
   int has_ids = 0;
   mesh_.for_each_own([&](Piece &piece) {
@@ -198,26 +189,22 @@ std::optional<PassageReport> PassageCheck::find_within(const riis_surface *surfa
     piece.nodes.find_neighbors(how.n_threads);
     const Marks marks = marks_of(surface, piece.nodes.mesh(), how);
     PieceWays ways(piece, list_of(marks, RIIS_LIST_WITHIN_LIMIT), band, limit);
-    for (int i = 0; i < 2; ++i) {
-      if (ends_[i].piece != piece.number) continue;
-      ways.add_terminal(ends_[i].node);
-      own_ends.push_back(ways.placed(i, ends_[i].node));
-    }
+    for (const PassageEnd &end : ends_)
+      if (end.piece == piece.number) own_ends.push_back(ways.end_at(end.node));
     shared.push_back(shared_nodes_of(piece, ways.regions()));
     ways.add_links(own_links);
   });
-  std::vector<PlacedEnd> placed = ranks::gather(own_ends);
-  if (placed[0].end == 1) std::swap(placed[0], placed[1]);
+  const std::vector<Link> placed = ranks::gather(own_ends);
   const MatchedNodes matched = match_nodes(std::move(shared), ranks::sum(has_ids) > 0, mesh_.files());
   std::vector<Link> links = ranks::gather(own_links);
   std::sort(links.begin(), links.end(), [](const Link &a, const Link &b) { return a.node < b.node; });
   JoinedSets<Place> ways;
   for (const auto &[p, q] : matched.joined) ways.unite({p, {0, 0}}, {q, {0, 0}});
-  const auto are_joined = [&] { return ways.are_joined(placed[0].place, placed[1].place); };
+  const auto are_joined = [&] { return ways.are_joined(placed[0].p, placed[1].p); };
   const PassageNode *found = nullptr;
   if (are_joined()) {
     // Both ends are the same node, or a path of nodes beyond the limit joins the ends.
-    if (placed[0].place.is_region()) return std::nullopt;
+    if (placed[0].p.is_region()) return std::nullopt;
     found = &placed[0].node;
   }
   for (auto link = links.begin(); !found && link != links.end(); ++link) {
@@ -249,7 +236,9 @@ PassageReport PassageCheck::find_in_pieces(const riis_surface *surface) const {
   }
 }
 
-PassageReport PassageCheck::find_in_whole(const riis_surface *surface) const {
+PassageReport PassageCheck::find(const riis_surface *surface) const {
+  check_ends_are_open(surface);
+  if (!mesh_.is_whole()) return find_in_pieces(surface);
   const riis_mark_options how = how_to_mark_again(options_);
   auto sets = defaults<riis_passage_ends>();
   sets.n_from = sets.n_to = 1;
@@ -261,11 +250,6 @@ PassageReport PassageCheck::find_in_whole(const riis_surface *surface) const {
   });
   for (const PassageEnd &end : ends_) passage.is_end |= end.node == passage.found.node_id;
   return passage;
-}
-
-PassageReport PassageCheck::find(const riis_surface *surface) const {
-  check_ends_are_open(surface);
-  return mesh_.is_whole() ? find_in_whole(surface) : find_in_pieces(surface);
 }
 
 // ---- The ends ----

@@ -93,10 +93,13 @@ void GrowingText::add(const std::string &line) {
   if (at == n_head_) return write_text(path_, text_ + tail_);
   if (!ranks::is_first()) return;
   // One call replaces the old tail by the line and the new tail. If it fails, the old tail returns.
-  errno = ENOSPC;  // the reason if the system writes only a part
   const int file = open(path_.c_str(), O_WRONLY | O_CLOEXEC);
   const auto put = [&](const std::string &end) {
-    return pwrite(file, end.data(), end.size(), static_cast<off_t>(at)) == static_cast<ssize_t>(end.size());
+    ssize_t n = 1;
+    std::size_t done = 0;
+    for (; done < end.size() && n > 0; done += static_cast<std::size_t>(std::max<ssize_t>(n, 0)))
+      n = pwrite(file, end.data() + done, end.size() - done, static_cast<off_t>(at + done));
+    return done == end.size();
   };
   const bool is_written = file >= 0 && put(line + tail_);
   const int error = errno;

@@ -38,7 +38,6 @@ class SeriesFiles {
   // `ending` is the ending of the steps' files, such as ".vtu".
   SeriesFiles(const std::string &pvd, const std::string &ending, std::size_t n_times);
 
-  const std::string &pvd() const { return pvd_; }
   const std::string &folder() const { return folder_; }
   bool is_wanted() const { return !pvd_.empty(); }
   // Refuses a folder without permission to write, and a path that is a file.
