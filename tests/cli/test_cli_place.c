@@ -132,8 +132,8 @@ TEST(fcsv_gives_the_same) {
   }
 }
 
-/* The tables that 3D Slicer exports, and what spreadsheets make of a .csv. Spreadsheets quote cells, add empty cells, and end
- * lines with a carriage return. */
+/* Tests the tables that 3D Slicer exports, and .csv files that a spreadsheet has saved. Spreadsheets quote cells, add empty
+ * cells, and end lines with a carriage return. */
 TEST(tables_give_the_same) {
   const struct {
     const char *heading, *row;

@@ -257,9 +257,9 @@ TEST(test_interruption) {
 }
 
 /* The main thread is stopped, and the program must still list all files in the .pvd. Then the test kills the process. The list
- * may lack one file, if the thread stopped after it wrote a file and before it listed it. The thread holds the list's lock for
- * some microseconds, while it adds a file. While a thread holds this lock, no other thread can write the list. If the thread
- * stopped there, it continues, and the test stops it again elsewhere. */
+ * may lack one file if the thread stopped between writing and listing this file. The thread holds the list's lock for some
+ * microseconds, while it adds a file. While a thread holds this lock, no other thread can write the list. If the thread stopped
+ * there, it continues, and the test stops it again elsewhere. */
 TEST(test_killed) {
   write_cycle("0,0\n1,1\n");
   const pid_t process = start_program("mark", scratch_path("in.vtu"), "--valve", "mitral", "--half-thickness", "0.3",

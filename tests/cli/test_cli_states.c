@@ -209,7 +209,7 @@ TEST(test_stdout) {
   free(text);
 }
 
-/* If the band takes an open area entirely and the area has no perimeter, the numbers look wrong without an explanation. The slit
+/* If the band covers the whole open area and the area has no perimeter, the numbers look wrong without an explanation. The slit
  * between the closed leaflets has a perimeter if it is wider than a fifth of the half thickness. */
 TEST(test_slits) {
   static const struct {
@@ -365,8 +365,8 @@ TEST(test_collapsed_sides) {
 }
 
 /* Two patches above each other share a side. The common side is the side v = 1 of one patch, but it is not a free edge. The
- * patches' other curves bend differently. Each patch alone would therefore cut the common side into different parts. The test has
- * one straight and one curved side. */
+ * patches' other curves bend differently. Each patch alone would therefore cut the common side into different parts. The common
+ * side is straight in one case, and curved in the other. */
 TEST(test_shared_sides) {
   static const char *const middles[2] = {"[0, 1, 0], [2, 1, 0]", "[0, 1, 0], [1, 1.5, 0], [2, 1, 0]"};
   for (int i = 0; i < 2; ++i)

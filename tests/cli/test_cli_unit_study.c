@@ -27,7 +27,7 @@ typedef enum shape { pipe_shape, root_shape, chamber_shape, basin_shape, flat_sh
 typedef struct vessel {
   shape shape;
   double radius, length, half_length; /* half_length is that of a chamber */
-  double edge, growth; /* an edge at the valve, and the factor by which edges grow at a length farther away */
+  double edge, growth; /* an edge at the valve, and the increase of edges per unit of distance from there */
   double centre;       /* of the length, on the axis */
   double side[3];      /* of a basin or a flat chamber, around the valve */
 } vessel;

@@ -13,7 +13,7 @@
 
 enum { n_round = 48, n_along = 40 };
 
-/* Writes a tube around an axis parallel to z, in centimetres. The tube may lack a square. */
+/* A tube around an axis parallel to z, in centimetres. The tube may lack a square. */
 typedef struct tube {
   double x, y, radius, growth; /* the radius grows with z */
   int is_closed, hole;         /* the layer of a hole, or -1 for no hole */

@@ -127,7 +127,8 @@ TEST(when_an_adjacency_goes) {
   enum { n = 4 };
   riis_surface *surface = aortic_surface(NULL);
   double xyz[3 * (n + 1)] = {0};
-  /* Columns 4 and 5 are ghost nodes. In every other column, the row's node itself stands, with repeats. */
+  /* The numbers count from 1. Nodes 5 and 6 are ghosts. Three rows contain their own nodes, and one of these rows also contains
+   * node 2. */
   int64_t offsets[n + 1] = {1, 4, 4, 7, 8}, columns[7] = {5, 6, 1, 3, 3, 2, 4};
   riis_csr csr;
   riis_marks *result = new_result();

@@ -529,7 +529,7 @@ static riis_mark_list gradients_of(const riis_surface *surface, int64_t n, const
   return within_list(marks);
 }
 
-/* Makes a square that shifts by (1, 2, 3). */
+/* A square shifts by (1, 2, 3). */
 TEST(rims_and_the_surface_itself) {
   const shape square = unit_square();
   riis_valve *valve = valve_from(&square);
@@ -657,7 +657,7 @@ TEST(bits_and_updates) {
       ++at;
     }
   }
-  /* Directions go with velocities. */
+  /* A moving update removes the directions. A direction and velocities may exist at the same time. */
   CHECK_OK(riis_surface_update_moving(surface, valve, before, 1e-3, NULL, NULL));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "no direction|riis_surface_add_direction",
                 riis_mark_nodes(surface, mesh, &options, marks));

@@ -51,8 +51,8 @@ static void cap(double s, double t, double *p) {
              sphere_radius * cos(polar), p);
 }
 
-/* Makes a frame whose axes are far from the grid's directions. Along a direction of the grid, an edge of the band would move past
- * a whole row of nodes at once. */
+/* Makes a frame whose axes are far from the grid's directions. If an edge of the band ran along a direction of the grid, it would
+ * pass a whole row of nodes at once. */
 static void random_frame(void) {
   const double a = between(0.3, 0.6), b = between(0.3, 0.6);
   const double ca = cos(a), sa = sin(a), cb = cos(b), sb = sin(b);

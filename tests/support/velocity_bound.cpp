@@ -308,7 +308,7 @@ TwoCurves curves_of(const TwoStates &states, std::size_t patch, Side Patch::*sid
   return {along(states.now, states.now.patches[patch].*side), along(states.before, states.before.patches[patch].*side)};
 }
 
-// Bounds the largest curvature of a curve. The bound is infinite if the curve may turn on the spot.
+// Bounds the largest curvature of a curve. The bound is infinite if the curve may reverse its direction at a point.
 double largest_curvature(const Curve &curve) {
   double largest = 0;
   for (const Bezier &span : curve.spans()) largest = larger(largest, largest_curvature(span));

@@ -422,8 +422,8 @@ static start_of_edge start_of_posterior_edge(riis_valve *valve) {
 }
 
 /* Commissures hold a leaflet: a bump lifts the place next to a commissure at most 0.4 cm higher than the commissure. This limit
- * is half of commissure_length. The first part of the edge ends at a third of its cubic, so three times its control points
- * count. */
+ * is half of commissure_length. The first part of the edge is a third of its cubic. The difference of the part's first two
+ * control points therefore counts three times. */
 TEST(commissures_hold_a_lifted_leaflet) {
   static const double lifts[5] = {0.3, 0.8, -0.8, 0.3, 0.8}, raised[5] = {0, 0, 0, 0.2, 0.2},
                       expected[5] = {0.3, 0.4, -0.4, 0.3, 0.8};

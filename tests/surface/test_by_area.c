@@ -342,7 +342,7 @@ TEST(turns_are_told) {
   assert_int_equal(above.range.n_turns, 1);
   CHECK_NEAR(above.value, 172, 0.1);
   CHECK_NEAR(above.reached, both, 1e-4 * both);
-  if (is_short_test()) return; /* the other search is as long */
+  if (is_short_test()) return; /* the next search takes as long as the last one */
   CHECK_OK(riis_valve_set_scalar(mitral, "leaflet_inward_angle", 125));
   const solution below = solve(mitral, "leaflet_inward_angle", both, &search);
   printf("turn of the mitral valve at %.2f; angles %.3f and %.3f\n", below.range.turns[0], below.value, above.value);

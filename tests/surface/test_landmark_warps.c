@@ -307,7 +307,7 @@ TEST(valves_meet_the_landmarks_of_patients) {
       const int n_patients = is_long_test() ? 12 : 1;
       for (int trial = 0; trial < n_patients; ++trial) {
         const int owned_before = n_owned();
-        const double noise = trial % 2 && n <= 12 ? 0.1 : 0; /* the noise of dense landmarks folds */
+        const double noise = trial % 2 && n <= 12 ? 0.1 : 0; /* noise of dense landmarks would fold the valve */
         const patient at = kind == mitral ? random_annulus(n, noise) : random_root(kind, n, noise);
         riis_surface_options options, fine;
         riis_valve *valve = warped_to(&at, kind, &options);

@@ -137,7 +137,7 @@ static void check_sample(int kind, int opening, int share, int how) {
   const int owned_before = n_owned();
   /* If single triangles are reversed, edges inside leaflets stay open, and the axis is less exact. The free edges of the open
    * coapting valve reach as far out as its attachment. The axis of reversed triangles would then turn away. The attachment of
-   * parted leaflets is a line only if the leaflets have one winding, and the newer kinds need this line. */
+   * parted leaflets is a line only if the leaflets have one winding, and the kinds from bicuspid on need this line. */
   const int may_turn_some = kind < 4 || share == 0;
   const int turning = kind == 3 && opening + 1 == n_openings ? how % n_turnings % 3
                       : may_turn_some                        ? how % n_turnings

@@ -225,8 +225,8 @@ static double sag_by_commissure(riis_valve *valve, int cusp) {
   return (edge.q[3].x[2] - edge.q[2].x[2]) / (edge.q[3].x[2] - edge.q[0].x[2]);
 }
 
-/* A cusp that is lower and lower leaves its commissures flatter and flatter, without a jump. Its neighbours stay as they are.
- * It neither folds nor changes its length. */
+/* The lower a cusp is, the flatter its edge leaves the commissures, without a jump. The cusp does not fold, and its edge keeps
+ * its length. Its neighbours stay as they are. */
 TEST(cusps_near_a_fold_leave_their_commissures_flatter) {
   riis_valve *valve = new_valve("coapting");
   riis_crossings *crossings = NULL;

@@ -106,7 +106,7 @@ void sv_calc_sdf(ComMod &com_mod) {
   }
 }
 
-// The test only needs to see which engine answers.
+// Gives constant values, because the test only needs to see that this function was called.
 void sv_factors(const ComMod &, const mshType &, const fsType &space, const int, Vector<double> &K,
                 Array<double> &K_u) {
   K.resize(space.nG);
