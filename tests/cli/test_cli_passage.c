@@ -380,7 +380,7 @@ TEST(test_closed_area_of_plates) {
   }
 }
 
-/* Where two leaflets touch or are less than half a half thickness apart, only one of them counts. Half of the area of coaptation
+/* Where two leaflets touch or are closer than half of a half thickness, only one of them counts. Half of the area of coaptation
  * therefore does not count. The half tube around the free edges also counts. The tube's width is 0.467 half thicknesses, which is
  * the integral of K across the tube over R / eps. */
 TEST(test_closed_area_of_a_coaptation) {

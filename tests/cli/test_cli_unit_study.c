@@ -2,7 +2,7 @@
  *
  * Tests the advice on units in meshes whose unit is known. The meshes are pipes, roots, chambers, basins and flat chambers with
  * all kinds of valves, in metres, centimetres and millimetres. Without --unit, the advice names the true unit, alone or among
- * others. A vessel in centimetres gets no advice, and neither does a mesh with --unit. A coarse basin in centimetres can have the
+ * others. There is no advice for a vessel in centimetres, or for a mesh with --unit. A coarse basin in centimetres can have the
  * numbers of a vessel in millimetres, so its advice may name both units. If two units remain, the next run says how many nodes
  * each unit marks. */
 #include <math.h>

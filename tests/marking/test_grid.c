@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * A mesh from axes gives the results of a mesh that has these nodes as points, to the last bit. The results agree for all kinds
- * of surfaces, axes, strides, masks and limits. Some numbers of the grid belong to no node, and no result contains these
- * numbers. */
+ * A mesh from axes gives, bit for bit, the results of a mesh that has these nodes as points. The results agree for all kinds of
+ * surfaces, axes, strides, masks and limits. Some numbers of the grid belong to no node, and no result contains these numbers. */
 #include <limits.h>
 #include <math.h>
 #include <riis/riis.h>

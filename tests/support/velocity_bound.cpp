@@ -163,7 +163,7 @@ AlongCurve along(const CurvePart &at_now, const CurvePart &at_before, double wid
           least >= tight_share * first && by_itself <= 1 - tight_share};
 }
 
-// Bounds both states separately, and combines the bounds. The result serves a range on which the states lie on different spans
+// Bounds both states separately, and combines the bounds. The result is for a range on which the states lie on different spans
 // and cannot be compared.
 AlongCurve either(const AlongCurve &now, const AlongCurve &before) {
   const auto of = [](Both a, Both b) { return Both{larger(a.size, b.size), a.size + b.size}; };

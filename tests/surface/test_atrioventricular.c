@@ -77,8 +77,8 @@ static double middle_length(const riis_surface *surface, int leaflet) {
   return meridian_length(surface, leaflet, n_cells / 2 - 1);
 }
 
-/* To the last bit, neighbouring leaflets end in the same points at a commissure. The cells of a leaflet also end in the same
- * points where they meet. */
+/* At a commissure, neighbouring leaflets end in the same points, bit for bit. The cells of a leaflet also end in the same points
+ * where they meet. */
 TEST(neighbours_share_their_points) {
   for (int kind = 0; kind < 2; ++kind)
     for (int o = 0; o < 5; o += opening_step()) {
@@ -98,7 +98,7 @@ TEST(neighbours_share_their_points) {
     }
 }
 
-/* The annulus stays at its place, to the last bit. The leaflets share the annulus in their given ratios. */
+/* The annulus stays at its place, bit for bit. The leaflets share the annulus in their given ratios. */
 TEST(annulus_stays) {
   static const double shares[2][3] = {{0.41, 0.59, 0}, {0.36, 0.34, 0.3}}, width[2] = {3.6, 3.8}, depth[2] = {2.7, 3.1},
                       saddle[2] = {0.6, 0.4};

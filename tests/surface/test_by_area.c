@@ -97,7 +97,7 @@ TEST(openings_have_their_areas) {
     double untouched = 1;
     CHECK_OK(riis_valve_get(valve, "opening", 1, &untouched));
     assert_true(untouched == 0);
-    /* The area equals that of a new surface, to the last bit. */
+    /* The area equals that of a new surface, bit for bit. */
     const double again = area_at(valve, found.value, &search), error = fabs(again / area - 1);
     assert_true(again == found.reached);
     CHECK_AT_MOST(error, is_fixed ? 1e-6 : 1e-4);

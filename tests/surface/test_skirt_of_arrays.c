@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests skirts of surfaces from arrays. Arrays of a valve's own triangles get the skirt that the valve gets. Directions are
+ * Tests skirts of surfaces from arrays. A surface from a valve's own triangles must have the valve's skirt. Directions are
  * compared with sums over the attachment, and velocities with differences. */
 #include <riis/riis.h>
 

@@ -262,7 +262,7 @@ TEST(cusps_near_a_fold_leave_their_commissures_flatter) {
 
 static int is_same_point(const double *a, const double *b) { return memcmp(a, b, 3 * sizeof *a) == 0; }
 
-/* To the last bit, the halves of a cusp meet in its symmetry plane, and neighbours meet in their commissure. */
+/* The halves of a cusp have the same bits in its symmetry plane, and so have neighbouring cusps at their commissure. */
 TEST(neighbours_share_their_points) {
   random_source random = random_start("test_unequal_cusps");
   for (int trial = 0; trial < trials_of(12); ++trial) {

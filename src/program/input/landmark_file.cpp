@@ -376,7 +376,7 @@ void read_fcsv(const std::string &text, LandmarkFile &file) {
 
 // ---- CSV ----
 
-// Reads a table of control points that 3D Slicer exported. The names of the columns tell the axes, and lengths are in mm. Returns
+// Reads a table of control points that 3D Slicer exported. The names of the columns show the axes, and lengths are in mm. Returns
 // false for another file.
 bool read_slicer_table(const std::string &text, LandmarkFile &file) {
   const std::string &path = file.path;

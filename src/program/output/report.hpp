@@ -36,7 +36,7 @@ struct PassageReport {
   riis_passage found{};
   bool is_end = false;                // true if the position is an end of the path, so that the passage may be wider
   double closing_half_thickness = 0;  // for the user to type; 0: none was found, or the passage is closed
-  double closing_skirt = 0;           // likewise, for a surface from a file
+  double closing_skirt = 0;           // the same for a skirt, if the surface is from a file
   std::string place{};                // the position, as text
   bool is_unknown = false;  // true if the passage is closed along the known edges, but unknown edges may open it
 };
@@ -45,7 +45,7 @@ struct LeakReport {
   riis_leak_list found{};             // only its numbers are valid, not its pointers
   std::vector<int64_t> edges;         // (2, found.n_edges), for a whole mesh
   double closing_half_thickness = 0;  // for the user to type; 0 if none was found
-  double closing_skirt = 0;           // likewise, for a surface from a file
+  double closing_skirt = 0;           // the same for a skirt, if the surface is from a file
   int64_t n_volume_cells = 0;
   int64_t n_cells_left_out = 0;  // volume cells whose edges are not known
   bool is_near = true;           // whether a node of the mesh is marked
