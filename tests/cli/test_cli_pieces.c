@@ -560,7 +560,7 @@ TEST(broken_pieces_are_refused) {
   scratch_write_text("bad.pvtu", "<VTKFile type=\"UnstructuredGrid\"></VTKFile>");
   RUN_REFUSED(1, "holds UnstructuredGrid, not PUnstructuredGrid", "mark", scratch_path("bad.pvtu"));
   RUN_REFUSED(1, "gone.pvtu", "mark", scratch_path("gone.pvtu"));
-  /* Three pieces are refused: a file that is no grid, a truncated file, and a piece without an array that the others have. */
+  /* Three pieces are refused: a file that is not a grid, a truncated file, and a piece without an array that the others have. */
   scratch_write_text("text.vtu", "no grid");
   expect_bad("<Piece Source=\"piece0.vtu\"/><Piece Source=\"text.vtu\"/>", "text.vtu: is not a VTK XML file");
   size_t n = 0;

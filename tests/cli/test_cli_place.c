@@ -720,7 +720,7 @@ TEST(landmarks_in_one_place_are_met_or_refused) {
   RUN_FINE("place", json_of_points(n, labels, annulus), "--valve", "mitral", "--flow", "0,0,-1", "--warp", "exact",
            "--quiet", "--c", "-");
   assert_non_null(strstr(program_out, "sources.n_points = 16;"));
-  /* The valve has its trigones beside its horn. */
+  /* The valve's trigones are next to its horn. */
   labels[n - 1] = "trigone";
   memcpy(annulus[n - 1], annulus[0], sizeof annulus[0]);
   RUN_REFUSED(1, "points.json: \"anterior_horn\" and \"trigone\" are in one place, but on the valve they are ", "place",

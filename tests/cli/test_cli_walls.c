@@ -67,7 +67,7 @@ TEST(test_holes) {
   skirt_to(write_tube("wall.stl", &whole), "1", "0,0,0");
   expect_run_fine(__FILE__, __LINE__);
   tube one = whole;
-  one.is_closed = 0; /* the ends of a vessel are no holes */
+  one.is_closed = 0; /* the ends of a vessel are not holes */
   skirt_to(write_tube("wall.stl", &one), "1", "0,0,0");
   expect_run_fine(__FILE__, __LINE__);
   for (int is_closed = 0; is_closed < 2; ++is_closed)

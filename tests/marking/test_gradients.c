@@ -192,7 +192,7 @@ static slopes slopes_of(double before, double now, double after, double step) {
   return (slopes){(now - before) / step, (after - now) / step, (after - before) / (2 * step)};
 }
 
-/* Tells whether a derivative is right although it differs from the central difference. Both differ beside a tie: within the step,
+/* Tells whether a derivative is right although it differs from the central difference. Both differ near a tie: within the step,
  * the closest point jumps from one place of the surface to another. The slope then falls at a kink, and the central difference is
  * off by up to half the kink. The derivative must be the slope on the side without the tie. */
 static int is_beside_tie(slopes s, double gradient, double speed) {

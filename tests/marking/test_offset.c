@@ -151,7 +151,7 @@ static void check_marking(const char *kind) {
     CHECK_NEAR(K[within.node_id[i]], oracle_K(&place, resistance.R, own_eps, offset, resistance.rim == RIIS_RIM_CUT),
                1e-12 * resistance.R / (own_eps * own_eps));
   }
-  /* Sums beside the surface. */
+  /* Sums near the surface. */
   double *ones = own(malloc((size_t)nodes.n * sizeof *ones));
   for (int64_t i = 0; i < nodes.n; ++i) ones[i] = 1;
   const double outer = eps * random_between(&rng, 0.4, 1), inner = outer * random_between(&rng, 0, 1);

@@ -86,7 +86,7 @@ TEST(triangles_carry_patch_leaflet_u_and_v) {
     assert_true(sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]) > 1e-12 * longest * longest);
   }
   for (int i = 0; i < 12; ++i) assert_true(per_patch[i] > 50);
-  for (int i = 0; i < 12; i += 4) { /* mirror images have equally many triangles */
+  for (int i = 0; i < 12; i += 4) { /* mirror images have the same number of triangles */
     assert_int_equal(per_patch[i], per_patch[i + 2]);
     assert_int_equal(per_patch[i + 1], per_patch[i + 3]);
   }

@@ -178,7 +178,7 @@ TEST(middle_keeps_its_length) {
   }
 }
 
-/* An open leaflet is as long as the closed leaflet at each place, also beside its middle. */
+/* An open leaflet is as long as the closed leaflet at each place, and not only in its middle. */
 TEST(open_leaflets_have_the_closed_lengths) {
   for (int kind = 0; kind < 2; kind += trial_step()) {
     riis_surface *closed = surface_at(new_valve(kinds[kind]), 0, 0.002),

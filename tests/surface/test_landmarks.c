@@ -403,7 +403,7 @@ TEST(test_exact_sectors) {
     const cusp_sizes c = random_cusps(2 + trial % 3);
     patient p = patient_of(&c, true);
     riis_valve *valve = new_valve(kinds_of[c.n]);
-    const double shift = c.n == 2 ? 0.02 : 0; /* two cusps may meet beside the axis */
+    const double shift = c.n == 2 ? 0.02 : 0; /* two cusps may meet off the axis */
     if (c.n == 2) CHECK_OK(riis_valve_set_scalar(valve, "meeting_shift", shift));
     if (trial % 2 == 0) add(&p, RIIS_LANDMARK_COAPTATION, shift * c.Rc, 0, 0.6);
     place_patient(&p, scales[trial % 3]);
@@ -561,7 +561,7 @@ TEST(test_exact_aortic) {
     double angle[3] = {between(54, 66), between(54, 66), 0};
     angle[2] = 180 - angle[0] - angle[1];
     patient p = aortic(R, Rc, h, angle);
-    /* To name all cusps, the names of two nadirs or the name of one commissure suffices. */
+    /* The names of two nadirs, or of one commissure, determine the names of all cusps. */
     if (trial % 4 == 1) p.leaflet_id[2][0] = -1;
     if (trial % 4 == 2) {
       for (int i = 0; i < p.n; ++i) p.leaflet_id[i][0] = -1;

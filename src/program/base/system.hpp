@@ -9,7 +9,7 @@
 
 namespace riis::program {
 
-// Throws a Refusal if the system gives no answer.
+// Throws a Refusal if the system does not report the path.
 std::string path_of_this_program();
 
 // Makes a pipe whose ends no other program inherits. Returns true after success. After a failure, errno has the reason.

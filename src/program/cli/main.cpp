@@ -26,8 +26,8 @@ int give_up(int exit_code, std::string text) {
 }
 
 // Opens a substitute for each standard stream that is closed. Without a substitute, the next file to be opened would get the
-// number of the closed stream, and the program would print into this file. A substitute is opened for reading only, so prints to
-// it fail.
+// number of the closed stream, and the program would print into this file. A substitute is opened for reading only, so printing
+// to it fails.
 void occupy_closed_streams() {
   for (const int stream : {0, 1, 2}) {
     if (fcntl(stream, F_GETFD) < 0) open("/dev/null", O_RDONLY);
