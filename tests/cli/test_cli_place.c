@@ -97,7 +97,7 @@ TEST(every_format_gives_the_same) {
   }
 }
 
-/* Files of earlier versions of 3D Slicer have other columns, and number the axes. */
+/* Files of earlier versions of 3D Slicer have other columns, and give the axes as numbers. */
 TEST(fcsv_gives_the_same) {
   const struct {
     const char *heading, *row;
@@ -761,7 +761,7 @@ TEST(sizes_that_do_not_go_together_are_named) {
   assert_non_null(strstr(program_err, "commissure_height"));
 }
 
-/* The box is away from the axis z. A turn by 180 degrees about z therefore takes landmarks out of the box. */
+/* The box is away from the z axis. A turn by 180 degrees about z therefore takes landmarks out of the box. */
 TEST(wrong_axes_are_named) {
   const double lower[3] = {8, 8, -2}, upper[3] = {12, 12, 2};
   assert_int_equal(shim_write_box(scratch_path("far.vtu"), SHIM_RAW, n_box_side, lower, upper, 1), 1);

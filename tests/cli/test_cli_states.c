@@ -178,7 +178,7 @@ TEST(test_mitral) {
     /* The points are seen along z. Until the valve is open, the axis of the annulus leans by up to 5 degrees. */
     CHECK_NEAR(cell(i, "orifice_area"), found.orifice, i == 4 ? 0.03 : 0.06);
     CHECK_AT_MOST(cell(i, "effective_area"), cell(i, "orifice_area"));
-    /* The rim's band reaches at most two half thicknesses of 0.1. The closed orifice is 0 up to rounding. */
+    /* The band at the rim reaches at most two half thicknesses, 0.2. The closed orifice is 0 up to rounding. */
     CHECK_AT_MOST(cell(i, "orifice_area") - 0.2 * cell(i, "orifice_perimeter"), cell(i, "effective_area") + 1e-12);
     mitral_oracle_destroy(oracle);
   }
@@ -282,7 +282,7 @@ TEST(test_aortic) {
     const measured found = measure(valve, 1.3, is_in_root);
     CHECK_NEAR(cell(i, "orifice_area"), orifice_by_c(valve), 1e-12);
     CHECK_AT_MOST(cell(i, "effective_area"), cell(i, "orifice_area"));
-    /* The rim's band reaches at most two half thicknesses of 0.1. The closed orifice is 0 up to rounding. */
+    /* The band at the rim reaches at most two half thicknesses, 0.2. The closed orifice is 0 up to rounding. */
     CHECK_AT_MOST(cell(i, "orifice_area") - 0.2 * cell(i, "orifice_perimeter"), cell(i, "effective_area") + 1e-12);
     for (int k = 0; k < 3; ++k) {
       const double *of = table_of_paper[k];

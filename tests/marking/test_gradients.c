@@ -295,7 +295,7 @@ static void compare(const riis_surface *at, const placed_valve *state, const cha
     ++t->n_vertices, t->n_off_vertices += !(relative <= 1e-5);
     t->worst_vertex = fmax(t->worst_vertex, relative);
   }
-  /* The area changes at about the square root of the area times the speed. */
+  /* The area's rate of change is about the square root of the area times the speed. */
   const double area = info_of(at).area;
   const double slope_of_area = (info_of(surfaces[1]).area - info_of(surfaces[0]).area) / (2 * step);
   const double growth = area_rate_of(at, direction_id), size = fmax(sqrt(area) * speed, 1e-8 * area / step);

@@ -162,7 +162,7 @@ TEST(annuli_are_fitted_or_refused) {
       leans[n_accepted / 2], leans[9 * n_accepted / 10], leans[n_accepted - 1]);
 }
 
-/* On an ellipse, wide trigones lie behind the horn. Beside an indent, trigones lie before the horn. */
+/* On an ellipse, wide trigones lie behind the horn. Next to an indent, trigones lie in front of the horn. */
 TEST(trigones_behind_the_horn_are_counted) {
   for (int is_indented = 0; is_indented < 2; ++is_indented) {
     const shape s = {14.5, 16.2, 19, 5.5, 1.2, is_indented ? 4 : 0, is_indented ? 3 : 2};

@@ -251,7 +251,7 @@ static double line_crease(const riis_surface *surface) {
   return largest;
 }
 
-/* Compares measures of valves with default sizes with the literature (docs/theory/atrioventricular.md, "Measures"). */
+/* Compares measures of default valves with the literature (docs/theory/atrioventricular.md, "Measures"). */
 TEST(measures_are_those_of_the_literature) {
   static const double orifice_least[2] = {4, 4}, orifice_most[2] = {6, 6};
   for (int kind = 0; kind < 2; kind += trial_step()) {

@@ -168,7 +168,7 @@ TEST(openings_have_the_areas_of_a_raster) {
   }
 }
 
-/* Areas grow with the square of the scale. Effective areas also grow so, if the half thickness grows with the scale. */
+/* Areas grow with the square of the scale. If the half thickness grows with the scale, so do effective areas. */
 TEST(scales_are_roots_of_areas) {
   for (int trial = 0; trial < (is_long_test() ? 4 : 1) * n_kinds; trial += trial_step()) {
     const double scale = between(0.5, 2), factor = between(0.2, 5);
@@ -453,7 +453,7 @@ TEST(searches_are_refused) {
 #undef REFUSED
 }
 
-/* The search skips values that make no valve. */
+/* The search skips values with which no valve can be made. */
 TEST(impossible_sizes_are_left_out) {
   riis_valve *valve = new_valve("trileaflet");
   const riis_area_search usual = area_search();

@@ -458,7 +458,7 @@ static double off_side(const riis_valve_patches *patches, int32_t patch_id, int 
   return farthest;
 }
 
-/* A zone that begins just above the root also has no crease. Near the root, the leaflet turns upwards with a radius of 4
+/* A zone that begins just above the root has no crease either. Near the root, the leaflet turns upwards with a radius of 4
  * micrometres, as docs/theory/coapting.md says. Differences over steps longer than this radius would report the turn as a
  * crease. */
 TEST(a_low_zone_turns_sharply_without_a_crease) {

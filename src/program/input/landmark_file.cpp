@@ -359,7 +359,7 @@ void read_fcsv(const std::string &text, LandmarkFile &file) {
   const std::size_t label = column("label");
   const std::array<std::size_t, 3> xyz = {column("x"), column("y"), column("z")};
   const std::size_t last = std::max({label, xyz[0], xyz[1], xyz[2]});
-  // Version 5 adds the status of a point behind the 14 named cells: 2 for a placed point.
+  // Version 5 adds the status of a point after the 14 named cells: 2 for a placed point.
   constexpr std::size_t n_named = 14;
   Collector to(file);
   for (const CsvFile::Row &row : rows) {
