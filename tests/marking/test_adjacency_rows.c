@@ -69,7 +69,7 @@ TEST(rows_that_are_refused) {
   good.n_rows = n;
   good.offsets = offsets;
   good.columns = columns;
-  /* Wrong rows are always refused, and the mesh keeps the adjacency that it may have. */
+  /* Wrong rows are always refused, and the mesh keeps its adjacency if it has one. */
   for (int has_one = 0; has_one < 2; ++has_one) {
     if (has_one) CHECK_OK(riis_mesh_set_adjacency(mesh, &good));
 #define REFUSED(status, parts)                                         \

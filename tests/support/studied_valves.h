@@ -97,7 +97,8 @@ static inline void fuse(random_source *random, riis_valve *valve, const studied 
     if (random_bits(random) % 2) set_numbered(valve, "commissure_", k, ".fusion", random_between(random, 0, 0.6));
 }
 
-/* Sets one to three bumps at random places. Chance decides about each change of a bump, so many valves have only one disease. */
+/* Sets one to three bumps at random places. Each change of a bump is made or omitted at random, so many valves have only one
+ * disease. */
 static inline void add_bumps(random_source *random, riis_valve *valve, const studied *of) {
   for (int i = (int)(random_bits(random) % 3); i >= 0; --i) {
     const int at_commissure = random_bits(random) % 3 == 0;

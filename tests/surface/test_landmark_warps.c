@@ -100,7 +100,8 @@ static riis_surface_options random_placement(int32_t triangulation) {
   return options;
 }
 
-/* Places a point as riis_surface_options says, by Rodrigues' formula. For a vector, `is_vector` leaves out the translation. */
+/* Places a point as riis_surface_options says, by Rodrigues' formula. If `is_vector` is not 0, p is a vector, and the translation
+ * is left out. */
 static void place(const riis_surface_options *by, int is_vector, const double *p, double *placed) {
   const double *a = by->rotation_axis, size = sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
   const double angle = by->rotation_angle * acos(-1) / 180, c = cos(angle), s = sin(angle);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The program riis, from the command line to an exit status. Every error ends as one line on stderr. Without arguments the
+// The program riis, from the command line to an exit status. Every error is reported in one line on stderr. Without arguments the
 // program prints a few lines of help on stderr.
 #include <fcntl.h>
 
