@@ -212,7 +212,7 @@ static char *without_seconds(const char *name) {
   return text;
 }
 
-/* A surface from a file rests beside moving valves. */
+/* A case may have a surface from a file that rests, and valves that move. */
 TEST(test_surface_at_rest) {
   static double velocity[3 * n_box], marked[n_box];
   RUN_FINE("surface", "--output", scratch_path("stent.vtp"), "--quiet");

@@ -210,7 +210,8 @@ TEST(every_run_looks) {
   expect_tall("riis: a: leaflets right and non-coronary cross at opening 0: ");
 }
 
-/* A placement or an opening does not change the shape. A bileaflet valve's hinges reach into its housing, which is no fault. */
+/* A placement or an opening does not change the shape. A bileaflet valve's hinges reach into its housing, which is not a
+ * fault. */
 TEST(sound_shapes_are_not_named) {
   static const char *const kinds[] = {"aortic", "trileaflet", "mitral", "bileaflet", "coapting"};
   const char *in = scratch_path("in.vtu");

@@ -258,9 +258,9 @@ typedef struct {
 } fluid;
 
 /* Computes a slow steady flow along z by the solver's equations. A flat plate at z = 0 fills the tube. The pressure is 1 at z =
- * -length and 0 at z = length, and the walls hold the flow. Returns the flow times R / eps. In a tetrahedron and a wedge, some
- * coordinates run along a triangle. The solver counts the coordinates along a triangle from the triangle's last node, and VTK
- * from the first. */
+ * -length and 0 at z = length, and there is no slip at the walls. Returns the flow times R / eps. In a tetrahedron and a wedge,
+ * some coordinates run along a triangle. The solver counts the coordinates along a triangle from the triangle's last node, and
+ * VTK from the first. */
 static double flow_through_plate(const mesh *of, const double *distance, double width, double length, double eps,
                                  const fluid *by) {
   static int local[most_nodes];
@@ -302,7 +302,7 @@ static double flow_through_plate(const mesh *of, const double *distance, double 
       /* Converts VTK's coordinates, which are between 0 and 1, to those of the solver's reference elements. */
       double axis[3][3];
       for (int k = 0; k < 3; ++k) {
-        /* The solver swaps nodes 0 and 1 of half of the tetrahedra and wedges. The exchange does not change the sums below. */
+        /* The solver swaps nodes 0 and 1 of half of the tetrahedra and wedges. The swap does not change the sums below. */
         for (int c = 0; c < 3; ++c)
           axis[k][c] = of->type->vtk == 10            ? gradient[k][c]
                        : of->type->vtk == 13 && k < 2 ? gradient[k][c] + gradient[k + 3][c]
@@ -476,7 +476,7 @@ TEST(test_refusals) {
   expect_no_folder();
 }
 
-/* Beside a thicker band, the message advises shorter edges. In a uniform mesh, the number of nodes follows from the edge
+/* Besides a thicker band, the message also advises shorter edges. In a uniform mesh, the number of nodes follows from the edge
  * length. */
 TEST(test_finer_edges) {
   need_scipy();

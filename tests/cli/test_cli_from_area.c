@@ -92,7 +92,8 @@ static double area_with(const char *kind, double opening, const char *const *set
   return orifice.area;
 }
 
-/* A disease has the wanted orifice, or the wanted gap of the closed valve. A share that is 0 needs no range. */
+/* A disease has the wanted orifice, or the wanted gap of the closed valve. A parameter that is a share and has the value 0 needs
+ * no --from and --to. */
 TEST(test_diseases) {
   static const struct {
     const char *kind, *area, *solve, *opening, *settings[2], *range[4];

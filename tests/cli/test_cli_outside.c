@@ -110,7 +110,7 @@ TEST(test_share_of_two_sheets) {
   assert_int_equal(shim_write_box(scratch_path("box.vtu"), SHIM_RAW, 17, lower, upper, 0), 1);
   write_sheet("in.obj", 0, 1.95);
   write_sheet("out.obj", -4, 0);
-  /* The leaflet `out` is 4 long. A part of 2 - 0.15 lies farther than 0.15 outside. */
+  /* The leaflet `out` is 4 long. A length of 2 - 0.15 lies farther than 0.15 outside. */
   char *json =
       MARK_BOX("--half-thickness", "0.15", "--surface", scratch_path("in.obj"), "--surface", scratch_path("out.obj"));
   assert_int_equal(program_exit_code, 0);
@@ -192,8 +192,8 @@ TEST(test_skirts_and_housings_do_not_count) {
   }
 }
 
-/* A valve is in a wrong place if its closed leaflets are outside. Open leaflets may reach into the wall, and these leaflets reach
- * higher when open. */
+/* A valve is in a wrong place if its closed leaflets are outside. Open leaflets may reach into the wall. The leaflets of this
+ * test reach higher when they are open. */
 TEST(test_the_closed_valve_decides) {
   const double lower[3] = {-3, -3, -3}, upper[3] = {3, 3, 1.4};
   assert_int_equal(shim_write_box(scratch_path("box.vtu"), SHIM_RAW, 31, lower, upper, 0), 1);
@@ -217,7 +217,7 @@ TEST(test_the_closed_valve_decides) {
     assert_int_equal(strstr(program_outside, "The closed valve stands inside the mesh") != NULL, text == reaches);
     free(json);
   }
-  /* A valve that never closes in a series is also judged by its place. */
+  /* If a valve never closes in a series, the place of its closed state still decides. */
   scratch_write_text("cycle.csv", "0,0.9\n0.5,1\n1,0.9\n");
   for (int is_high = 0; is_high < 2; ++is_high) {
     free(MARK_BOX("--valve", "coapting", "--cycle", scratch_path("cycle.csv"), "--times", "0,0.25,0.5", "--translate",

@@ -366,8 +366,8 @@ static double closed_area_of_plates(int n, const double *heights, const char *ha
   return json_number(program_out, "closed_area");
 }
 
-/* A plate closes its own area of the mesh. Two plates in one place close the area of one. The second plate counts more as its
- * distance grows, by the integral of K between the plates. From a distance of two half thicknesses on, the second plate counts
+/* A plate closes its own area of the mesh. Two plates in one place close the area of one. Farther away, the integral of K between
+ * the plates gives the share that counts of the second plate. From a distance of two half thicknesses on, the second plate counts
  * fully. */
 TEST(test_closed_area_of_plates) {
   const double one = 1.6 * 1.6, eps = 0.15, pi = acos(-1.0);
@@ -380,7 +380,7 @@ TEST(test_closed_area_of_plates) {
   }
 }
 
-/* Where two leaflets touch or are less than half a half thickness apart, only one of them counts. Half of the area of coaptation
+/* Where two leaflets touch or are closer than half of a half thickness, only one of them counts. Half of the area of coaptation
  * therefore does not count. The half tube around the free edges also counts. The tube's width is 0.467 half thicknesses, which is
  * the integral of K across the tube over R / eps. */
 TEST(test_closed_area_of_a_coaptation) {

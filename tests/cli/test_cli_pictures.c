@@ -71,7 +71,7 @@ TEST(test_pictures) {
   assert_true(scratch_is_same("3.png", "5.png"));
 }
 
-/* Returns the title that a caption has: the orifice and the half thickness of a surface in centimetres. */
+/* Returns the title as a caption has it, with the orifice and the half thickness. The surface is in centimetres. */
 static const char *with_sizes(const char *title, const riis_surface *surface) {
   static char text[256];
   riis_orifice orifice;
@@ -180,7 +180,7 @@ TEST(test_unit) {
   assert_true(scratch_is_same("by_program.png", "by_c.png"));
 }
 
-/* Each option changes the picture in the way of its field in the C interface. */
+/* Each option changes the picture as its field in the C interface does. */
 TEST(test_looks) {
   riis_valve *valve = NULL;
   riis_surface *surface = NULL;

@@ -507,8 +507,9 @@ static void write_piece_of_dolfinx(const char *name, const char *points, const c
   scratch_write_text(name, text);
 }
 
-/* Nodes that two ranks share differ in their last bits. The function's list is therefore refused, and the refusal names the
- * writer of the mesh. VTK's writer states the order of bytes, so the array may then have other numbers. */
+/* In a function's files, dolfinx gives a node different last bits on each rank. The list is therefore refused, and the refusal
+ * names the call that writes the mesh. A list that states the order of bytes comes from VTK. The ids in such a list may have
+ * another meaning, so the list is accepted. */
 TEST(functions_of_dolfinx_are_refused) {
   write_piece_of_dolfinx("u_p0_000000.vtu", "0 0 0 1 0 0 0 1 0 0 0 0.1", "0 1 2 3");
   write_piece_of_dolfinx("u_p1_000000.vtu", "1 1 1 1 1e-17 0 0 1 0 0 0 0.10000000000000002", "4 1 2 3");
@@ -559,7 +560,7 @@ TEST(broken_pieces_are_refused) {
   scratch_write_text("bad.pvtu", "<VTKFile type=\"UnstructuredGrid\"></VTKFile>");
   RUN_REFUSED(1, "holds UnstructuredGrid, not PUnstructuredGrid", "mark", scratch_path("bad.pvtu"));
   RUN_REFUSED(1, "gone.pvtu", "mark", scratch_path("gone.pvtu"));
-  /* Three pieces are refused: a file that is no grid, a truncated file, and a piece without an array that the others have. */
+  /* Three pieces are refused: a file that is not a grid, a truncated file, and a piece without an array that the others have. */
   scratch_write_text("text.vtu", "no grid");
   expect_bad("<Piece Source=\"piece0.vtu\"/><Piece Source=\"text.vtu\"/>", "text.vtu: is not a VTK XML file");
   size_t n = 0;

@@ -97,7 +97,7 @@ TEST(every_format_gives_the_same) {
   }
 }
 
-/* Files of earlier versions of 3D Slicer have other columns, and number the axes. */
+/* Files of earlier versions of 3D Slicer have other columns, and give the axes as numbers. */
 TEST(fcsv_gives_the_same) {
   const struct {
     const char *heading, *row;
@@ -132,8 +132,8 @@ TEST(fcsv_gives_the_same) {
   }
 }
 
-/* The tables that 3D Slicer exports, and what spreadsheets make of a .csv. Spreadsheets quote cells, add empty cells, and end
- * lines with a carriage return. */
+/* Tests the tables that 3D Slicer exports, and .csv files that a spreadsheet has saved. Spreadsheets quote cells, add empty
+ * cells, and end lines with a carriage return. */
 TEST(tables_give_the_same) {
   const struct {
     const char *heading, *row;
@@ -728,7 +728,7 @@ TEST(landmarks_in_one_place_are_met_or_refused) {
   RUN_FINE("place", json_of_points(n, labels, annulus), "--valve", "mitral", "--flow", "0,0,-1", "--warp", "exact",
            "--quiet", "--c", "-");
   assert_non_null(strstr(program_out, "sources.n_points = 16;"));
-  /* The valve has its trigones beside its horn. */
+  /* The valve's trigones are next to its horn. */
   labels[n - 1] = "trigone";
   memcpy(annulus[n - 1], annulus[0], sizeof annulus[0]);
   RUN_REFUSED(1, "points.json: \"anterior_horn\" and \"trigone\" are in one place, but on the valve they are ", "place",
@@ -770,7 +770,7 @@ TEST(sizes_that_do_not_go_together_are_named) {
   assert_non_null(strstr(program_err, "commissure_height"));
 }
 
-/* The box is away from the axis z. A turn by 180 degrees about z therefore takes landmarks out of the box. */
+/* The box is away from the z axis. A turn by 180 degrees about z therefore takes landmarks out of the box. */
 TEST(wrong_axes_are_named) {
   const double lower[3] = {8, 8, -2}, upper[3] = {12, 12, 2};
   assert_int_equal(shim_write_box(scratch_path("far.vtu"), SHIM_RAW, n_box_side, lower, upper, 1), 1);

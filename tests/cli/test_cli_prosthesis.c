@@ -118,7 +118,7 @@ static double deepest_crossing(void) {
   return (double)deepest;
 }
 
-/* Returns how far a vertex lies outside its leaflet's third of the ring, at most. Half planes through the axis and the
+/* Returns the largest distance of a vertex outside its leaflet's third of the ring. Half planes through the axis and the
  * commissures bound a third. Thirds are convex, so a triangle is inside if its corners are. */
 static double farthest_outside(void) {
   static const double commissure[3][2] = {{0.60, -1.04}, {0.60, 1.04}, {-1.20, 0.00}};

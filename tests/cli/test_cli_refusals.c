@@ -242,7 +242,7 @@ TEST(test_offset) {
               "--opening-seconds", "0.1", "--closing-seconds", "0.1", "--offset", "0.5");
 }
 
-/* A value that the user split into several arguments gets a hint. */
+/* If the user split a value into several arguments, the refusal gives a hint. */
 TEST(test_hints) {
   const char *mesh = scratch_path("in.vtu");
   RUN_REFUSED(2, "--set takes NAME=VALUE", "mark", mesh, "--set", "root_radius", "1.3");

@@ -140,7 +140,7 @@ TEST(test_chosen_cells_are_the_mesh) {
   assert_true(json_has_text(chosen, "state", "\"open\""));
   CHECK_NEAR(json_number(chosen, "n_cells"), n_bricks, 0);
   free(chosen);
-  /* In pieces, too. */
+  /* The results also agree if the mesh is in pieces. */
   write_pieces();
   chosen = stats_of("both.pvtu", "--cells-where", "domain=3");
   assert_string_equal(program_err, "");

@@ -164,8 +164,7 @@ TEST(test_no_cells) {
   assert_true(json_number(program_out, "n_marked") == 1);
 }
 
-/* Some options are refused on a mesh without an adjacency. Such options are then also refused on other meshes, before the mesh is
- * read. */
+/* The two searches along an adjacency refuse a bad option before the mesh is read. Here the mesh is missing. */
 TEST(test_refusals) {
   const char *searches[] = {"neighbor", "paper"};
   for (int i = 0; i < 2; ++i) {

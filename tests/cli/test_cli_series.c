@@ -336,8 +336,8 @@ TEST(test_triangulations) {
   }
 }
 
-/* The frames lift the surface by 0.5 in a time of 1. The marks equal those of a single run at this time, and the velocity is that
- * of the frames. */
+/* The frames lift the surface by 0.5 within one unit of time. The marks equal those of a single run at this time, and the
+ * velocity is that of the frames. */
 TEST(test_motion) {
   static double marked[n_box], single[n_box], velocity[3 * n_box];
   RUN_FINE("surface", "--valve", "mitral", "--output", scratch_path("low.vtp"), "--quiet");

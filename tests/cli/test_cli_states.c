@@ -178,7 +178,7 @@ TEST(test_mitral) {
     /* The points are seen along z. Until the valve is open, the axis of the annulus leans by up to 5 degrees. */
     CHECK_NEAR(cell(i, "orifice_area"), found.orifice, i == 4 ? 0.03 : 0.06);
     CHECK_AT_MOST(cell(i, "effective_area"), cell(i, "orifice_area"));
-    /* The rim's band reaches at most two half thicknesses of 0.1. The closed orifice is 0 up to rounding. */
+    /* The band at the rim reaches at most two half thicknesses, 0.2. The closed orifice is 0 up to rounding. */
     CHECK_AT_MOST(cell(i, "orifice_area") - 0.2 * cell(i, "orifice_perimeter"), cell(i, "effective_area") + 1e-12);
     mitral_oracle_destroy(oracle);
   }
@@ -209,7 +209,7 @@ TEST(test_stdout) {
   free(text);
 }
 
-/* If the band takes an open area entirely and the area has no perimeter, the numbers look wrong without an explanation. The slit
+/* If the band covers the whole open area and the area has no perimeter, the numbers look wrong without an explanation. The slit
  * between the closed leaflets has a perimeter if it is wider than a fifth of the half thickness. */
 TEST(test_slits) {
   static const struct {
@@ -282,7 +282,7 @@ TEST(test_aortic) {
     const measured found = measure(valve, 1.3, is_in_root);
     CHECK_NEAR(cell(i, "orifice_area"), orifice_by_c(valve), 1e-12);
     CHECK_AT_MOST(cell(i, "effective_area"), cell(i, "orifice_area"));
-    /* The rim's band reaches at most two half thicknesses of 0.1. The closed orifice is 0 up to rounding. */
+    /* The band at the rim reaches at most two half thicknesses, 0.2. The closed orifice is 0 up to rounding. */
     CHECK_AT_MOST(cell(i, "orifice_area") - 0.2 * cell(i, "orifice_perimeter"), cell(i, "effective_area") + 1e-12);
     for (int k = 0; k < 3; ++k) {
       const double *of = table_of_paper[k];
@@ -365,8 +365,8 @@ TEST(test_collapsed_sides) {
 }
 
 /* Two patches above each other share a side. The common side is the side v = 1 of one patch, but it is not a free edge. The
- * patches' other curves bend differently. Each patch alone would therefore cut the common side into different parts. The test has
- * one straight and one curved side. */
+ * patches' other curves bend differently. Each patch alone would therefore cut the common side into different parts. The common
+ * side is straight in one case, and curved in the other. */
 TEST(test_shared_sides) {
   static const char *const middles[2] = {"[0, 1, 0], [2, 1, 0]", "[0, 1, 0], [1, 1.5, 0], [2, 1, 0]"};
   for (int i = 0; i < 2; ++i)

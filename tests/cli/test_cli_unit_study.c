@@ -2,7 +2,7 @@
  *
  * Tests the advice on units in meshes whose unit is known. The meshes are pipes, roots, chambers, basins and flat chambers with
  * all kinds of valves, in metres, centimetres and millimetres. Without --unit, the advice names the true unit, alone or among
- * others. A vessel in centimetres gets no advice, and neither does a mesh with --unit. A coarse basin in centimetres can have the
+ * others. There is no advice for a vessel in centimetres, or for a mesh with --unit. A coarse basin in centimetres can have the
  * numbers of a vessel in millimetres, so its advice may name both units. If two units remain, the next run says how many nodes
  * each unit marks. */
 #include <math.h>
@@ -27,7 +27,7 @@ typedef enum shape { pipe_shape, root_shape, chamber_shape, basin_shape, flat_sh
 typedef struct vessel {
   shape shape;
   double radius, length, half_length; /* half_length is that of a chamber */
-  double edge, growth; /* an edge at the valve, and the factor by which edges grow at a length farther away */
+  double edge, growth; /* an edge at the valve, and the increase of edges per unit of distance from there */
   double centre;       /* of the length, on the axis */
   double side[3];      /* of a basin or a flat chamber, around the valve */
 } vessel;

@@ -74,7 +74,7 @@ static void check_frame(const uris_face *face, const double *frame, const riis_s
   free(corners);
 }
 
-/* Returns the ramp of fifth degree from 0 to 1 (theory/marks.md). */
+/* Returns the ramp of fifth degree from 0 to 1 (docs/theory/marks.md). */
 static double ramp(double s) { return s * s * s * (10 + s * (-15 + 6 * s)); }
 
 /* ---- Tests of the files ---- */
@@ -89,7 +89,7 @@ static double ramp(double s) { return s * s * s * (10 + s * (-15 + 6 * s)); }
 static uris_valve exported;
 
 static void check_positions(const place *where, riis_valve *valve) {
-  enum { n_open = 6, n_close = 4 }; /* a frame each 0.01 s, which is 2.5 steps, and a last frame at the end */
+  enum { n_open = 6, n_close = 4 }; /* one frame every 0.01 s, which is 2.5 steps, and a last frame at the end */
   CHECK_OK(riis_valve_set_scalar(valve, "opening", 0));
   riis_surface *surface = surface_at(where, valve);
   for (int k = 0; k < n_open + n_close; ++k) {

@@ -13,7 +13,7 @@
 
 enum { n_round = 48, n_along = 40 };
 
-/* Writes a tube around an axis parallel to z, in centimetres. The tube may lack a square. */
+/* A tube around an axis parallel to z, in centimetres. The tube may lack a square. */
 typedef struct tube {
   double x, y, radius, growth; /* the radius grows with z */
   int is_closed, hole;         /* the layer of a hole, or -1 for no hole */
@@ -67,7 +67,7 @@ TEST(test_holes) {
   skirt_to(write_tube("wall.stl", &whole), "1", "0,0,0");
   expect_run_fine(__FILE__, __LINE__);
   tube one = whole;
-  one.is_closed = 0; /* the ends of a vessel are no holes */
+  one.is_closed = 0; /* the ends of a vessel are not holes */
   skirt_to(write_tube("wall.stl", &one), "1", "0,0,0");
   expect_run_fine(__FILE__, __LINE__);
   for (int is_closed = 0; is_closed < 2; ++is_closed)

@@ -270,7 +270,7 @@ TEST(test_limited_table) {
   free(text);
 }
 
-/* Runs the program. The kernel sends it the signal when the program first writes into a file of the folder, which is
+/* Runs the program. The kernel sends it the signal when the program first writes into a file of the folder. This file is
  * marked.vtu under its temporary name, because the locks of both outputs stay empty. */
 static void run_and_interrupt(int signal_number) {
   unlink(scratch_path("marked.vtu"));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Flat ends of walls. The oracle is the generator, which knows what it cut. Numbers of vessels, directions, leans, waves, units,
-// caps and reversed triangles are random. A wall without ends or with faults is refused with the reason and the cure.
+// Tests flat ends of walls. The oracle is the generator, which knows where it cut the walls. Numbers of vessels, directions,
+// leans, waves, units, caps and reversed triangles are random. A wall without ends or with faults is refused with the reason and
+// the cure.
 #include <unistd.h>
 
 #include <algorithm>

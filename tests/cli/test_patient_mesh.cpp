@@ -55,7 +55,7 @@ void write_field(const std::string &path, const Vector3 &middle, double side, do
   write_text_file(path, text.str());
 }
 
-// What mesh.msh says.
+// The content of mesh.msh.
 struct Read {
   std::map<int, std::string> names;
   std::vector<Vector3> points;

@@ -126,7 +126,7 @@ uris_valve uris_read(const char *block) {
     const char *const face_end = strstr(at, "</Add_URIS_face>");
     assert_non_null(face_end);
     read_face(at, face_end, face);
-    assert_int_equal(face->n_open, valve.face[0].n_open); /* the solver wants as many frames for each face */
+    assert_int_equal(face->n_open, valve.face[0].n_open); /* the solver needs the same number of frames for each face */
     assert_int_equal(face->n_close, valve.face[0].n_close);
     at = face_end;
   }

@@ -238,7 +238,7 @@ static void expect_row(const char *kind, int figure, const char *row, const char
 }
 
 TEST(test_page_stands_alone) {
-  assert_null(strstr(page, "http:")); /* colons end the encoded pictures, which contain none */
+  assert_null(strstr(page, "http:")); /* encoded pictures contain no colon */
   assert_null(strstr(page, "https:"));
   assert_null(strstr(page, "<script"));
   assert_null(strstr(page, "<link"));

@@ -146,8 +146,8 @@ void give_rows(Input &in, State &state) {
     }
     offsets.push_back(base + static_cast<std::int64_t>(columns.size()));
   }
-  // Offsets may be out of order. The last offset never exceeds the number of columns, because the library takes this number from
-  // it.
+  // Offsets may be out of order. The last offset never exceeds the number of columns, because the library takes the number of
+  // columns from it.
   if (in.one_in(12) && n > 1)
     offsets[1 + static_cast<std::size_t>(in.byte()) % (offsets.size() - 2)] =
         in.one_in(2) ? in.raw<std::int64_t>() : in.below(64) - 8;

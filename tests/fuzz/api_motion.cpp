@@ -234,7 +234,7 @@ void move_by_keyframes(Input &in, State &state) {
       in, [&](riis_keyframes **made) { return riis_keyframes_create(mostly(in, &faces), mostly(in, &frames), made); });
   if (!keyframes) return;
   const double now = in.number(), since = in.one_in(2) ? in.number() : now;
-  const volatile double dt = now - since;  // raises its exceptions here, outside of a checked call
+  const volatile double dt = now - since;  // raises floating-point exceptions here, outside of a checked call
   riis_surface_options options = initialised(in, riis_surface_options_init);
   options.zero_area = in.below(2);
   if (slot && in.one_in(2)) {

@@ -175,7 +175,7 @@ Given<Handle> given(Input &in, const State &state, State::Kind kind, Handle *rig
   return {right, right != nullptr};
 }
 
-// Each function makes some calls. The input decides about the details.
+// Each function makes some calls. The input decides the details.
 void call_status_functions(Input &in);
 void call_init_functions(Input &in);
 void make_valve(Input &in, State &state);

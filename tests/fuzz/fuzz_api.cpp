@@ -152,7 +152,7 @@ void destroy_something(Input &in, State &state) {
 
 namespace {
 
-// An input of zero bytes has no choices. With this input, all calls of the following list are made in order, and all succeed.
+// If all bytes of an input are 0, every choice is 0. The calls of this list are then made in order, and all succeed.
 void (*const calls[])(Input &, State &) = {make_valve,
                                            make_surface,
                                            make_mesh,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fuzzes files of meshes, surfaces and motions in the format fuzz_ending. A file is read completely, or refused with its name and
-// a reason. The content must be usable. Nodes make a mesh, or are refused because of their coordinates. Cells make an adjacency,
-// faces make a surface, and frames make keyframes.
+// Fuzzes files of meshes, surfaces and motions in the format whose ending is fuzz_ending. A file is read completely, or refused
+// with its name and a reason. The content must be usable. Nodes make a mesh, or are refused because of their coordinates. Cells
+// make an adjacency, faces make a surface, and frames make keyframes.
 #include <riis/riis_vtk.h>
 
 #include <cstddef>

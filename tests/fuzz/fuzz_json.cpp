@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fuzzes the program's JSON files. Each input is read in three ways: as a valve from patches, as parameters of either kind of
-// valve, and as the opening of a valve in a case. The input is refused with an exit status and a message, or gives a valve or a
+// Fuzzes the program's JSON files. Each input is read in three ways: as a valve from patches, as parameters of four kinds of
+// valves, and as the opening of a valve in a case. The input is refused with an exit status and a message, or gives a valve or a
 // law. If a valve's parameters are printed and read again, they must be unchanged.
 #include <cstddef>
 #include <cstdint>

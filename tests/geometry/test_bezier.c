@@ -185,7 +185,7 @@ TEST(flattening_takes_few_points) {
   const double k = 0.5522847498, quarter[12] = {1, 0, 0, 1, k, 0, k, 1, 0, 0, 1, 0};
   assert_int_equal(n_flattened(3, quarter, 0.0055), 9);
   assert_int_equal(n_flattened(3, quarter, 0.0014), 17);
-  /* A curve may turn on the spot, where its curvature gives no bound. */
+  /* A curve may reverse its direction at a point, where its curvature gives no bound. */
   const double there_and_back[9] = {0, 0, 0, 1, 0, 0, 0, 0, 0};
   assert_true(n_flattened(2, there_and_back, 1e-3) < 100);
   double *points, *t, *errors;

@@ -45,8 +45,8 @@ TEST(is_nothing_where_base_and_edge_touch) {
 }
 
 /* Edges have any shape, even single points, and bases have joints. Near some bases, W is parallel or nearly parallel to the base
- * in places. Units range from 1e-6 to 1e6. O never deviates from a linear function by more than the bound. On short ranges the
- * bound is not much too large, if the edge is not near the base. */
+ * in places. Units range from 1e-6 to 1e6. O never deviates from a linear function by more than the bound. If the edge is far
+ * from the base, the bound on short ranges is not much too large. */
 TEST(stays_within_the_bound) {
   double sum_of_ratios = 0, sum_without_points = 0;
   int n_ranges = 0, n_without_points = 0;

@@ -135,7 +135,7 @@ TEST(test_order_of_triangles) {
   assert_true(edge == shim_edge_beyond(1, origin, 6, xy, 2, other_order, 0));
 }
 
-/* Either a round plate in the circle grows, so the ring around it shrinks, or a plate with a round hole grows, so the hole
+/* A round plate in the circle grows, so the ring around it shrinks. In other trials, a plate with a round hole grows, so the hole
  * shrinks. */
 TEST(test_growing) {
   enum { m = 720 };

@@ -108,7 +108,7 @@ static cell_list random_cells(int kind, int64_t n_nodes, int64_t n_used, int64_t
     list.offsets[c + 1] = list.offsets[c] + n;
     for (int k = 0; k < n; ++k) {
       int is_new;
-      do { /* chooses nodes near each other, because a real mesh does so */
+      do { /* chooses nodes near each other, as in a real mesh */
         nodes[k] = (c * n_used / n_cells + (int64_t)(random_bits(&rng) % 40)) % n_used;
         is_new = 1;
         for (int m = 0; m < k && !repeated_nodes; ++m) is_new = is_new && nodes[m] != nodes[k];

@@ -69,7 +69,7 @@ TEST(rows_that_are_refused) {
   good.n_rows = n;
   good.offsets = offsets;
   good.columns = columns;
-  /* Wrong rows are always refused, and the mesh keeps the adjacency that it may have. */
+  /* Wrong rows are always refused, and the mesh keeps its adjacency if it has one. */
   for (int has_one = 0; has_one < 2; ++has_one) {
     if (has_one) CHECK_OK(riis_mesh_set_adjacency(mesh, &good));
 #define REFUSED(status, parts)                                         \
@@ -127,7 +127,8 @@ TEST(when_an_adjacency_goes) {
   enum { n = 4 };
   riis_surface *surface = aortic_surface(NULL);
   double xyz[3 * (n + 1)] = {0};
-  /* Columns 4 and 5 are ghost nodes. In every other column, the row's node itself stands, with repeats. */
+  /* The numbers count from 1. Nodes 5 and 6 are ghosts. Three rows contain their own nodes, and one of these rows also contains
+   * node 2. */
   int64_t offsets[n + 1] = {1, 4, 4, 7, 8}, columns[7] = {5, 6, 1, 3, 3, 2, 4};
   riis_csr csr;
   riis_marks *result = new_result();

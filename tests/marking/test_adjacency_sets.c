@@ -13,7 +13,7 @@
 
 static random_source rng;
 
-/* Each kind of cells has equally many meshes. */
+/* Each kind of cells has the same number of meshes. */
 enum { n_kinds = 5, n_meshes = 150 * n_kinds, most_cells = 300, most_corners = 8 };
 
 static int64_t below(int64_t n) { return (int64_t)(random_bits(&rng) % (uint64_t)n); }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The search over clusters finds the same nodes as the exhaustive search, to the last bit. The results agree for every mesh,
+ * The search over clusters gives the same results as the exhaustive search, bit for bit. The results agree for every mesh,
  * surface, limit, mask, instruction set and number of threads, and also without a limit. If clusters cannot be used, the
  * exhaustive search runs, and the statistics report it. */
 #include <omp.h>

@@ -117,8 +117,8 @@ static int32_t search_of(const riis_surface *surface, const riis_mesh *mesh, int
   return search;
 }
 
-/* RIIS_SEARCH_AUTO is exhaustive for the first marking of a mesh, and uses clusters for later markings. For a prepared mesh,
- * clusters also serve the first marking. */
+/* RIIS_SEARCH_AUTO is exhaustive for the first marking of a mesh, and uses clusters for later markings. In a prepared mesh, the
+ * first marking also uses clusters. */
 TEST(what_auto_is) {
   enum { n = 200 };
   riis_surface *surface = aortic_surface(NULL);

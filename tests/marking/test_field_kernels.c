@@ -47,7 +47,7 @@ TEST(numbers_are_mixed_by_weights) {
 }
 
 /* A derivative is -n.V. The unit vector n points from the closest point to the given point, and V is the mean of the rates. The
- * derivative is 0 at distance 0. The kernel writes nothing behind the last point. */
+ * derivative is 0 at distance 0. The kernel writes nothing after the last point. */
 TEST(distances_are_differentiated) {
   enum { n_vertices = 20, most_directions = 3, room = most_directions * n_lanes + 1 };
   for (int trial = 0; trial < 5000; ++trial) {

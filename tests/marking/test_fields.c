@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests the fields of closest points that a marking keeps. The fields equal those of single queries to the last bit, for any
- * search, number of threads and instruction set. The rim is compared with the numbering of patches and with a count of edges.
- * Wrong requests are refused. */
+ * Tests the fields of closest points that a marking keeps. The fields equal those of single queries bit for bit, for any search,
+ * number of threads and instruction set. The rim is compared with the numbering of patches and with a count of edges. Wrong
+ * requests are refused. */
 #include <riis/riis.h>
 
 #include "test_support.h"

@@ -192,7 +192,7 @@ static slopes slopes_of(double before, double now, double after, double step) {
   return (slopes){(now - before) / step, (after - now) / step, (after - before) / (2 * step)};
 }
 
-/* Tells whether a derivative is right although it differs from the central difference. Both differ beside a tie: within the step,
+/* Tells whether a derivative is right although it differs from the central difference. Both differ near a tie: within the step,
  * the closest point jumps from one place of the surface to another. The slope then falls at a kink, and the central difference is
  * off by up to half the kink. The derivative must be the slope on the side without the tie. */
 static int is_beside_tie(slopes s, double gradient, double speed) {
@@ -295,7 +295,7 @@ static void compare(const riis_surface *at, const placed_valve *state, const cha
     ++t->n_vertices, t->n_off_vertices += !(relative <= 1e-5);
     t->worst_vertex = fmax(t->worst_vertex, relative);
   }
-  /* The area changes at about the square root of the area times the speed. */
+  /* The area's rate of change is about the square root of the area times the speed. */
   const double area = info_of(at).area;
   const double slope_of_area = (info_of(surfaces[1]).area - info_of(surfaces[0]).area) / (2 * step);
   const double growth = area_rate_of(at, direction_id), size = fmax(sqrt(area) * speed, 1e-8 * area / step);
@@ -529,7 +529,7 @@ static riis_mark_list gradients_of(const riis_surface *surface, int64_t n, const
   return within_list(marks);
 }
 
-/* Makes a square that shifts by (1, 2, 3). */
+/* A square shifts by (1, 2, 3). */
 TEST(rims_and_the_surface_itself) {
   const shape square = unit_square();
   riis_valve *valve = valve_from(&square);
@@ -657,7 +657,7 @@ TEST(bits_and_updates) {
       ++at;
     }
   }
-  /* Directions go with velocities. */
+  /* A moving update removes the directions. A direction and velocities may exist at the same time. */
   CHECK_OK(riis_surface_update_moving(surface, valve, before, 1e-3, NULL, NULL));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "no direction|riis_surface_add_direction",
                 riis_mark_nodes(surface, mesh, &options, marks));

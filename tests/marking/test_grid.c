@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * A mesh from axes gives the results of a mesh that has these nodes as points, to the last bit. The results agree for all kinds
- * of surfaces, axes, strides, masks and limits. Some numbers of the grid belong to no node, and no result contains these
- * numbers. */
+ * A mesh from axes gives, bit for bit, the results of a mesh that has these nodes as points. The results agree for all kinds of
+ * surfaces, axes, strides, masks and limits. Some numbers of the grid belong to no node, and no result contains these numbers. */
 #include <limits.h>
 #include <math.h>
 #include <riis/riis.h>
@@ -283,7 +282,7 @@ static riis_surface *random_surface(int kind, int has_offset) {
 }
 
 static void check_case(int kind, int64_t most) {
-  const riis_surface *surface = random_surface(kind, kind != 5 && any_of(4) == 0); /* the patches' normals disagree */
+  const riis_surface *surface = random_surface(kind, kind != 5 && any_of(4) == 0); /* kind 5 has opposite normals */
   const grid_case of = random_grid(surface, most, any_of(2) == 0);
   const riis_resistance resistance = resistance_of(3);
   riis_mark_options options = mark_options(), of_points;

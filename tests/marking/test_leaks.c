@@ -240,8 +240,7 @@ TEST(random_meshes_leak_where_the_loop_says) {
   CHECK_MET(n_leaking > n / 4 && n_leaking < n);
 }
 
-/* --- Changes that must not matter
- * ---------------------------------------------------------------------------------------------- */
+/* --- Changes that must not matter ---------------------------------------------------------------------------------- */
 
 /* A case keeps its leaking edges when it is turned by right angles, mirrored, moved and renumbered. */
 TEST(motion_and_order_do_not_matter) {

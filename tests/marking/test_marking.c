@@ -162,7 +162,7 @@ TEST(mask_leaves_nodes_out) {
   }
   assert_int_equal(b.n, at);
   assert_true(at > 0 && at < a.n);
-  memset(mask, 0, sizeof mask); /* an empty mask finds nothing, which is no error */
+  memset(mask, 0, sizeof mask); /* an empty mask finds nothing, which is not an error */
   CHECK_OK(riis_mark_nodes(surface, mesh, &options, some));
   const int64_t *node_id = (const int64_t *)&options;
   const int64_t n_marked = marked_list(some).n_nodes;

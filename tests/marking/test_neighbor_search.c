@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The neighbour search gives the same result as the exhaustive search, to the last bit. The results agree for any mesh,
- * adjacency, mask, limit, number of threads and earlier marking. The paper's own algorithm finds only the connected part of the
- * band in which it starts, and reports that nodes may be missing. */
+ * The neighbour search gives the same result as the exhaustive search, bit for bit. The results agree for any mesh, adjacency,
+ * mask, limit, number of threads and earlier marking. The paper's own algorithm finds only the connected part of the band in
+ * which it starts, and reports that nodes may be missing. */
 #include <riis/riis.h>
 
 #include "test_support.h"

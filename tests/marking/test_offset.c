@@ -151,7 +151,7 @@ static void check_marking(const char *kind) {
     CHECK_NEAR(K[within.node_id[i]], oracle_K(&place, resistance.R, own_eps, offset, resistance.rim == RIIS_RIM_CUT),
                1e-12 * resistance.R / (own_eps * own_eps));
   }
-  /* Sums beside the surface. */
+  /* Sums near the surface. */
   double *ones = own(malloc((size_t)nodes.n * sizeof *ones));
   for (int64_t i = 0; i < nodes.n; ++i) ones[i] = 1;
   const double outer = eps * random_between(&rng, 0.4, 1), inner = outer * random_between(&rng, 0, 1);
@@ -250,7 +250,7 @@ static void check_passage(const char *kind) {
       fail_msg("%s, opening %g, offset %g: %d at %g times the half thickness %g", kind, opening, offset, is_joined,
                1 + 0.01 * sign, passage.distance);
   }
-  /* The passage's half thickness marks the node, to the last bit. The next smaller half thickness does not mark the node. */
+  /* The passage's half thickness marks the node, but the next smaller double does not. */
   for (int k = 0; k < 2 && passage.distance > 1e-6; ++k) {
     riis_surface *again = same_triangles(surface, k == 0 ? passage.distance : passage.distance * (1 - 4e-16), offset);
     riis_marks *marks = new_result();
@@ -376,7 +376,7 @@ static void check_leaks(const char *kind) {
     }
   assert_int_equal(at, list.n_edges);
   if (list.n_edges == 0) return;
-  /* The list's half thickness gives each edge a marked node, to the last bit. */
+  /* With exactly the list's half thickness, each edge has a marked node. */
   riis_surface_options thicker = options;
   thicker.half_thickness = list.half_thickness;
   thicker.tolerance = options.tolerance * eps / list.half_thickness; /* the same triangles */

@@ -121,7 +121,7 @@ static riis_orifice orifice_of(const riis_surface *surface, const riis_resistanc
   return orifice;
 }
 
-/* The offset at which the factor c vanishes, or 0 for a kind with a constant factor. */
+/* The offset at which the band's reach into the orifice vanishes, or 0 for a kind whose reach does not depend on the offset. */
 static double vanishing_offset(const char *kind, int32_t rim) {
   if (strcmp(kind, "bileaflet") == 0) return 0;
   if (rim == RIIS_RIM_ROUND) return 1.05;

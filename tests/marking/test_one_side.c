@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  * Tests the search over clusters for a surface with an offset, where it leaves out nodes far behind the surface. The search must
- * give the list that a search of all nodes within reach gives, to the last bit. An oracle judges each node of this list.
+ * give the list that a search of all nodes within reach gives, bit for bit. An oracle judges each node of this list.
  * RIIS_TEST_LONG=1 tries more surfaces. */
 #include <riis/riis.h>
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The library warns if the sizes of a mesh, a surface and a half thickness suggest different units. The warning comes once. A
- * distant part of a mesh gets no warning. The warning depends on the bounding box of the nodes. The box is tested for every
+ * The library warns if the sizes of a mesh, a surface and a half thickness suggest different units. The warning comes once. There
+ * is no warning for a distant part of a mesh. The warning depends on the bounding box of the nodes. The box is tested for every
  * layout of the coordinates. */
 #include <pthread.h>
 #include <riis/riis.h>
@@ -104,7 +104,7 @@ TEST_WITH(sizes_that_do_not_fit_are_told, start_listening, stop_listening) {
   expect_text("the half thickness is larger than the surface", "0.04 (mesh", "half thickness is 0.1");
   assert_int_equal(n_warnings(0.3, 0.5, 0, 0.4), 1);
   expect_text("the half thickness is larger than the mesh", "0.4 (mesh", "half thickness is 0.5");
-  /* A mesh far from the valve also gets the warning if its size does not match. */
+  /* If the size does not match, the warning also comes for a mesh far from the valve. */
   assert_int_equal(n_warnings(1, RIIS_AUTO, 1e6, 4e4), 1);
 }
 

@@ -51,8 +51,8 @@ static void cap(double s, double t, double *p) {
              sphere_radius * cos(polar), p);
 }
 
-/* Makes a frame whose axes are far from the grid's directions. Along a direction of the grid, an edge of the band would move past
- * a whole row of nodes at once. */
+/* Makes a frame whose axes are far from the grid's directions. If an edge of the band ran along a direction of the grid, it would
+ * pass a whole row of nodes at once. */
 static void random_frame(void) {
   const double a = between(0.3, 0.6), b = between(0.3, 0.6);
   const double ca = cos(a), sa = sin(a), cb = cos(b), sb = sin(b);
@@ -66,7 +66,7 @@ static riis_surface *surface_of(shape at, int n, int m, double half_thickness) {
   int32_t *ids = own(malloc((size_t)(n * m) * 4 * sizeof *ids));
   for (int j = 0; j <= m; ++j)
     for (int i = 0; i <= n; ++i) at((double)i / n, (double)j / m, xyz + 3 * (j * (n + 1) + i));
-  /* In a closed shape, the two ends coincide to the last bit. */
+  /* In a closed shape, the two ends coincide bit for bit. */
   for (int j = 0; j <= m; ++j)
     if (at != cylinder) memcpy(xyz + 3 * (j * (n + 1) + n), xyz + 3 * j * (n + 1), 3 * sizeof *xyz);
   for (int i = 1; i <= n; ++i)
@@ -246,8 +246,8 @@ TEST(sums_are_those_of_plain_loops) {
   }
 }
 
-/* The result's lists and the arrays have the same K and K u, to the last bit. Arrays by component and arrays with gaps get the
- * same bits. The marking does not need the field of velocities for K u. */
+/* The result's lists and the arrays have the same K and K u, bit for bit. Arrays by component and arrays with gaps get the same
+ * bits. The marking does not need the field of velocities for K u. */
 TEST(lists_and_layouts_have_the_same_bits) {
   for (int trial = 0; trial < trials_of(36); ++trial) {
     const int owned_before = n_owned();

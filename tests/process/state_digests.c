@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0
  * state_digests [THREADS [INSTRUCTIONS]] prints a digest for each of 60 states of valves, one for each of 36 placements, and one
  * of all of them. A state's digest covers triangles, marks, fields, K, velocities, derivatives, the orifice and the reaction. The
- * valves have all kinds, both triangulations, angles, warps, skirts, bumps and placements. A placement's digest covers the sizes
- * and the rotation that riis_place finds for landmarks, and the placed triangles. Equal lines of two runs mean equal bits. This
- * program uses only sums, products, quotients and roots, so it does not depend on the C library.
+ * valves are of all kinds, with both triangulations, and with angles, warps, skirts, bumps and placements. A placement's digest
+ * covers the sizes and the rotation that riis_place finds for landmarks, and the placed triangles. Equal lines of two runs mean
+ * equal bits. This program uses only sums, products, quotients and roots, so it does not depend on the C library.
  *
  * state_digests cosine prints a digest of the C library's cosine. */
 #include <inttypes.h>

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
  * The loops of a time step run on OpenMP's threads until a loop has waited for one of these threads. Then the loops run for a
- * while on a team, which does not wait for a late thread. If loops have waited for teams, the calling thread calls a team later.
- * OpenMP's threads always run the loops in two cases: if the user binds them to places (OMP_PROC_BIND), and inside a caller's
- * parallel region. */
+ * while on a team, which does not wait for a late thread. If earlier teams have lost time, the calling thread works alone at
+ * first, and calls a team later. OpenMP's threads always run the loops in two cases: if the user binds them to places
+ * (OMP_PROC_BIND), and inside a caller's parallel region. */
 #include "loops.h"
 #include "sanitized.h"
 #include "test_support.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  * n_threads = 1 starts no thread: the process always has as many threads as before the first call. With little work, the default,
- * 0, also starts no thread. If 2 threads are requested, the process has more threads, which shows that the test counts correctly.
- * Calls on one thread come first, because OpenMP and TBB keep the threads that they start. */
+ * 0, starts no thread either. If 2 threads are requested, the process has more threads, which shows that the test counts
+ * correctly. Calls on one thread come first, because OpenMP and TBB keep the threads that they start. */
 #include <riis/riis.h>
 
 #include "test_support.h"

@@ -209,7 +209,7 @@ static void use_what_is_marked(const shared_objects *of) {
   IS_HELD("marks", riis_mark_nodes(of->surface, of->mesh, NULL, shared_marks));
   IS_HELD("marks", riis_marks_get_list(shared_marks, RIIS_LIST_MARKED, &list, sizeof list));
   IS_HELD("mesh", riis_mesh_set_adjacency(of->mesh, NULL));
-  CHECK_OK(riis_mesh_prepare(of->mesh, 1)); /* makes what a marking makes */
+  CHECK_OK(riis_mesh_prepare(of->mesh, 1)); /* makes the same parts as a marking */
   IS_HELD("surface", riis_surface_update(of->surface, of->valve, NULL));
   CHECK_OK(riis_closest_point(of->surface, origin, &closest, sizeof closest));
   CHECK_OK(riis_marks_create(&other));

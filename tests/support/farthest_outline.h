@@ -7,7 +7,7 @@
 #include <math.h>
 #include <stdint.h>
 
-/* Two unit vectors across the axis of view, which is the third direction of the frame. */
+/* Two unit vectors perpendicular to the axis of view, which is the third direction of the frame. */
 typedef struct frame {
   double x[3], y[3];
 } frame;

@@ -81,7 +81,7 @@ static inline riis_surface_info info_of(const riis_surface *surface) {
   return info;
 }
 
-/* Returns whether two surfaces have the same vertices, triangles, ids and information, to the last bit. Times may differ. */
+/* Returns whether two surfaces have the same vertices, triangles, ids and information, bit for bit. Times may differ. */
 static inline int is_same_content(const riis_surface *a, const riis_surface *b) {
   const riis_triangles s = triangles_of(a), t = triangles_of(b);
   const riis_surface_info of_a = info_of(a), of_b = info_of(b);

@@ -30,7 +30,7 @@ const Kernels &of(int set) {
   return kernels(static_cast<InstructionSet>(set));
 }
 
-// Makes the filter's input in the way of cluster_search.cpp.
+// Makes the filter's input as cluster_search.cpp does.
 struct Filter {
   std::vector<TriangleGroup> groups;
   std::vector<GroupBounds> bounds;

@@ -39,8 +39,8 @@ int too_many_threads_are_a_team(void);
 /* Runs a loop of OpenMP in which the calling thread waits 100 ms for the other thread. Returns whether the next loop runs on a
  * team. */
 int wait_long_for_a_thread(void);
-/* Starts n_callers threads. Each caller runs n_loops loops with 1 to 4 threads. Three of four loops run on teams. Returns 1 if
- * all loops are correct. */
+/* Starts n_callers threads. Each caller runs n_loops loops with 1 to 4 threads. Three out of four loops run on teams. Returns 1
+ * if all loops are correct. */
 int loops_at_once(int n_callers, int n_loops);
 /* Runs a loop on two threads inside a parallel region of the caller. The caller may nest n_levels regions. Returns how many
  * threads each loop had, or -1. */

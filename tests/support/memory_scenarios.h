@@ -31,8 +31,7 @@ enum {
   IS_SHORT = 32       /* on a busy machine, the calling thread may end the loop before other threads begin */
 };
 
-/* --- Objects that all scenarios share
- * ---------------------------------------------------------------------------------------- */
+/* --- Objects that all scenarios share ------------------------------------------------------------------------------ */
 
 static test_mesh nodes, fewer_nodes;
 static uint8_t *mask, *marks; /* one entry per node */

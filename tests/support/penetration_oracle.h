@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
  * Computes how deep two triangles penetrate, and their common segment, with 113 bits of precision. The depth is the distance from
  * the origin to the convex hull of the nine differences of corners. The oracle tries all planes through three of the nine
- * differences. The segment ends at points where an edge passes through the other triangle. The ends of the segment are the two
- * such points that are farthest apart. The library instead compares overlaps along normals, and clips. */
+ * differences. An edge of one triangle may pass through the other triangle at a point. The two of these points that are farthest
+ * apart are the ends of the segment. The library instead compares overlaps along normals, and clips. */
 #ifndef RIIS_TEST_PENETRATION_ORACLE_H
 #define RIIS_TEST_PENETRATION_ORACLE_H
 

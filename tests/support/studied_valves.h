@@ -60,8 +60,8 @@ static inline riis_surface *surface_at(riis_valve *valve, double opening, const 
 }
 
 /* Changes every size by a random share of the size, at most `spread`. The sizes are changed in the order of the list. If a size
- * follows another size, the change starts from the value that follows. A leaflet's size may follow the valve's size, which has
- * already changed. The leaflet's size therefore changes by a smaller share. meeting_shift, and edge_stretch if it is 0, get a
+ * follows another size, the change starts from the value that the rule gives. A leaflet's size may follow the valve's size, which
+ * has already changed. The leaflet's size therefore changes by a smaller share. meeting_shift, and edge_stretch if it is 0, get a
  * random share as their value. Every size stays within its range. Returns the first status that is not RIIS_OK. */
 static inline riis_status vary_sizes(random_source *random, riis_valve *valve, double spread) {
   int64_t n;
@@ -97,7 +97,8 @@ static inline void fuse(random_source *random, riis_valve *valve, const studied 
     if (random_bits(random) % 2) set_numbered(valve, "commissure_", k, ".fusion", random_between(random, 0, 0.6));
 }
 
-/* Sets one to three bumps at random places. Chance decides about each change of a bump, so many valves have only one disease. */
+/* Sets one to three bumps at random places. Each change of a bump is made or omitted at random, so many valves have only one
+ * disease. */
 static inline void add_bumps(random_source *random, riis_valve *valve, const studied *of) {
   for (int i = (int)(random_bits(random) % 3); i >= 0; --i) {
     const int at_commissure = random_bits(random) % 3 == 0;

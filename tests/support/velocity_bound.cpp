@@ -163,7 +163,7 @@ AlongCurve along(const CurvePart &at_now, const CurvePart &at_before, double wid
           least >= tight_share * first && by_itself <= 1 - tight_share};
 }
 
-// Bounds both states separately, and combines the bounds. The result serves a range on which the states lie on different spans
+// Bounds both states separately, and combines the bounds. The result is for a range on which the states lie on different spans
 // and cannot be compared.
 AlongCurve either(const AlongCurve &now, const AlongCurve &before) {
   const auto of = [](Both a, Both b) { return Both{larger(a.size, b.size), a.size + b.size}; };
@@ -246,8 +246,8 @@ class SideInBoth {
   const Curve &now_, &before_;
   const Vector<double> &shares_;
   CurvePoints at_now_, at_before_;
-  // The number of a state is 1 if the state has an additional span at the start, because a joint passed this end of the curve.
-  // Otherwise the number is 0.
+  // Each number is 1 if its state has an additional span at the start, because a joint passed this end of the curve. Otherwise it
+  // is 0.
   std::size_t more_now_, more_before_;
 };
 
@@ -308,7 +308,7 @@ TwoCurves curves_of(const TwoStates &states, std::size_t patch, Side Patch::*sid
   return {along(states.now, states.now.patches[patch].*side), along(states.before, states.before.patches[patch].*side)};
 }
 
-// Bounds the largest curvature of a curve. The bound is infinite if the curve may turn on the spot.
+// Bounds the largest curvature of a curve. The bound is infinite if the curve may reverse its direction at a point.
 double largest_curvature(const Curve &curve) {
   double largest = 0;
   for (const Bezier &span : curve.spans()) largest = larger(largest, largest_curvature(span));
@@ -575,7 +575,7 @@ Vector<double> offset_off_linear(const TwoStates &states, std::size_t patch, con
           {on_base.width(i), is_compared ? (of_factor * on.first).change : 2 * of_factor.size * on.first.size});
     }
     // O' jumps at a joint, so the bound for a range with a joint uses the first derivative. Near a curve's end, the bounds on the
-    // short span beside a joint are far above the true derivatives.
+    // short span next to a joint are far above the true derivatives.
     double error = is_smooth ? off_line(width, second) : off_line(slopes);
     const double at_most = 4 * of_factor.size * largest;  // bounds |O| and its linear interpolation, in both states
     if (!(error <= at_most)) error = at_most;

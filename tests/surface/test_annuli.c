@@ -162,7 +162,7 @@ TEST(annuli_are_fitted_or_refused) {
       leans[n_accepted / 2], leans[9 * n_accepted / 10], leans[n_accepted - 1]);
 }
 
-/* On an ellipse, wide trigones lie behind the horn. Beside an indent, trigones lie before the horn. */
+/* On an ellipse, wide trigones lie behind the horn. Next to an indent, trigones lie in front of the horn. */
 TEST(trigones_behind_the_horn_are_counted) {
   for (int is_indented = 0; is_indented < 2; ++is_indented) {
     const shape s = {14.5, 16.2, 19, 5.5, 1.2, is_indented ? 4 : 0, is_indented ? 3 : 2};
@@ -197,7 +197,7 @@ TEST(contradictions_are_refused) {
   REFUSED("AP_diameter of the fitted valve is |but the horns are |apart, seen along the annulus' normal|worst residual",
           (mark(&m, &s, RIIS_LANDMARK_POSTERIOR_HORN, 270, 0), m.xyz[17][1] += 9));
   /* One horn lies far above the annulus, or one horn lies far above and the other horn far below the annulus. The largest
-   * residual is then beside the horn. */
+   * residual is then near the horn. */
   REFUSED(
       "the axis of the fitted valve is at |degrees to the annulus' normal; it must be at most 20; the horns' heights "
       "make the valve lean: landmark 16 (anterior_horn) is |above and landmark |the annulus' sides|look for a horn",

@@ -175,7 +175,7 @@ TEST(copies_and_moving_updates) {
   assert_true(is_same_content(surface, new_surface(copy_of(valve), NULL)));
   CHECK_OK(riis_surface_update_moving(moving, valve, before, 0.5, NULL, NULL));
   assert_true(is_same_content(surface, moving));
-  /* In one unit of opening, the middle of the right cusp's free edge moves from 0.24 to 0.75 root radii. */
+  /* While the opening goes from 0 to 1, the middle of the right cusp's free edge moves from 0.24 to 0.75 root radii. */
   const riis_triangles all = triangles_of(moving);
   const double *velocity = velocity_of(moving);
   int n = 0;

@@ -86,7 +86,7 @@ TEST(triangles_carry_patch_leaflet_u_and_v) {
     assert_true(sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]) > 1e-12 * longest * longest);
   }
   for (int i = 0; i < 12; ++i) assert_true(per_patch[i] > 50);
-  for (int i = 0; i < 12; i += 4) { /* mirror images have equally many triangles */
+  for (int i = 0; i < 12; i += 4) { /* mirror images have the same number of triangles */
     assert_int_equal(per_patch[i], per_patch[i + 2]);
     assert_int_equal(per_patch[i + 1], per_patch[i + 3]);
   }
@@ -182,9 +182,9 @@ TEST(three_cusps_are_three_pieces) {
 
 static int compare_edges(const void *a, const void *b) { return memcmp(a, b, 6 * sizeof(double)); }
 
-/* To the last bit, the two halves of a cusp meet in its symmetry plane, in any placement of the cusp. Every edge in a cusp's
- * symmetry plane (u = 0 at both ends) belongs to exactly two triangles. If an edge belonged to one triangle only, the sides of
- * points at a folded cusp would be wrong. */
+/* In any placement, the two halves of a cusp have the same bits where they meet, in the cusp's symmetry plane. Every edge in a
+ * cusp's symmetry plane (u = 0 at both ends) belongs to exactly two triangles. If an edge belonged to one triangle only, the
+ * sides of points at a folded cusp would be wrong. */
 TEST(halves_meet_to_the_last_bit) {
   const double turned[3] = {10, -20, 77}, moved[3] = {0.3, 0.2, -0.1};
   riis_valve *valve = new_valve("aortic");

@@ -77,8 +77,8 @@ static double middle_length(const riis_surface *surface, int leaflet) {
   return meridian_length(surface, leaflet, n_cells / 2 - 1);
 }
 
-/* To the last bit, neighbouring leaflets end in the same points at a commissure. The cells of a leaflet also end in the same
- * points where they meet. */
+/* At a commissure, neighbouring leaflets end in the same points, bit for bit. The cells of a leaflet also end in the same points
+ * where they meet. */
 TEST(neighbours_share_their_points) {
   for (int kind = 0; kind < 2; ++kind)
     for (int o = 0; o < 5; o += opening_step()) {
@@ -98,7 +98,7 @@ TEST(neighbours_share_their_points) {
     }
 }
 
-/* The annulus stays at its place, to the last bit. The leaflets share the annulus in their given ratios. */
+/* The annulus stays at its place, bit for bit. The leaflets share the annulus in their given ratios. */
 TEST(annulus_stays) {
   static const double shares[2][3] = {{0.41, 0.59, 0}, {0.36, 0.34, 0.3}}, width[2] = {3.6, 3.8}, depth[2] = {2.7, 3.1},
                       saddle[2] = {0.6, 0.4};
@@ -178,7 +178,7 @@ TEST(middle_keeps_its_length) {
   }
 }
 
-/* An open leaflet is as long as the closed leaflet at each place, also beside its middle. */
+/* An open leaflet is as long as the closed leaflet at each place, and not only in its middle. */
 TEST(open_leaflets_have_the_closed_lengths) {
   for (int kind = 0; kind < 2; kind += trial_step()) {
     riis_surface *closed = surface_at(new_valve(kinds[kind]), 0, 0.002),
@@ -251,7 +251,7 @@ static double line_crease(const riis_surface *surface) {
   return largest;
 }
 
-/* Compares measures of valves with default sizes with the literature (docs/theory/atrioventricular.md, "Measures"). */
+/* Compares measures of default valves with the literature (docs/theory/atrioventricular.md, "Measures"). */
 TEST(measures_are_those_of_the_literature) {
   static const double orifice_least[2] = {4, 4}, orifice_most[2] = {6, 6};
   for (int kind = 0; kind < 2; kind += trial_step()) {
@@ -422,8 +422,8 @@ static start_of_edge start_of_posterior_edge(riis_valve *valve) {
 }
 
 /* Commissures hold a leaflet: a bump lifts the place next to a commissure at most 0.4 cm higher than the commissure. This limit
- * is half of commissure_length. The first part of the edge ends at a third of its cubic, so three times its control points
- * count. */
+ * is half of commissure_length. The first part of the edge is a third of its cubic. The difference of the part's first two
+ * control points therefore counts three times. */
 TEST(commissures_hold_a_lifted_leaflet) {
   static const double lifts[5] = {0.3, 0.8, -0.8, 0.3, 0.8}, raised[5] = {0, 0, 0, 0.2, 0.2},
                       expected[5] = {0.3, 0.4, -0.4, 0.3, 0.8};

@@ -248,7 +248,7 @@ TEST(a_ring_is_the_housing) {
     assert_int_equal(n_of_ring, c.n_triangles - d.n_triangles);
     const double whole = 2 * 3.14159265358979323846 * of.radius * of.ring_height;
     CHECK_NEAR(area, whole, 7 * bound * of.ring_height);
-    /* The ring does not change the leaflets, to the last bit. */
+    /* The ring does not change a single bit of the leaflets. */
     assert_memory_equal(c.xyz, d.xyz, (size_t)d.n_vertices * 24);
     for (int i = 0; i < 200; ++i) {
       double p[3];

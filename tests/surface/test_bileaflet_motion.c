@@ -107,7 +107,7 @@ TEST(vertices_and_closest_points_turn_exactly) {
 /* Returns the largest difference from omega x r over a step of the opening. */
 static double from_spin(const bileaflet *of, riis_valve *valve, riis_surface *surface, double opening, double step) {
   const double per_opening =
-      degree * (of->open_angle - of->closed_angle); /* radians a second, if the opening rises by 1 a second */
+      degree * (of->open_angle - of->closed_angle); /* radians per second, if the opening rises by 1 per second */
   moving_update(surface, valve, opening, opening - step, step, NULL);
   const riis_triangles c = triangles_of(surface);
   const double *velocity = velocity_of(surface);

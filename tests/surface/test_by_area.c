@@ -97,7 +97,7 @@ TEST(openings_have_their_areas) {
     double untouched = 1;
     CHECK_OK(riis_valve_get(valve, "opening", 1, &untouched));
     assert_true(untouched == 0);
-    /* The area equals that of a new surface, to the last bit. */
+    /* The area equals that of a new surface, bit for bit. */
     const double again = area_at(valve, found.value, &search), error = fabs(again / area - 1);
     assert_true(again == found.reached);
     CHECK_AT_MOST(error, is_fixed ? 1e-6 : 1e-4);
@@ -168,7 +168,7 @@ TEST(openings_have_the_areas_of_a_raster) {
   }
 }
 
-/* Areas grow with the square of the scale. Effective areas also grow so, if the half thickness grows with the scale. */
+/* Areas grow with the square of the scale. If the half thickness grows with the scale, so do effective areas. */
 TEST(scales_are_roots_of_areas) {
   for (int trial = 0; trial < (is_long_test() ? 4 : 1) * n_kinds; trial += trial_step()) {
     const double scale = between(0.5, 2), factor = between(0.2, 5);
@@ -342,7 +342,7 @@ TEST(turns_are_told) {
   assert_int_equal(above.range.n_turns, 1);
   CHECK_NEAR(above.value, 172, 0.1);
   CHECK_NEAR(above.reached, both, 1e-4 * both);
-  if (is_short_test()) return; /* the other search is as long */
+  if (is_short_test()) return; /* the next search takes as long as the last one */
   CHECK_OK(riis_valve_set_scalar(mitral, "leaflet_inward_angle", 125));
   const solution below = solve(mitral, "leaflet_inward_angle", both, &search);
   printf("turn of the mitral valve at %.2f; angles %.3f and %.3f\n", below.range.turns[0], below.value, above.value);
@@ -453,7 +453,7 @@ TEST(searches_are_refused) {
 #undef REFUSED
 }
 
-/* The search skips values that make no valve. */
+/* The search skips values with which no valve can be made. */
 TEST(impossible_sizes_are_left_out) {
   riis_valve *valve = new_valve("trileaflet");
   const riis_area_search usual = area_search();

@@ -365,7 +365,7 @@ TEST(vertices_are_where_the_formulas_say) {
   }
 }
 
-/* Checks the sizes that the parameters promise, and the coaptation zone beside the planes between the cusps. */
+/* Checks the sizes that the parameters promise, and the coaptation zone near the planes between the cusps. */
 TEST(closed_cusps_coapt) {
   random_source random = random_start("test_coapting");
   for (int trial = 0; trial < trials_of(30); ++trial) {
@@ -403,7 +403,7 @@ static int64_t n_pairs_of(const riis_surface *surface, riis_crossings *crossings
   return list.n_pairs;
 }
 
-/* Points beside the coaptation zone get the side of the nearer cusp. */
+/* A point near the coaptation zone must have the side of the nearer cusp. */
 static int64_t wrong_sides(const riis_surface *surface, const sizes *v, random_source *random, int n) {
   const half closed = half_of(v->of, v->of, 0);
   int64_t wrong = 0;
@@ -422,8 +422,8 @@ static int64_t wrong_sides(const riis_surface *surface, const sizes *v, random_s
 }
 
 /* Returns the number of pairs of triangles that cross because the smooth valve crosses. A leaflet may be nearly tangent to itself
- * beside the root, at a distance of about 1 micrometre. The leaflet's triangles may then cross by at most twice their error
- * bound, but finer triangles do not cross. `n_shallow` counts such crossings. */
+ * near the root, at a distance of about 1 micrometre. The leaflet's triangles may then cross by at most twice their error bound,
+ * but finer triangles do not cross. `n_shallow` counts such crossings. */
 static int64_t true_crossings(const riis_surface *surface, const riis_valve *valve, riis_crossings *crossings,
                               int64_t *n_shallow) {
   const int64_t found = n_pairs_of(surface, crossings);
@@ -458,7 +458,7 @@ static double off_side(const riis_valve_patches *patches, int32_t patch_id, int 
   return farthest;
 }
 
-/* A zone that begins just above the root also has no crease. Beside the root, the leaflet turns upwards with a radius of 4
+/* A zone that begins just above the root has no crease either. Near the root, the leaflet turns upwards with a radius of 4
  * micrometres, as docs/theory/coapting.md says. Differences over steps longer than this radius would report the turn as a
  * crease. */
 TEST(a_low_zone_turns_sharply_without_a_crease) {
@@ -486,8 +486,8 @@ TEST(a_low_zone_turns_sharply_without_a_crease) {
   }
 }
 
-/* With some sizes, the fully open leaflet is nearly tangent to itself beside the root. The triangles of the default tolerance
- * cross by a fraction of a micrometre, but the valve does not. */
+/* With some sizes, the fully open leaflet is nearly tangent to itself near the root. The triangles of the default tolerance cross
+ * by a fraction of a micrometre, but the valve does not. */
 TEST(a_nearly_tangent_leaflet_does_not_cross) {
   static const double near[n_sizes] = {0.98866634, 0.92969360, 1.24758771, 0.44617366, 0.39553918,
                                        0.00534347, 30.093938,  0.3640963,  0.2068927,  0.4116654,
@@ -566,7 +566,7 @@ TEST(placements_move_the_valve) {
   }
 }
 
-/* At 11 openings, random valves do not cross, their free edges keep their length, and the coaptation line is no crease. Cusps
+/* At 11 openings, random valves do not cross, their free edges keep their length, and the coaptation line is not a crease. Cusps
  * stay in their sectors, so two cusps cannot cross. RIIS_TEST_LONG=1 takes 300 valves. */
 TEST(random_valves_open_well) {
   random_source random = random_start("test_coapting");
@@ -804,7 +804,7 @@ TEST(every_parameter_by_name) {
   riis_valve *valve = new_valve("coapting");
   int64_t n;
   CHECK_OK(riis_valve_get_n_parameters(valve, &n));
-  /* Parameters that are no sizes: the translation, the opening, the length of a skirt and the edge's stretch. The parameters of
+  /* Four parameters are not sizes: the translation, the opening, the length of a skirt and the edge's stretch. The parameters of
    * commissures, cusps and bumps follow. */
   assert_int_equal(n, n_sizes + 4 + 3 * 2 + 3 * 4 + 6 * 6);
   riis_surface *half_open = new_surface(valve_at("coapting", 0.5), NULL);

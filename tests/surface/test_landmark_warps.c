@@ -100,7 +100,8 @@ static riis_surface_options random_placement(int32_t triangulation) {
   return options;
 }
 
-/* Places a point as riis_surface_options says, by Rodrigues' formula. For a vector, `is_vector` leaves out the translation. */
+/* Places a point as riis_surface_options says, by Rodrigues' formula. If `is_vector` is not 0, p is a vector, and the translation
+ * is left out. */
 static void place(const riis_surface_options *by, int is_vector, const double *p, double *placed) {
   const double *a = by->rotation_axis, size = sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
   const double angle = by->rotation_angle * acos(-1) / 180, c = cos(angle), s = sin(angle);
@@ -307,7 +308,7 @@ TEST(valves_meet_the_landmarks_of_patients) {
       const int n_patients = is_long_test() ? 12 : 1;
       for (int trial = 0; trial < n_patients; ++trial) {
         const int owned_before = n_owned();
-        const double noise = trial % 2 && n <= 12 ? 0.1 : 0; /* the noise of dense landmarks folds */
+        const double noise = trial % 2 && n <= 12 ? 0.1 : 0; /* noise of dense landmarks would fold the valve */
         const patient at = kind == mitral ? random_annulus(n, noise) : random_root(kind, n, noise);
         riis_surface_options options, fine;
         riis_valve *valve = warped_to(&at, kind, &options);

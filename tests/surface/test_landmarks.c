@@ -403,7 +403,7 @@ TEST(test_exact_sectors) {
     const cusp_sizes c = random_cusps(2 + trial % 3);
     patient p = patient_of(&c, true);
     riis_valve *valve = new_valve(kinds_of[c.n]);
-    const double shift = c.n == 2 ? 0.02 : 0; /* two cusps may meet beside the axis */
+    const double shift = c.n == 2 ? 0.02 : 0; /* two cusps may meet off the axis */
     if (c.n == 2) CHECK_OK(riis_valve_set_scalar(valve, "meeting_shift", shift));
     if (trial % 2 == 0) add(&p, RIIS_LANDMARK_COAPTATION, shift * c.Rc, 0, 0.6);
     place_patient(&p, scales[trial % 3]);
@@ -529,7 +529,7 @@ TEST(test_held_sectors) {
   CHECK_OK(try_to_place(valve, &p, "commissure_1.height", &found));
   CHECK_NEAR(value(valve, "commissure_0.height"), 1.9, 1e-8);
   CHECK_NEAR(value(valve, "commissure_height"), 1.75, 1e-8);
-  /* If the cusps of a template differ, the fit keeps them when the landmarks agree. */
+  /* The fit keeps the unequal cusps of a template that agree with the landmarks. */
   valve = new_valve("coapting");
   set_cusps(valve, &c);
   for (int k = 0; k < 3; ++k) CHECK_OK(riis_valve_set_scalar(valve, of("commissure", k, "height"), 2 * c.height[k]));
@@ -561,7 +561,7 @@ TEST(test_exact_aortic) {
     double angle[3] = {between(54, 66), between(54, 66), 0};
     angle[2] = 180 - angle[0] - angle[1];
     patient p = aortic(R, Rc, h, angle);
-    /* The names of two nadirs suffice, and the name of one commissure suffices. */
+    /* The names of two nadirs, or of one commissure, determine the names of all cusps. */
     if (trial % 4 == 1) p.leaflet_id[2][0] = -1;
     if (trial % 4 == 2) {
       for (int i = 0; i < p.n; ++i) p.leaflet_id[i][0] = -1;
@@ -581,7 +581,7 @@ TEST(test_exact_aortic) {
       CHECK_NEAR(value(valve, name), angle[cusp], 1e-7);
       snprintf(name, sizeof name, "%s.leaflet_radius_out", cusps[cusp]);
       CHECK_NEAR(value(valve, name), end, 1e-9);
-      /* Cusps close at the commissures if radii and angles meet there. */
+      /* Neighbouring cusps meet at the commissures. The rotations of the cusps therefore follow from the angles. */
       snprintf(name, sizeof name, "%s.rotation", cusps[cusp]);
       CHECK_OK(riis_valve_get(valve, name, 3, turn));
       CHECK_NEAR(turn[2], cusp == 0 ? 0 : cusp == 1 ? angle[0] + angle[1] : -angle[0] - angle[2], 1e-7);
@@ -914,7 +914,7 @@ TEST(test_exact_saddles) {
   }
 }
 
-/* A measured length stays. The leaflets of two commissures suffice. */
+/* A measured length stays. Two commissures with named leaflets suffice. */
 TEST(test_saddle_with_lengths) {
   saddle s = random_saddle(false);
   patient p = patient_with(&s, 12, false, false);

@@ -237,7 +237,7 @@ TEST(has_no_cracks) {
   }
 }
 
-/* Closed leaflets meet in one polyline. Both leaflets have the vertices of this polyline, to the last bit. */
+/* Closed leaflets meet in one polyline. Both leaflets have the vertices of this polyline, bit for bit. */
 TEST(closed_leaflets_share_their_edge) {
   riis_surface *surface = mitral_surface(0, 0.05);
   const riis_triangles c = triangles_of(surface);
@@ -341,7 +341,7 @@ TEST(opens_continuously) {
   }
 }
 
-/* An update to a new opening equals a new surface at this opening, to the last bit. */
+/* An update to a new opening equals a new surface at this opening, bit for bit. */
 TEST(an_update_moves_the_valve) {
   riis_valve *valve = mitral_valve(0);
   riis_surface *moving = new_surface(valve, NULL);

@@ -344,7 +344,7 @@ TEST(patches_grow_and_drift) {
   printf("off by %.3f of what the tolerance allows\n", worst);
 }
 
-/* With a negative time, the two states give the opposite velocities, to the last bit. */
+/* With a negative time, the two states give exactly the opposite velocities. */
 TEST(time_goes_back) {
   for (int trial = 0; trial < trials_of(45); ++trial) {
     const int owned_before = n_owned();

@@ -81,8 +81,8 @@ static double units_from_key(double time, double key, double period, int n_perio
   return (double)(distance / (DBL_EPSILON * fmaxl(fmaxl(fabsl(time), fabsl(key)), period)));
 }
 
-/* Checks the doubles around each key in the periods -2 to 1000. A time within 8 units of rounding of a key has the key's opening
- * and the rate after the key, to the last bit. Returns the number of such times. */
+/* Checks the doubles around each key in the periods -2 to 1000. A time within 8 units of rounding of a key has exactly the key's
+ * opening and the rate after the key. Returns the number of such times. */
 static int64_t check_keys_of_periods(const riis_opening_table *table) {
   const int64_t n = table->n_keys;
   int64_t n_at_keys = 0;

@@ -317,12 +317,13 @@ TEST(pairs_equal_those_of_all_triangles) {
   }
 }
 
-/* There are so many groups of triangles that threads share the work. The tree of boxes has several levels. */
+/* Compares the numbers of two lists, except the seconds. */
 static int same_summary(const riis_crossing_list *a, const riis_crossing_list *b) {
   const size_t from = offsetof(riis_crossing_list, total_length), to = offsetof(riis_crossing_list, seconds);
   return a->n_pairs == b->n_pairs && memcmp((const char *)a + from, (const char *)b + from, to - from) == 0;
 }
 
+/* There are so many groups of triangles that threads share the work. The tree of boxes has several levels. */
 TEST(threads_find_the_same) {
   soup *s = own(malloc(sizeof *s));
   s->n_vertices = s->n_triangles = 0;

@@ -90,8 +90,8 @@ static const char *of_cusp(int cusp, const char *name) {
   return made;
 }
 
-/* Returns the exponent p with which the profile x = in + (end - in) (y / y_end)^p ends towards the axis. For this exponent, p
- * (end - in) equals end. The sizes are the radii `in` and `end`, and the angle. */
+/* Returns the exponent p with which the profile x = in + (end - in) (y / y_end)^p points at its end towards the axis. For this
+ * exponent, p (end - in) equals end. The sizes are the radii `in` and `end`, and the angle. */
 static double largest_power(const double *sizes) {
   const double end = sizes[1] * cos(sizes[2] * acos(-1) / 180);
   return end > sizes[0] ? end / (end - sizes[0]) : INFINITY;
@@ -739,7 +739,7 @@ static int cusp_folds(riis_valve *valve) {
 }
 
 /* At the root, the attachment of this left cusp hardly leaves the symmetry plane, but does not turn back. The open cusp folds
- * beside its attachment, and triangles of any fineness cross. */
+ * near its attachment, and triangles of any fineness cross. */
 TEST(an_open_cusp_may_fold) {
   static const struct {
     const char *name;

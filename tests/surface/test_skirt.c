@@ -202,8 +202,8 @@ TEST(leaflets_stay_as_they_are) {
 }
 
 /* Along the attachment, the edges of the leaflets and of the skirt run in opposite directions. The normals of leaflets and skirt
- * therefore point to one side. With a fixed triangulation, each mitral edge belongs to one leaflet and to the skirt, to the last
- * bit. */
+ * therefore point to one side. With a fixed triangulation, each mitral edge belongs to one leaflet and to the skirt, with the
+ * same bits. */
 TEST(the_skirt_continues_the_leaflets) {
   for (int trial = 0; trial < n_trials_of_kinds(); trial += trial_step()) {
     const int owned_before = n_owned(), kind = trial % n_skirted, is_fixed = trial / n_skirted % 2;

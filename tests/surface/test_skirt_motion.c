@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Compares velocities of skirts with central displacements. The compared points belong to the attachment, lie outwards from it by
+ * Compares velocities of skirts with central displacements. The compared points lie on the attachment, lie outwards from it by
  * separate formulas, or are vertices of a fixed triangulation. */
 #include <riis/riis.h>
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests skirts of surfaces from arrays. Arrays of a valve's own triangles get the skirt that the valve gets. Directions are
+ * Tests skirts of surfaces from arrays. A surface from a valve's own triangles must have the valve's skirt. Directions are
  * compared with sums over the attachment, and velocities with differences. */
 #include <riis/riis.h>
 
@@ -465,7 +465,7 @@ TEST(refusals) {
   bad = good;
   bad.attached = attached;
   refuse(&bad, RIIS_INVALID_SURFACE, "arrays.attached is 0 for all");
-  for (int64_t i = 0; i < good.n_vertices; ++i) attached[i] = 1; /* painted all over */
+  for (int64_t i = 0; i < good.n_vertices; ++i) attached[i] = 1; /* marks all vertices as attached */
   refuse(&bad, RIIS_INVALID_SURFACE, "arrays.attached: no open edge leads from vertex ");
 
   /* Tests a closed surface, a tube with two rims, and leaflets that do not touch. */

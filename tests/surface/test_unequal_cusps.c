@@ -225,8 +225,8 @@ static double sag_by_commissure(riis_valve *valve, int cusp) {
   return (edge.q[3].x[2] - edge.q[2].x[2]) / (edge.q[3].x[2] - edge.q[0].x[2]);
 }
 
-/* A cusp that is lower and lower leaves its commissures flatter and flatter, without a jump. Its neighbours stay as they are.
- * It neither folds nor changes its length. */
+/* The lower a cusp is, the flatter its edge leaves the commissures, without a jump. The cusp does not fold, and its edge keeps
+ * its length. Its neighbours stay as they are. */
 TEST(cusps_near_a_fold_leave_their_commissures_flatter) {
   riis_valve *valve = new_valve("coapting");
   riis_crossings *crossings = NULL;
@@ -262,7 +262,7 @@ TEST(cusps_near_a_fold_leave_their_commissures_flatter) {
 
 static int is_same_point(const double *a, const double *b) { return memcmp(a, b, 3 * sizeof *a) == 0; }
 
-/* To the last bit, the halves of a cusp meet in its symmetry plane, and neighbours meet in their commissure. */
+/* The halves of a cusp have the same bits in its symmetry plane, and so have neighbouring cusps at their commissure. */
 TEST(neighbours_share_their_points) {
   random_source random = random_start("test_unequal_cusps");
   for (int trial = 0; trial < trials_of(12); ++trial) {

@@ -111,8 +111,8 @@ TEST(free_edges_keep_their_length) {
   CHECK_AT_MOST(worst, 1e-12);
 }
 
-/* Returns the area inside the outline that no triangle covers, seen along the axis. The part of the grid beside an annulus is
- * also open. */
+/* Returns the area inside the outline that no triangle covers, seen along the axis. The part of the grid outside an annulus does
+ * not count. */
 static double open_area(const riis_surface *surface, double root_radius) {
   enum { n = 400 };
   riis_attachment annulus;

@@ -228,7 +228,7 @@ TEST(the_bound_is_near) {
     printf("%s, %d openings: the bound is %.3g to %.3g of the largest speed\n", kinds[kind], n, least, largest);
     CHECK_AT_MOST(largest, most[kind]);
   }
-  /* At opening 0.633 a joint of the annulus passes the end of a mitral patch. The span behind the joint is short at this opening,
+  /* At opening 0.633 a joint of the annulus passes the end of a mitral patch. The span after the joint is short at this opening,
    * and its length changes many times over. A bound that compared the two states on this short span would reach 3.8 times the
    * largest speed. */
   riis_valve *passing = new_valve("mitral"), *just_before = new_valve("mitral");

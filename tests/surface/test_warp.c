@@ -114,7 +114,8 @@ static int64_t landmarks_on(const riis_surface *surface, int64_t n_wanted, doubl
   return n;
 }
 
-/* The landmarks lie beside the attachment. No curve is cut beside the attachment, so a warped curve keeps its spans. */
+/* The landmarks lie near the attachment, but not on it. Landmarks off the attachment cut no curve, so a warped curve keeps its
+ * spans. */
 static int64_t landmarks_beside(const riis_surface *surface, int64_t n_wanted, double *xyz) {
   const int64_t n = landmarks_on(surface, n_wanted, xyz);
   for (int64_t i = 0; i < n; ++i)
@@ -811,7 +812,7 @@ TEST(a_changed_earlier_state_is_made_again) {
   }
 }
 
-/* A table of keys gives the bits of targets that the test interpolates by itself. The table repeats after a period. */
+/* A table of keys gives the bits of targets that the test itself interpolates. The table repeats after a period. */
 TEST(keys_in_time_give_targets) {
   double from[3 * 12], frames[3][3 * 12], by_hand[3 * 12], a[3], b[3];
   const double time[3] = {0, 0.25, 1}, probe[3] = {0.3, -0.2, 0.4};

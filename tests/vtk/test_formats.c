@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
  * Tests meshes of other programs: gmsh, VTK's writers of Exodus and .vtm, and XDMF. gmsh or VTK also writes each mesh as .vtk or
- * .vtu. The two files of a mesh are compared in exact bits and in any order of nodes and cells. test_openfoam_files tests the
+ * .vtu. The two files of a mesh are compared bit for bit, but in any order of nodes and cells. test_openfoam_files tests the
  * meshes of OpenFOAM. */
 #include <math.h>
 #include <riis/riis_vtk.h>

@@ -104,7 +104,7 @@ TEST(test_every_cell) {
   expect_adjacency("zoo.vtu", n_shim_zoo, 100);
 }
 
-/* Returns whether the file has the expected rows. */
+/* Checks that the file has the expected rows. */
 static void expect_same_rows(const char *name, const riis_csr *expected) {
   riis_vtk_mesh *mesh = read_mesh(name);
   riis_adjacency *adjacency = NULL;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Compares the neighbour search with the exhaustive search, to the last bit. The unstructured meshes come from files of VTK's
+ * Compares the neighbour search with the exhaustive search, bit for bit. The unstructured meshes come from files of VTK's
  * Delaunay filter and of gmsh. */
 #include <riis/riis_vtk.h>
 

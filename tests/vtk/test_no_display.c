@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Without a display, riis refuses a picture. VTK by itself would abort the process. */
+ * Without a display, riis refuses a picture. VTK alone would abort the process. */
 #include <riis/riis_vtk.h>
 #include <stdint.h>
 #include <stdlib.h>

@@ -274,7 +274,7 @@ TEST(test_advised_commands) {
   run("cp -r whole fluent && cd fluent && foamMeshToFluent && cp fluentInterface/fluent.msh heart.cas && rm -r "
       "constant && "
       "fluentMeshToFoam heart.cas");
-  /* Fluent's file has ten digits, and an order of its own. */
+  /* Fluent's file has ten digits, and another order. */
   int64_t n_nodes[2], n_cells[2];
   double sum[2] = {0, 0};
   for (int i = 0; i < 2; ++i) {

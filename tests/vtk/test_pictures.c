@@ -383,7 +383,7 @@ TEST(test_long_mesh) {
   picture = read_pixels("short.png");
   assert_true(most_changes_in_a_row(&picture, &row) < 20);
   free(picture.rgb);
-  /* Without captions, nothing explains dashes. */
+  /* Without captions, nothing would explain dashes, so none are drawn. */
   riis_vtk_picture_options options;
   expect_fine(riis_vtk_picture_options_init(&options, sizeof options));
   options.view = RIIS_VTK_VIEW_SIDE;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
  * Tests surfaces of other programs: .obj, .ply and legacy .vtk. This test writes one surface in each format. The reader must
- * return the surface's vertices and faces to the last bit. Refusals of damaged files name the files. */
+ * return the surface's vertices and faces bit for bit. Refusals of damaged files name the files. */
 #include <math.h>
 #include <riis/riis_vtk.h>
 #include <stdarg.h>

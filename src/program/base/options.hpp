@@ -181,7 +181,7 @@ struct ExportOptions : ValveOptions {
   std::string folder;
   std::string mesh;  // the mesh of the solver's run, for a forecast; "": none
   double time_step = 0;
-  // The density and the viscosity serve the forecast. By default, both have the values of blood.
+  // The forecast uses the density and the viscosity. By default, both have the values of blood.
   std::optional<Amount> given_resistance, given_density, given_viscosity;
   double resistance = 0, density = 0, viscosity = 0;  // in the solver's units, g, cm and s
   double to_solver = 1;  // the factor from the mesh's unit of length to the solver's, which is cm

@@ -9,7 +9,7 @@
 
 namespace riis::program {
 
-// Throws a Refusal if the system gives no answer.
+// Throws a Refusal if the system does not report the path.
 std::string path_of_this_program();
 
 // Makes a pipe whose ends no other program inherits. Returns true after success. After a failure, errno has the reason.
@@ -19,7 +19,7 @@ bool make_pipe(int ends[2]);
 // ended before the call.
 void end_with_parent(int signal);
 
-// Returns the bytes of this process that count towards the limit of its memory (RLIMIT_AS). If the system does not tell this
+// Returns the bytes of this process that count towards the limit of its memory (RLIMIT_AS). If the system does not report this
 // number, or ignores the limit, returns nothing.
 std::optional<std::uintmax_t> limited_memory();
 

@@ -86,8 +86,8 @@ constexpr double most_edge = 10, most_edge_of_valve = 0.4;
 constexpr double smallest_half_thickness = 0.3;
 // A unit is impossible if it makes the vessel much too narrow or much too wide. The larger ratio allows a valve in a wide basin.
 constexpr double most_too_narrow = 1.5, most_too_wide = 10;
-// A unit is possible if its oddity (a measure of how unlikely it is) is at most a few times the oddity of the likeliest unit. The
-// oddity of a unit is a product of ratios of at least 1.
+// The oddity of a unit measures how unlikely the unit is, as a product of ratios of at least 1. A unit is possible if its oddity
+// is at most a few times the oddity of the likeliest unit.
 constexpr double most_odd = 2.7;
 // In a wide basin, the present unit is right if every other unit is clearly odder.
 constexpr double surely_odder = 1.35;

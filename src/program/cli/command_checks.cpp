@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks that the options of a command fit together. See command_options.hpp.
+// Checks that the options of a command fit together. See command_line.hpp.
 #include "program/cli/command_line.hpp"
 
 #include <CLI/CLI.hpp>
@@ -105,7 +105,7 @@ void finish_valve(const Command &command, ValveOptions &options) {
 }
 
 // Completes the options of a surface in a mesh. If the command lacks an option, the option has its default. `sweeps_openings`
-// says whether the command opens the valve by itself.
+// says whether the command itself opens the valve.
 void finish_surface_in_place(const Command &command, MarkOptions &options, bool sweeps_openings = false) {
   check_valve(command, options);
   check_series(command, options);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The program riis, from the command line to an exit status. Every error ends as one line on stderr. Without arguments the
+// The program riis, from the command line to an exit status. Every error is reported in one line on stderr. Without arguments the
 // program prints a few lines of help on stderr.
 #include <fcntl.h>
 
@@ -26,8 +26,8 @@ int give_up(int exit_code, std::string text) {
 }
 
 // Opens a substitute for each standard stream that is closed. Without a substitute, the next file to be opened would get the
-// number of the closed stream, and the program would print into this file. A substitute is opened for reading only, so prints to
-// it fail.
+// number of the closed stream, and the program would print into this file. A substitute is opened for reading only, so printing
+// to it fails.
 void occupy_closed_streams() {
   for (const int stream : {0, 1, 2}) {
     if (fcntl(stream, F_GETFD) < 0) open("/dev/null", O_RDONLY);

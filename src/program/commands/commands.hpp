@@ -21,8 +21,8 @@ riis_surface_options own_frame(const ValveOptions &options);
 // the opening or the size that gives this area. For areas in time, the result is a cycle of openings.
 void run_from_area(const AreaOptions &options);
 
-// riis place. The inputs are landmarks of a patient. Prints the sizes and the placement of the valve: as a report, as a file for
-// every command, and as text for OpenFOAM, C and Fortran.
+// riis place. The inputs are landmarks of a patient. Prints the sizes and the placement of the valve: as a report, as a file that
+// every command reads, and as text for OpenFOAM, C and Fortran.
 void run_place(const PlaceOptions &options);
 
 // riis patient. The input is a patient's wall and landmarks. The result is a folder with the placed valve, a mesh with named
@@ -45,8 +45,8 @@ UrisExport write_uris(const ExportOptions &options, const std::string &named_fol
 ExitCode run_size_field(const SizeFieldOptions &options);
 
 // The input is the user's request. The results are the files, and the report on stdout. Returns exit_none_marked if no node was
-// marked, unless the user allowed this. Returns exit_warned if a check found a fault, or if there was a warning and the user gave
-// --strict. Otherwise returns exit_fine.
+// marked, unless the user allowed this. Returns exit_warned if a check found a fault, and with --strict also after a warning.
+// Otherwise returns exit_fine.
 ExitCode run(const Request &request);
 
 }  // namespace riis::program

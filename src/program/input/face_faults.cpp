@@ -36,8 +36,7 @@ class Pieces {
     const std::int64_t as_it_is = sets_.root(face), turned = sets_.root(n_ + face);
     return {std::min(as_it_is, turned), turned < as_it_is};
   }
-  // Joins two faces, whose orientations agree or differ. `turned` tells whether the orientations differ. Two faces in one piece
-  // stay as they are.
+  // Joins two faces. `turned` tells whether their orientations differ. Two faces in one piece stay as they are.
   void join(std::int64_t one, std::int64_t other, bool turned) {
     if (find(one).piece == find(other).piece) return;
     sets_.unite(one, turned ? n_ + other : other);

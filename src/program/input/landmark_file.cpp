@@ -373,7 +373,7 @@ void read_fcsv(const std::string &text, LandmarkFile &file) {
   const std::size_t label = column("label");
   const std::array<std::size_t, 3> xyz = {column("x"), column("y"), column("z")};
   const std::size_t last = std::max({label, xyz[0], xyz[1], xyz[2]});
-  // Version 5 adds the status of a point behind the 14 named cells: 2 for a placed point.
+  // Version 5 adds the status of a point after the 14 named cells: 2 for a placed point.
   constexpr std::size_t n_named = 14;
   Collector to(file);
   for (const CsvFile::Row &row : rows) {
@@ -390,7 +390,7 @@ void read_fcsv(const std::string &text, LandmarkFile &file) {
 
 // ---- CSV ----
 
-// Reads a table of control points that 3D Slicer exported. The names of the columns tell the axes, and lengths are in mm. Returns
+// Reads a table of control points that 3D Slicer exported. The names of the columns show the axes, and lengths are in mm. Returns
 // false for another file.
 bool read_slicer_table(const std::string &text, LandmarkFile &file) {
   const std::string &path = file.path;

@@ -27,8 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Returns whether a damaged file of this format can crash its reader. Files of HDF5, and files that VTK's reader of Exodus reads,
-// can crash their reader.
+// Returns whether a damaged file of this format can crash its reader. HDF5's reader and VTK's reader of Exodus can crash.
 bool may_crash(const std::string &path) {
   static const std::set<std::string> endings = {".xdmf", ".xmf", ".e", ".exo", ".ex2", ".exii"};
   return endings.count(ending_of(path)) != 0;
@@ -78,7 +77,7 @@ struct Answer {
 
 // Reads the mesh, writes it to a .vtu file, and sends the result through the pipe.
 [[noreturn]] void read_as_child(const std::string &path, const std::string &passed, int answer, pid_t parent) {
-  // Readers print their own errors. The child process discards them. The child process sends its message through the pipe.
+  // Readers print their own errors, which the child process discards. The child process sends its message through the pipe.
   const int nowhere = open("/dev/null", O_WRONLY);
   // The child process ends with its parent, and does not remove the parent's files.
   for (const int ending : UnbrokenWrite::signals)

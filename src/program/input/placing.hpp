@@ -52,8 +52,8 @@ std::string landmark_ending(const std::string &path);
 // Reads the text of a file of landmarks. The ending of its path tells the format. `kind` is the kind of valve that the user
 // named, or "". If a name is wrong, the message lists the names for this kind.
 LandmarkFile read_landmarks(const std::string &path, const std::string &text, const std::string &kind = "");
-// Refuses landmarks that all name their cusps if a nadir or a commissure of this kind of valve is missing. The message names the
-// missing landmark.
+// If all given nadirs and commissures name their cusps, every nadir and commissure of this kind of valve must be given. The
+// refusal names the missing landmarks.
 void check_names_of_cusps(const LandmarkFile &landmarks, const std::string &kind);
 // Reads landmarks in memory from an object that has the keys of a file. `subject` names the landmarks in refusals.
 LandmarkFile landmarks_of_json(const std::string &subject, const Json &root);

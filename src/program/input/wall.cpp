@@ -27,7 +27,7 @@ constexpr double most_beyond = 0.01;
 // The largest length of a hole in the wall, as a share of the attachment's length. A longer open line is the end of a vessel.
 constexpr double longest_hole = 0.3;
 
-// A wall that differs from its file: its lengths are multiplied by a factor, or it is turned by half a turn about z, as between
+// A wall that differs from its file. Its lengths are multiplied by a factor, or it is turned by half a turn about z, as between
 // the axes LPS and RAS.
 struct Change {
   const char *factor;

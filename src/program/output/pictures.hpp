@@ -20,7 +20,7 @@
 
 namespace riis::program {
 
-// Refuses views by the valve's axes if there are several valves, or if a file of triangles has no axes. `valve` must have the
+// Refuses views by the valve's axes for several valves, and for a file of triangles, which has no axes. `valve` must have the
 // options of the first valve.
 void check_views(const MarkOptions &options, std::size_t n_valves, const ValveOptions &valve);
 

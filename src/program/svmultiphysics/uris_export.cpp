@@ -57,8 +57,8 @@ class Keys {
   const OpeningTable &table_;
 };
 
-// Returns the span from a key with the opening `from` to a later key with the opening `to`. The span ends at the first such key
-// with the opening `to`. The span starts at the last key with the opening `from` before this end.
+// Finds the first key with the opening `to` after a key with the opening `from`, and the last key with the opening `from` before
+// it. Returns the span between these two keys.
 std::optional<TimeSpan> way_between(const Keys &keys, double from, double to) {
   std::optional<double> start;
   for (std::size_t i = 0; i < keys.size(); ++i) {

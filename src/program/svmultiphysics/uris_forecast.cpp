@@ -24,7 +24,7 @@ constexpr double band_end = 5;
 // The least sufficient drop, as a share of (R / eps) u. The second number is the largest half thickness that is tried, divided by
 // the given half thickness.
 constexpr double enough = 0.9, most_thickness = 2;
-// If a drop exceeds (R / eps) u by more than a small share, it is no forecast.
+// A drop above (R / eps) u divided by this share is no valid forecast.
 constexpr double least_of_sensible = 0.95;
 
 // Returns whether two corners are the ends of an edge.
@@ -273,7 +273,7 @@ class Forecaster {
   }
 
   // Because of the stabilisation, the drop can exceed (R / eps) u a little. A drop that is negative or much larger than (R / eps)
-  // u is no forecast.
+  // u is no valid forecast.
   static bool is_sensible(double drop) { return drop > 0 && drop <= 1 / least_of_sensible; }
 
   // Returns a length in the unit of the mesh, as the user would write it.

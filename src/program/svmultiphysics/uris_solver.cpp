@@ -218,7 +218,7 @@ SolverDistances solver_distances(const SolverMesh &mesh, const UrisLeaflets &lea
 
 double delta_of(double distance, double half_thickness) {
   if (!(distance < half_thickness)) return 0;
-  // As in the solver, delta is periodic, so an interpolated distance below -eps gets a value from another period.
+  // As in the solver, delta is periodic, so its value at an interpolated distance below -eps belongs to another period.
   return (1 + sine_cosine(pi * distance / half_thickness).cosine) / (2 * half_thickness * half_thickness);
 }
 

@@ -116,7 +116,7 @@ SolverSpeeds solver_speeds(const SolverMesh &mesh, const UrisLeaflets &leaflets,
                            const std::vector<double> &xyz, const std::vector<double> &before, double time_step,
                            double half_thickness);
 
-// Returns the area of the leaflets as the flow meets it: the half thickness times the integral of delta.
+// Returns the leaflets' area in the solver's equations: the half thickness times the integral of delta.
 double solver_area(const SolverMesh &mesh, const SolverDistances &distances, double half_thickness);
 // Returns the area of the leaflets by the library's exact distances, at many points in each element. `near` has a distance for
 // each node. An element does not count if all its nodes are farther away than the half thickness plus the element's size.

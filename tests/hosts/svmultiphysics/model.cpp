@@ -106,7 +106,7 @@ void sv_calc_sdf(ComMod &com_mod) {
   }
 }
 
-// The test only needs to see which engine answers.
+// Gives constant values, because the test only needs to see that this function was called.
 void sv_factors(const ComMod &, const mshType &, const fsType &space, const int, Vector<double> &K,
                 Array<double> &K_u) {
   K.resize(space.nG);
@@ -309,7 +309,7 @@ void run(const std::string &name) {
   const fsType spaces[2] = {make_space(4), make_space(5)};
   for (com_mod.cTS = 1; com_mod.cTS <= 17; ++com_mod.cTS) {
     if (name == "remesh" && com_mod.cTS == 9) {
-      make_mesh(com_mod, 6, 2);  // equally many nodes, so that no length shows the change
+      make_mesh(com_mod, 6, 2);  // the same number of nodes, so that no length shows the change
       initialize(com_mod);
     }
     if (com_mod.cTS == 3 || com_mod.cTS == 11) {
