@@ -468,7 +468,7 @@ TEST(test_checks) {
   assert_non_null(strstr(program_out, "\nacross    a: "));
   assert_non_null(strstr(program_out, "\norifice   b, opening 0: "));
   assert_non_null(strstr(program_out, "\nleaks     b: "));
-  RUN_REFUSED(2, "--first-passage takes one valve", "check", "leaks", "--case", file, "--between", "0,0,-1.9",
+  RUN_REFUSED(2, "--first-passage takes only one valve", "check", "leaks", "--case", file, "--between", "0,0,-1.9",
               "0,0,1.9", "--first-passage");
   RUN_REFUSED(2, "--valve excludes --case", "check", "leaks", "--case", file, "--valve", "mitral");
   RUN_FINE("check", "crossings", "--case", file, "--stats", "-");

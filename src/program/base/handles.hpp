@@ -97,12 +97,18 @@ inline riis_surface_arrays arrays_of(const Triangles &triangles) {
   arrays.id_bits = 64;
   return arrays;
 }
-// Returns the distances of points to a surface. The points are an array (3, n).
-inline std::vector<double> distances_to(const riis_surface *surface, const std::vector<double> &xyz) {
+// Returns the distances of points to a surface. The points are an array (3, n). If `closest` is given, it gets the surface's
+// closest points, (3, n).
+inline std::vector<double> distances_to(const riis_surface *surface, const std::vector<double> &xyz,
+                                        std::vector<double> *closest = nullptr) {
   const riis_points points = points_of(xyz);
   std::vector<double> made(xyz.size() / 3);
   auto arrays = defaults<riis_closest_arrays>();
   arrays.distance = made.data();
+  if (closest) {
+    closest->resize(xyz.size());
+    arrays.point = closest->data();
+  }
   check(riis_closest_points(surface, &points, nullptr, &arrays));
   return made;
 }

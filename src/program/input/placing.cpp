@@ -87,26 +87,42 @@ void check_landmarks(riis_status status, const LandmarkFile &landmarks, Reader r
 // The error of measured distances from the valve, in centimetres.
 constexpr double distance_error = 1e-4;
 
-// Returns the distances of points from the closed valve. The valve's skirt is left out.
-std::vector<double> distances_from(riis_valve *valve, riis_surface_options where, const std::vector<double> &xyz) {
-  check(riis_valve_set_scalar(valve, "opening", 0));
-  check(riis_valve_set_scalar(valve, "skirt_length", 0));
+// Returns the distances of points from the closed valve. The valve's skirt is left out. If `closest` is given, it gets the
+// valve's closest points, (3, n).
+std::vector<double> distances_from(const riis_valve *valve, riis_surface_options where, const std::vector<double> &xyz,
+                                   std::vector<double> *closest = nullptr) {
+  const auto closed = create<Valve>(riis_valve_copy, valve);
+  check(riis_valve_set_scalar(closed, "opening", 0));
+  check(riis_valve_set_scalar(closed, "skirt_length", 0));
   where.tolerance = distance_error * where.scale / where.half_thickness;
-  return distances_to(create<Surface>(riis_surface_create, valve, &where), xyz);
+  return distances_to(create<Surface>(riis_surface_create, closed, &where), xyz, closest);
+}
+
+// Returns the landmarks' places from which an exact warp starts. A commissure of the paper's valve lies between the ends of two
+// cusps, and only a warp that starts at one of the ends takes the valve to the landmark.
+std::vector<double> places_on_valve(const Placed &placed, const riis_valve *valve) {
+  if (placed.kind != "aortic") return placed.places;
+  std::vector<double> closest;
+  const std::vector<double> distances = distances_from(valve, placed.where, placed.places, &closest);
+  for (std::size_t i = 0; i < distances.size(); ++i)
+    if (distances[i] <= 2 * distance_error * placed.where.scale)
+      std::copy_n(placed.places.data() + 3 * i, 3, closest.data() + 3 * i);  // exact, unlike a point on a triangle
+  return closest;
 }
 
 // Finds the pairs of landmarks for the warp. Refuses two landmarks if no warp can take both to their places.
-void pair_landmarks(Placed &placed, bool is_exact) {
+void pair_landmarks(Placed &placed, const riis_valve *valve, bool is_exact) {
   const LandmarkFile &landmarks = placed.landmarks;
   const auto apart = [](const std::vector<double> &xyz, std::size_t i, std::size_t k) {
     return hypotenuse(xyz[3 * i] - xyz[3 * k], xyz[3 * i + 1] - xyz[3 * k + 1], xyz[3 * i + 2] - xyz[3 * k + 2]);
   };
+  const std::vector<double> places = is_exact ? places_on_valve(placed, valve) : placed.places;
   const double same_place = distance_error * placed.placement.scale;
   placed.sources.clear(), placed.targets.clear(), placed.paired_names.clear();
   for (std::size_t i = 0; i < landmarks.names.size(); ++i) {
     bool is_repeated = false;
     for (std::size_t k = 0; k < i; ++k) {
-      const double on_valve = apart(placed.places, i, k), in_patient = apart(landmarks.xyz, i, k);
+      const double on_valve = apart(places, i, k), in_patient = apart(landmarks.xyz, i, k);
       const bool is_one_source = on_valve <= 1e-6 * placed.placement.scale, is_one_target = in_patient <= same_place;
       is_repeated = is_repeated || (is_one_source && is_one_target);
       if (is_one_source == is_one_target || (!is_one_source && !is_exact)) continue;
@@ -120,7 +136,7 @@ void pair_landmarks(Placed &placed, bool is_exact) {
     }
     if (is_repeated) continue;
     const auto at = static_cast<std::ptrdiff_t>(3 * i);
-    placed.sources.insert(placed.sources.end(), placed.places.begin() + at, placed.places.begin() + at + 3);
+    placed.sources.insert(placed.sources.end(), places.begin() + at, places.begin() + at + 3);
     placed.targets.insert(placed.targets.end(), landmarks.xyz.begin() + at, landmarks.xyz.begin() + at + 3);
     placed.paired_names.push_back(landmarks.names[i]);
   }
@@ -260,7 +276,7 @@ Placed place_by_landmarks(const LandmarkFile &of_file, riis_valve *valve, const 
 }
 
 Warp warp_to_landmarks(Placed &placed, riis_valve *valve, double noise, Reader reader) {
-  pair_landmarks(placed, noise == 0);
+  pair_landmarks(placed, valve, noise == 0);
   Warp warp = [&] {
     try {
       return unfolded_warp(placed, valve, noise, reader);
@@ -271,7 +287,7 @@ Warp warp_to_landmarks(Placed &placed, riis_valve *valve, double noise, Reader r
   }();
   placed.is_warped = true;
   placed.warp_noise = noise;
-  placed.still_off = distances_from(create<Valve>(riis_valve_copy, valve), placed.where, placed.landmarks.xyz);
+  placed.still_off = distances_from(valve, placed.where, placed.landmarks.xyz);
   return warp;
 }
 
