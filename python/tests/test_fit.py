@@ -495,7 +495,7 @@ def test_sizes_that_trade_with_the_placement_have_an_influence():
 def test_every_kind_is_studied():
     with pytest.raises(riis.InvalidParameterError) as refused:
         riis.Valve("none")
-    kinds = set(str(refused.value).split("there are: ")[1].split(", "))
+    kinds = set(str(refused.value).split("there are: ")[1].split(". ")[0].split(", "))
     assert set(fit_table.VALVES) == kinds
     assert set(fit_study.KINDS) | set(fit_study.NO_PATIENTS) == kinds
 

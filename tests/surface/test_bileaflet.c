@@ -272,7 +272,8 @@ TEST(the_bound_counts_that_arcs_are_cubics) {
                 "the valve's curves are accurate to 1.3|more than half of tolerance * half_thickness",
                 riis_surface_create(valve, &options, &surface));
   options.triangulation = RIIS_TRIANGULATION_FIXED;
-  CHECK_REFUSED(RIIS_LIMIT_EXCEEDED, "the valve's curves are accurate to", riis_surface_create(valve, &options, &surface));
+  CHECK_REFUSED(RIIS_LIMIT_EXCEEDED, "the valve's curves are accurate to",
+                riis_surface_create(valve, &options, &surface));
   options.triangulation = RIIS_TRIANGULATION_ADAPTED;
   options.half_thickness = 4e-3;
   surface = new_surface(valve, &options);

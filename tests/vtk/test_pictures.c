@@ -539,9 +539,9 @@ static double share_of_changes(const char *a, const char *b) {
   return n / (double)n_all;
 }
 
-/* The long view is the view from the side after a turn about the valve's z: by 30 degrees for three cusps, of which the plane then
- * cuts two, and by 90 degrees for a mitral valve, whose plane then goes from one leaflet to the other. Another turn shows another
- * picture. The opening does not change the turn. */
+/* The long view is the view from the side after a turn about the valve's z. The turn is 30 degrees for three cusps, and the plane
+ * then cuts two of them. The turn is 90 degrees for a mitral valve, and the plane then goes from one leaflet to the other.
+ * Another turn shows another picture. The opening does not change the turn. */
 TEST(test_long_view) {
   static const char *const kinds[4] = {"aortic", "coapting", "mitral", "mitral_coapting"};
   for (int i = 0; i < 8; ++i) {

@@ -275,8 +275,8 @@ for the movie of a run:
                                   leaflets cut by the plane. The velocity is an array of the mesh, or a field of a time of
                                   OpenFOAM: riis mark CASE/0.2 --valve placed.json ... --view valve-long
 --view and --movie-view choose the direction of view. side, top, oblique and three use the mesh's axes, and valve-side and so on
-use the valve's axes. valve-long is valve-side, turned about the valve's z until the plane cuts two leaflets. Captions give the opening, the orifice in cm2, the half thickness in mm, the number of marked nodes, and
-leaking edges.
+use the valve's axes. valve-long is valve-side, turned about the valve's z until the plane cuts two leaflets. Captions give the
+opening, the orifice in cm2, the half thickness in mm, the number of marked nodes, and leaking edges.
 A picture needs no screen. If DISPLAY is not set or cannot be used, riis starts Xvfb, of Debian's package xvfb, for as long as
 it draws. With an empty DISPLAY, riis always starts Xvfb: DISPLAY= riis mark ...
 )"},

@@ -106,7 +106,7 @@ struct Placed {
 
 // Finds the sizes and the placement of the valve from the landmarks. The parameters in `held` and the parameters that the
 // landmarks' file states keep the values that the caller has set.
-Placed place_by_landmarks(const LandmarkFile &landmarks, riis_valve *valve, const std::string &kind,
+Placed place_by_landmarks(const LandmarkFile &of_file, riis_valve *valve, const std::string &kind,
                           const std::vector<std::string> &held, Reader reader);
 
 // Warps the valve to the landmarks, and returns the warp. The noise smooths the warp. With a noise of 0 the warp meets the

@@ -105,7 +105,7 @@ class Marking {
 // Reads the case or the valve of the options, marks the mesh, writes the files and prints the report. Returns exit_none_marked if
 // no node was marked at any time, unless the user allowed this. Returns exit_warned if a check found a fault, and exit_fine
 // otherwise. Throws a Refusal.
-ExitCode run_mark(const MarkOptions &options);
+ExitCode run_mark(const MarkOptions &given);
 
 // Marks a mesh that the caller has read. The function checks no options and prints no report. `all.options.mesh` must be the path
 // of the mesh.
