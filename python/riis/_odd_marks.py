@@ -263,7 +263,9 @@ def _advice(case: _Case, is_misplaced: bool, factor: float | None) -> tuple[list
     if options:
         calls.append(f"riis.Surface(valve, {', '.join(options)})")
     turn = ". If blood flows the other way, change the signs of axis" if axis is not None else ""
-    return said, f"Try {' and '.join(calls)}{turn}" if calls else ""
+    # Without its scale, a pasted surface would stand at the origin in centimetres.
+    keep = ". Keep the other arguments of riis.Surface" if options and case.scale != 1.0 and axis is None else ""
+    return said, f"Try {' and '.join(calls)}{keep}{turn}" if calls else ""
 
 
 def _sealing(valve: Valve | None, case: _Case, half: float, placement: dict[str, Any]) -> float:
