@@ -266,7 +266,7 @@ class SkirtMaker {
   std::map<std::array<std::size_t, 2>, std::array<std::size_t, 2>> places_;  // key: a patch and its image
 };
 
-// An end of a held side of an image. `is_before` tells whether the side ends there, if it is followed around the axis.
+// An end of a held side of an image. `is_before` is true at the end that a turn around the axis meets last.
 struct PlacedEnd {
   AttachedEnd end;
   Vec3 point;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "riis_vtk/picture/picture_flow.hpp"
 
+#include <riis/riis_vtk.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -188,11 +190,12 @@ Flow flow_of(const riis_vtk_mesh &mesh, const std::string &name) {
     flow.time = std::filesystem::path(mesh.foam_time).filename().string();
   }
   vtkDataArray *const found = at_points ? at_points : in_cells;
-  if (!found && !mesh.foam_case.empty())
-    refuse_argument("options->velocity is \"", name,
-                    "\", which is no array of the mesh; for a field of OpenFOAM, name ",
-                    "a time in place of the case: ", foam_times_of(mesh.foam_case));
-  if (!found) refuse_argument("options->velocity is \"", name, "\", which is no array of the mesh");
+  if (!found) {
+    const std::string &foam_case = mesh.foam_case;
+    refuse_argument("options->velocity is \"", name, "\", which is no array of the mesh",
+                    foam_case.empty() ? "" : "; for a field of OpenFOAM, name a time in place of the case: ",
+                    foam_case.empty() ? "" : foam_times_of(foam_case));
+  }
   if (found->GetNumberOfComponents() != 3)
     refuse_argument("options->velocity is \"", name, "\", whose number of components is ",
                     found->GetNumberOfComponents(), ", not 3");
@@ -226,18 +229,31 @@ Colour colour_of_speed(double share) {
   return colour;
 }
 
-double distance_from_two_leaflets(vtkPolyData *surface, const View &view) {
+Axes axes_through_two_leaflets(vtkPolyData *surface, const Axes &valve) {
   const std::map<int, AreaMoment> leaflets = moments_of_leaflets(surface);
   const Vector middle = middle_of(leaflets);
-  std::vector<double> distances;
-  for (const auto &[leaflet, moment] : leaflets) {
-    const Vector centre = moment.centre();
-    double away = 0;
-    for (std::size_t k = 0; k < 3; ++k) away += (centre[k] - middle[k]) * view.away()[k];
-    distances.push_back(std::abs(away));
+  std::vector<Axes> tried;
+  std::vector<double> distances;  // of the plane from the second nearest centre, or from the only centre
+  for (int degrees = 0; degrees < 180; degrees += 15) {
+    tried.push_back(turned_about_z(valve, degrees));
+    const View view(RIIS_VTK_VIEW_VALVE_LONG, tried.back());
+    std::vector<double> from_centres;
+    for (const auto &[leaflet, moment] : leaflets) {
+      const Vector centre = moment.centre();
+      double away = 0;
+      for (std::size_t k = 0; k < 3; ++k) away += (centre[k] - middle[k]) * view.away()[k];
+      from_centres.push_back(std::abs(away));
+    }
+    std::sort(from_centres.begin(), from_centres.end());
+    distances.push_back(from_centres[std::min<std::size_t>(1, from_centres.size() - 1)]);
   }
-  std::sort(distances.begin(), distances.end());
-  return distances[std::min<std::size_t>(1, distances.size() - 1)];
+  // Several planes are nearly as good as the best, for example three planes of a valve with three cusps. The first of these is
+  // taken, so that the view stays the same while the valve opens.
+  const auto [least, most] = std::minmax_element(distances.begin(), distances.end());
+  const double good = *least + 0.2 * (*most - *least);
+  const auto first =
+      std::find_if(distances.begin(), distances.end(), [&](double distance) { return distance <= good; });
+  return tried[static_cast<std::size_t>(first - distances.begin())];
 }
 
 FlowPanel::FlowPanel(const Flow &flow, vtkPolyData *wall, const Colour &line)

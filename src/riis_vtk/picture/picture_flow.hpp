@@ -33,9 +33,9 @@ Flow flow_of(const riis_vtk_mesh &mesh, const std::string &name);
 // Returns the colour of a speed. `share` is the speed divided by the speed at the upper end of the bar of colours.
 Colour colour_of_speed(double share);
 
-// Returns how far the plane of the view through the middle of the surface passes from the centres of two leaflets: the second
-// smallest distance of all leaflets, or the distance of the only leaflet.
-double distance_from_two_leaflets(vtkPolyData *surface, const View &view);
+// Returns the valve's axes, turned about their z so that the plane of RIIS_VTK_VIEW_VALVE_LONG passes near the centres of two
+// leaflets. The plane contains the middle of the surface.
+Axes axes_through_two_leaflets(vtkPolyData *surface, const Axes &valve);
 
 class FlowPanel {
  public:

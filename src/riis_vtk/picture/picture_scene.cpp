@@ -455,21 +455,7 @@ vtkSmartPointer<vtkImageData> Scene::picture(std::int32_t of, const std::optiona
 
 View Scene::view_of(std::int32_t of) {
   if (of != RIIS_VTK_VIEW_VALVE_LONG) return {of, axes_};
-  if (!long_axes_) {
-    std::vector<Axes> tried;
-    std::vector<double> distances;
-    for (int degrees = 0; degrees < 180; degrees += 15) {
-      tried.push_back(turned_about_z(axes_, degrees));
-      distances.push_back(distance_from_two_leaflets(triangles_, {of, tried.back()}));
-    }
-    // Several planes are nearly as good as the best, for example three planes of a valve with three cusps. The first of these is
-    // taken, so that the view stays the same while the valve opens.
-    const auto [least, most] = std::minmax_element(distances.begin(), distances.end());
-    const double good = *least + 0.2 * (*most - *least);
-    const auto first =
-        std::find_if(distances.begin(), distances.end(), [&](double distance) { return distance <= good; });
-    long_axes_ = tried[static_cast<std::size_t>(first - distances.begin())];
-  }
+  if (!long_axes_) long_axes_ = axes_through_two_leaflets(triangles_, axes_);
   return {of, *long_axes_};
 }
 

@@ -572,16 +572,22 @@ std::vector<fs::path> parts_of(const fs::path &root) {
   return folders;
 }
 
+// Returns the folders of the times of a case.
+std::map<double, fs::path> times_of(const fs::path &root) {
+  std::map<double, fs::path> found;
+  std::error_code error;
+  for (const fs::directory_entry &entry : fs::directory_iterator(root, error))
+    if (const std::optional<double> time = time_of(entry.path())) found[*time] = entry.path();
+  return found;
+}
+
 // Finds the latest folder of a case in which this file of the mesh exists. The time of the folder must not be after the given
 // time.
 fs::path latest_with(const fs::path &root, double time, const char *file) {
-  std::map<double, fs::path> found;
-  std::error_code error;
-  for (const fs::directory_entry &entry : fs::directory_iterator(root, error)) {
-    const std::optional<double> at = time_of(entry.path());
-    if (at && *at <= time && has_file(entry.path() / "polyMesh", file)) found[*at] = entry.path() / "polyMesh";
-  }
-  return found.empty() ? root / "constant" / "polyMesh" : found.rbegin()->second;
+  fs::path latest = root / "constant" / "polyMesh";
+  for (const auto &[at, folder] : times_of(root))
+    if (at <= time && has_file(folder / "polyMesh", file)) latest = folder / "polyMesh";
+  return latest;
 }
 
 // Returns whether the case has a folder such as processors4. Each file in the folder processors4 has the parts of all processes.
@@ -609,15 +615,12 @@ bool is_foam_time(const std::string &path) {
 }
 
 std::string foam_times_of(const std::string &foam_case) {
-  std::map<double, std::string> names;
-  std::error_code error;
-  for (const fs::directory_entry &entry : fs::directory_iterator(foam_case, error))
-    if (const std::optional<double> time = time_of(entry.path())) names[*time] = entry.path().filename().string();
+  const std::map<double, fs::path> times = times_of(foam_case);
   std::string text;
   std::size_t i = 0;
-  for (const auto &[time, name] : names) {
-    if (i < 2 || i + 1 == names.size())
-      text += (text.empty() ? "" : ", ") + name;
+  for (const auto &[time, folder] : times) {
+    if (i < 2 || i + 1 == times.size())
+      text += (text.empty() ? "" : ", ") + folder.filename().string();
     else if (i == 2)
       text += ", ...";
     ++i;
