@@ -20,7 +20,8 @@ quick=${2:-}
 cd -- "$here/../.."
 
 # openfoam.sh fetches OpenFOAM's headers and builds the plug-in. openfoam.sh uses the variables and functions that are set here.
-build=build n_jobs=$(nproc)
+build=build n_jobs=$(nproc) python=python3
+[[ ! -x /usr/bin/python3 ]] || python=/usr/bin/python3
 say() { printf '==> %s\n' "$*"; }
 step() {
   say "$1"
@@ -50,11 +51,15 @@ logged() {
 openfoam_function_object() { "${of_with[@]}" postProcess -case "$mesh" -func writeCellCentres -time 0; }
 
 # geometry FOLDER VALVE: prints the path of the valve's .geo file. If no .geo file exists, the function writes one into the
-# folder, from points of the library. VALVE is the kind, a hyphen, and the opening.
+# folder, by a script of the kind or from points of the library. VALVE is the kind, a hyphen, and the opening.
 geometry() {
   local kind=${2%%-*}
   if [[ -e $here/$kind.geo ]]; then
     echo "$here/$kind.geo"
+    return
+  fi
+  if [[ -e $here/$kind.py ]]; then
+    "$python" -B "$here/$kind.py" "${2#*-}" >"$1/$kind.geo" && cp "$here/fluid.geo" "$1" && echo "$1/$kind.geo"
     return
   fi
   LD_LIBRARY_PATH=$of_work/riis/lib "$of_work/points" "$kind" "${2#*-}" >"$1/$kind.geo" &&
@@ -83,10 +88,13 @@ make_mesh() {
     rm "$mesh/mesh.msh" && touch "$mesh/complete"
 }
 
-# set_valve CASE VALVE EPS RIM RESISTANCE OFFSET: writes the valve and its numbers into the case's fvOptions.
+# set_valve CASE VALVE EPS RIM RESISTANCE OFFSET: writes the valve and its numbers into the case's fvOptions. The mitral valve is
+# turned over, because the flow has the direction z.
 set_valve() {
+  local valve="kind ${2%%-*};" turn=''
+  [[ $2 != mitral* ]] || valve+=' translation (0 0 0);' turn=' rotationAxis (1 0 0); rotationAngle 180;'
   sed -i "s/halfThickness .*/halfThickness $3;/; s/rim .*/rim $4;/; s/resistance .*/resistance $5;/; s/offset .*/offset $6;/
-    s/kind .*/kind ${2%%-*}; }/; s/opening 1;/opening ${2#*-};/" "$1/system/fvOptions"
+    s/kind .*/$valve }/; s/scale 0.01;/&$turn/; s/opening 1;/opening ${2#*-};/" "$1/system/fvOptions"
 }
 
 # run_case NAME MESH VALVE [EPS RIM RESISTANCE OFFSET]: runs simpleFoam. EPS is in metres. In a mesh with walls instead of riis,
@@ -260,6 +268,7 @@ beside_leaflets() {
     for offset in 0.85 0.75 0.5 0; do beside "$valve" 1 "$offset"; done
     for offset in 0.75 0; do beside "$valve" 0.5 "$offset"; done
   done
+  for offset in 0.75 0.5 0; do for valve in mitral-1 mitral-0.5; do beside "$valve" 1 "$offset"; done; done
   some=$cases cases=''
   for valve in "${valves[@]}"; do
     for size in 0.05 0.03 0.02; do fitted "$valve" "$size"; done
@@ -297,7 +306,5 @@ mesh=$out/meshes/$(head -n 1 <<<"$meshes" | cut -d ' ' -f 1)
 in_turn run_case "$cases" || status=1
 in_turn run_blood "$blood" || status=1
 in_turn same_leaflets "$(printf '%s\n' "${valves[@]}")" || status=1
-python=python3
-[[ ! -x /usr/bin/python3 ]] || python=/usr/bin/python3
 "$python" -B "$here/body_fitted.py" "$out" ${quick:+--quick} | tee "$out/body_fitted.txt"
 ((status == 0))

@@ -4,6 +4,7 @@ import pathlib
 import re
 import sys
 
+import mitral
 import numpy
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -15,7 +16,9 @@ INLET = 0.5  # m/s, of steady_case/0/U
 MMHG = 133.322  # Pa
 GORLIN = 44.3  # cm2, ml/s and mmHg: the constant of Gorlin's formula for the aortic valve
 RADIUS = {"bileaflet": 1.1, "trileaflet": 1.22, "coapting": 1.24}  # radii of the tubes, in centimetres
-COPIES = {"bileaflet": 4, "trileaflet": 6, "coapting": 6}  # number of equal pieces of the valve; one piece is computed
+# Areas of the inlets, in cm2.
+TUBE = {**{valve: numpy.pi * radius ** 2 for valve, radius in RADIUS.items()}, "mitral": mitral.inflow_area()}
+COPIES = {"bileaflet": 4, "trileaflet": 6, "coapting": 6, "mitral": 2}  # number of equal pieces; one piece is computed
 STEADY = 2e-5  # largest share of the drop by which it may change over the last 100 steps of a run that did not converge
 SOLVER = "OpenFOAM 1912, simpleFoam, tetrahedra"
 WALLS = "the same leaflets as walls of no thickness, body-fitted"  # the source of a row's reference
@@ -59,7 +62,7 @@ class Run:
         self.seconds = float(re.findall(r"ExecutionTime = (\S+) s", log)[-1])
         self.settled = abs(pressure[-1] / pressure[-20] - 1)
         self.drop = RHO * pressure[-1]  # Pa, static, from the inlet to the outlet
-        self.flow = INLET * numpy.pi * RADIUS[self.valve] ** 2 * 1e2  # ml/s
+        self.flow = INLET * TUBE[self.valve] * 1e2  # ml/s
         out = foam.table(folder, "outlet")[-1, 1] * 1e6 * COPIES[self.valve]
         # The mesh has polygons instead of circles, so a coarse mesh has less flow. The area follows from the polygon's flow.
         if abs(out / self.flow - 1) > 0.03:

@@ -400,6 +400,9 @@ of_constant_flow() {
 openfoam_drops() {
   local model
   of_constant_flow closed 0 && of_run closed 1 &&
+    of_constant_flow aside 0 &&
+    of_set aside system/fvOptions aorticValve/offset 0.75 aorticValve/rim cut aorticValve/valve/skirt_length 0.3 &&
+    of_run aside 1 &&
     of_constant_flow open 1 && of_run open 1 &&
     of_constant_flow none 1 && of_no_valve none && of_run none 1 || return
   # OpenFOAM's own porosity acts in the same cells as K does. The coefficient of the porosity in a cell differs from K by at most

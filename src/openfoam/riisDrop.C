@@ -127,12 +127,12 @@ boolList endsOf(const fvMesh &mesh, const scalarField &K, const labelList &side)
 
 // Returns the part of the closed area that lies in this rank's cells (docs/theory/measures.md, "Closed area"). Triangles are cut
 // into parts whose edges are below a quarter of the half thickness. If the middle of a part lies in this rank's cells, the part
-// counts. On the normal through the middle, eight points stand for equal shares of the integral of K across the band. If another
-// leaflet is nearer to a point, the point's share belongs to the other leaflet. Leaflets that touch thus count only once. The
-// leaflet with the id leftOut does not count.
+// counts. On the normal through the middle, eight points stand for equal shares of the integral of K across the band. The band
+// lies beside the leaflet by the offset, in half thicknesses. If another leaflet is nearer to a point, the point's share belongs
+// to the other leaflet. Leaflets that touch thus count only once. The leaflet with the id leftOut does not count.
 template <class Check>
-scalar closedArea(const polyMesh &mesh, const riis_surface *surface, scalar halfThickness, int32_t leftOut,
-                  int32_t nThreads, const Check &check) {
+scalar closedArea(const polyMesh &mesh, const riis_surface *surface, scalar halfThickness, scalar offset,
+                  int32_t leftOut, int32_t nThreads, const Check &check) {
   struct Part {
     point a, b, c;
   };
@@ -168,7 +168,7 @@ scalar closedArea(const polyMesh &mesh, const riis_surface *surface, scalar half
         const vector twice = (b - a) ^ (c - a);
         if (mag(twice) == 0 || !isInside(middle)) continue;
         for (const scalar place : places) {
-          for (const scalar height : {place * halfThickness, -place * halfThickness}) {
+          for (const scalar height : {(offset + place) * halfThickness, (offset - place) * halfThickness}) {
             samples.push_back(middle + height / mag(twice) * twice);
             heights.push_back(mag(height));
             areas.push_back(share * mag(twice) / 2);
@@ -189,7 +189,7 @@ scalar closedArea(const polyMesh &mesh, const riis_surface *surface, scalar half
       made<riis_mesh>([&](riis_mesh **to) { check(riis_mesh_create(samples.size(), xyz, xyz + 1, xyz + 2, 3, to)); });
   riis_mark_options options;
   check(riis_mark_options_init(&options, sizeof options));
-  options.distance_limit = halfThickness;
+  options.distance_limit = (1 + mag(offset)) * halfThickness;
   options.n_threads = nThreads;
   const riisPtr<riis_marks> marks = made<riis_marks>([&](riis_marks **to) { check(riis_marks_create(to)); });
   check(riis_mark_nodes(surface, nodes.get(), &options, marks.get()));
@@ -320,8 +320,9 @@ void riisValve::estimateDrop() {
   riis_surface_info info;
   check(riis_surface_get_info(surface_.get(), &info, sizeof info));
   const int32_t housing = info.housing_leaflet_id;
-  scalar area = returnReduce(closedArea(mesh_, surface_.get(), halfThickness_, housing, placement_.n_threads, check),
-                             sumOp<scalar>());
+  scalar area = returnReduce(
+      closedArea(mesh_, surface_.get(), halfThickness_, placement_.offset, housing, placement_.n_threads, check),
+      sumOp<scalar>());
   if (placement_.offset != 0) {
     // The middle of the band, through which blood passes, has another area than the leaflets. The library's ideal leak uses the
     // area of the band's middle.
