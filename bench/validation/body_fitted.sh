@@ -254,15 +254,12 @@ some_open() {
 
 # Adds the valves whose band has an offset. Walls come first, and the cases with bars follow.
 beside_leaflets() {
-  local offset valve size three=(trileaflet-1 trileaflet-0.5 trileaflet-0.25) two=(coapting-1 coapting-0.5) some
+  local offset valve size far three=(trileaflet-1 trileaflet-0.5 trileaflet-0.25) two=(coapting-1 coapting-0.5) some
   for offset in 0.75 0; do for valve in "${three[@]}"; do beside "$valve" 1 "$offset"; done; done
   for offset in 0.75 0; do for valve in "${three[@]}"; do beside "$valve" 0.5 "$offset"; done; done
   for valve in "${three[@]}"; do beside "$valve" 1 0.5; done
-  if [[ $cases == *riis-trileaflet-0.25-0.1-0.05-cut-1e3-0.75* ]]; then # shows how much the mesh changes the smallest area
-    obstacle trileaflet-0.25 0.1 0.05 cut 1e3 0.75 0.08
-    obstacle trileaflet-0.25 0.1 0.05 cut 1e3 0.75 0.13 0.35
-    obstacle trileaflet-0.25 0.1 0.05 cut 1e3 0.75 0.13 0.6
-    obstacle trileaflet-0.25 0.1 0.035 cut 1e3 0.75
+  if [[ $cases == *riis-trileaflet-0.25-0.1-0.05-cut-1e3-0.75* ]]; then # the smallest area depends on the mesh
+    for far in 0.08 0.1 0.11 0.12 0.14 0.15 0.16; do obstacle trileaflet-0.25 0.1 0.05 cut 1e3 0.75 "$far"; done
   fi
   for valve in "${two[@]}"; do
     for offset in 0.85 0.75 0.5 0; do beside "$valve" 1 "$offset"; done

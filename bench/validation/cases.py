@@ -19,7 +19,7 @@ RADIUS = {"bileaflet": 1.1, "trileaflet": 1.22, "coapting": 1.24}  # radii of th
 # Areas of the inlets, in cm2.
 TUBE = {**{valve: numpy.pi * radius ** 2 for valve, radius in RADIUS.items()}, "mitral": mitral.inflow_area()}
 COPIES = {"bileaflet": 4, "trileaflet": 6, "coapting": 6, "mitral": 2}  # number of equal pieces; one piece is computed
-STEADY = 2e-5  # largest share of the drop by which it may change over the last 100 steps of a run that did not converge
+STEADY = 1e-4  # largest share of the drop by which it may change over the last 100 steps of a run that did not converge
 SOLVER = "OpenFOAM 1912, simpleFoam, tetrahedra"
 WALLS = "the same leaflets as walls of no thickness, body-fitted"  # the source of a row's reference
 
