@@ -295,8 +295,10 @@ int run(int argc, char **argv) {
               2 * marked.surface.half_thickness / pieces.spacing());
   std::printf("mesh      %s nodes, %s cells\n", grouped(marked.marks.n_nodes).c_str(), grouped(report.n_cells).c_str());
   std::printf("marked    %s nodes\n", grouped(marked.marks.n_marked).c_str());
+  const std::string table = table_of(report);
+  const std::size_t passage = table.find("passage ");
   if (with_leaks)
-    std::printf("%sregions   %lld\n", line_of_passage(report).c_str(),
+    std::printf("%sregions   %lld\n", table.substr(passage, table.find('\n', passage) + 1 - passage).c_str(),
                 static_cast<long long>(*marked.flow.n_open_regions));
   std::printf(
       "seconds   %.1f, of which processors worked %.1f: making %.1f, reading %.1f, marking %.1f, leaks and shared "

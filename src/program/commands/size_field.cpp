@@ -105,7 +105,7 @@ struct Zone {
 
 // Adds a narrow strip of triangles along the rim of a surface. The rim consists of the edges that belong to one triangle only.
 // Vertices with equal coordinates count as one.
-void add_rim(const riis_triangles &triangles, JoinedTriangles &rim) {
+void add_rim(const riis_triangles &triangles, Triangles &rim) {
   for_each_edge(sorted_sides(joined_corners(triangles)), [&](const TriangleSide *side, std::size_t n_sides) {
     if (n_sides != 1 || side->a == side->b) return;
     const auto corner = [&](std::size_t k) {
@@ -114,12 +114,14 @@ void add_rim(const riis_triangles &triangles, JoinedTriangles &rim) {
       return Vector3{xyz[0], xyz[1], xyz[2]};
     };
     const Vector3 middle = 0.5 * (corner(0) + corner(1));
-    rim.add({corner(0), corner(1), middle + 1e-3 * (corner(2) - middle)});
+    const std::int64_t first = view(rim.points).size();
+    rim.points.insert(rim.points.end(), {corner(0), corner(1), middle + 1e-3 * (corner(2) - middle)});
+    rim.corners.push_back({first, first + 1, first + 2});
   });
 }
 
-Surface surface_of(const JoinedTriangles &triangles, double half_thickness) {
-  const riis_surface_arrays arrays = triangles.arrays();
+Surface surface_of(const Triangles &triangles, double half_thickness) {
+  const riis_surface_arrays arrays = arrays_of(triangles);
   auto how = defaults<riis_surface_options>();
   how.half_thickness = half_thickness;
   how.zero_area = RIIS_ZERO_AREA_SKIP;  // the valve's own surface has no such triangles, except by rounding
@@ -131,7 +133,7 @@ Surface surface_of(const JoinedTriangles &triangles, double half_thickness) {
 // times.
 void add_zones(MovingValve &valve, const Edges &edges, const Case &all, std::vector<Zone> &zones) {
   const std::vector<double> &times = all.options.series.times;
-  JoinedTriangles swept, rims;
+  Triangles swept, rims;
   std::set<double> openings;
   StepProgress progress("collecting the states", times.size(), all.options.quiet);
   for (std::size_t step = 0; step < times.size(); ++step) {
@@ -140,11 +142,11 @@ void add_zones(MovingValve &valve, const Edges &edges, const Case &all, std::vec
     // An opening that occurs again is skipped, because its triangles have been added before.
     if (!valve.source().keyframes && !openings.insert(valve.opening().value_or(0)).second) continue;
     const riis_triangles triangles = triangles_of(valve.surface());
-    swept.add(triangles, 0);
+    add_triangles(swept, triangles);
     if (edges.offset != 0) add_rim(triangles, rims);
   }
   zones.push_back({surface_of(swept, edges.half_thickness), edges});
-  if (rims.arrays().n_faces == 0) return;
+  if (rims.n() == 0) return;
   zones.push_back({surface_of(rims, edges.half_thickness), edges});
   zones.back().edges.band = edges.beside_rims;
 }

@@ -123,8 +123,8 @@ MeshLeaks::MeshLeaks(const MovingValve &valve, const MeshPieces &mesh, std::stri
       boxes_(mesh.files().size(), empty_box()) {}
 
 void MeshLeaks::add(Piece &piece, riis_marks *marks) {
-  view(boxes_)[piece.number] = piece.nodes.box();
-  if (!piece.nodes.box().meets(box_of(info_))) return;
+  view(boxes_)[piece.number] = piece.box();
+  if (!piece.box().meets(box_of(info_))) return;
   add(piece, valve_.surface(), marks, found_);
 }
 
@@ -134,22 +134,22 @@ void MeshLeaks::add(Piece &piece, const riis_surface *surface, riis_marks *marks
   const double half_thickness = info_of(surface).half_thickness;
   const std::int32_t n_threads = options_.mark_options.n_threads;
   Adjacency adjacency;
-  if (!piece.nodes.is_grid())
+  if (!piece.is_grid())
     adjacency = create<Adjacency>(riis_vtk_mesh_create_long_edges, piece.file, surface,
                                   is_exact ? 2 * (1 - std::abs(info_.offset)) * half_thickness : 0, n_threads, nullptr);
   const riis_csr rows = adjacency ? get<riis_csr>(riis_adjacency_get_csr, adjacency) : riis_csr{};
   const auto leaks = create<Leaks>(riis_leaks_create);
   const riis_mark_options how = surface == valve_.surface() ? options_.mark_options : how_to_mark_again(options_);
-  piece.nodes.lend_neighbors(&rows);
-  const riis_status status = riis_find_leaks(surface, piece.nodes.mesh(), marks, &how, leaks);
-  piece.nodes.lend_neighbors(nullptr);
+  piece.lend_neighbors(&rows);
+  const riis_status status = riis_find_leaks(surface, piece.mesh(), marks, &how, leaks);
+  piece.lend_neighbors(nullptr);
   check(status);
   const auto list = get<riis_leak_list>(riis_leaks_get_list, leaks);
   for (std::int64_t i = 0; i < list.n_edges; ++i) {
     const std::int64_t a = list.node_id[2 * i], b = list.node_id[2 * i + 1];
-    KeyedEdge edge = edge_between(piece.nodes.key(a), piece.nodes.key(b), list.length[i]);
+    KeyedEdge edge = edge_between(piece.key(a), piece.key(b), list.length[i]);
     edge.distance = list.distance[i];
-    const FileNodes::Point p = piece.nodes.point(a), q = piece.nodes.point(b);
+    const FileNodes::Point p = piece.point(a), q = piece.point(b);
     for (std::size_t k = 0; k < 3; ++k) edge.middle[k] = 0.5 * (p[k] + q[k]);
     to.push_back(edge);
   }
@@ -181,7 +181,7 @@ std::optional<double> MeshLeaks::left(const riis_surface *surface) const {
   const riis_surface_info info = info_of(surface);
   std::vector<KeyedEdge> found;
   const auto mark_again = [&](Piece &piece) {
-    const Marks marks = marks_of(surface, piece.nodes.mesh(), how_to_mark_again(options_));
+    const Marks marks = marks_of(surface, piece.mesh(), how_to_mark_again(options_));
     add(piece, surface, marks, found);
   };
   mesh_.for_each_own(mark_again, nullptr,
@@ -194,32 +194,31 @@ std::optional<double> MeshLeaks::left(const riis_surface *surface) const {
 
 std::vector<std::int64_t> BandMeasures::add(const Piece &piece, const riis_marks *marks,
                                             const riis_mark_options &options) {
-  riis_mesh *const mesh = piece.nodes.mesh();
-  if (piece.nodes.is_whole())
+  riis_mesh *const mesh = piece.mesh();
+  if (piece.is_whole())
     of_whole_ = get<riis_cells_across>(riis_marks_get_cells_across, marks, mesh);
   else
     add_lengths(piece, list_of(marks, RIIS_LIST_MARKED));
-  std::vector<std::int64_t> regions(static_cast<std::size_t>(piece.nodes.n()));
+  std::vector<std::int64_t> regions(static_cast<std::size_t>(piece.n()));
   riis_mark_options how = options;
-  how.node_mask = piece.nodes.mask();
+  how.node_mask = piece.mask();
   std::int64_t n_regions = 0;
-  check(riis_label_open_regions(mesh, marks, &how, piece.nodes.n(), regions.data(), &n_regions));
+  check(riis_label_open_regions(mesh, marks, &how, piece.n(), regions.data(), &n_regions));
   n_regions_ += n_regions;
   return regions;
 }
 
 void BandMeasures::add_lengths(const Piece &piece, const riis_mark_list &marked) {
-  const PieceNodes &nodes = piece.nodes;
-  std::vector<std::uint8_t> is_marked(static_cast<std::size_t>(nodes.n()));
+  std::vector<std::uint8_t> is_marked(static_cast<std::size_t>(piece.n()));
   for (std::int64_t i = 0; i < marked.n_nodes; ++i) view(is_marked)[marked.node_id[i]] = 1;
-  for (std::int64_t i = 0; i < nodes.n(); ++i) {
-    if (nodes.is_ghost(i)) continue;
-    piece.nodes.for_each_neighbor(i, [&](std::int64_t j) {
-      if (j < i || nodes.is_ghost(j) || !(view(is_marked)[i] || view(is_marked)[j])) return;
-      const double length = distance_between(nodes.point(i).data(), nodes.point(j).data());
+  for (std::int64_t i = 0; i < piece.n(); ++i) {
+    if (piece.is_ghost(i)) continue;
+    piece.for_each_neighbor(i, [&](std::int64_t j) {
+      if (j < i || piece.is_ghost(j) || !(view(is_marked)[i] || view(is_marked)[j])) return;
+      const double length = distance_between(piece.point(i).data(), piece.point(j).data());
       if (!(length > 0)) return;
-      if (nodes.is_shared(i) && nodes.is_shared(j))
-        shared_.push_back(edge_between(nodes.key(i), nodes.key(j), length));
+      if (piece.is_shared(i) && piece.is_shared(j))
+        shared_.push_back(edge_between(piece.key(i), piece.key(j), length));
       else
         lengths_.add(length);
     });
@@ -251,10 +250,10 @@ LeafletsOutside::LeafletsOutside(const MarkOptions &options, const riis_surface 
 
 void LeafletsOutside::add(const Piece &piece) {
   // If centres are marked, the box of the nodes is not used, because cells reach beyond the box of their centres.
-  if (options_.at_cells || piece.nodes.box().meets(box_of(info_).widened(info_.half_thickness)))
+  if (options_.at_cells || piece.box().meets(box_of(info_).widened(info_.half_thickness)))
     check(riis_vtk_mesh_find_outside(piece.file, view(is_outside_).size(), samples_.xyz.data(), info_.half_thickness,
                                      is_outside_.data()),
-          piece.path);
+          piece.path());
 }
 
 OutsideReport LeafletsOutside::report() const {

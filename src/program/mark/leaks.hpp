@@ -72,7 +72,7 @@ class MeshLeaks {
 struct PassageNode {
   NodeKey key;
   std::int64_t piece, node, id;
-  double point[3];
+  FileNodes::Point point;
   double distance;  // of an end: to the user's point; of other nodes: the least half thickness that marks the node
 };
 // The end of a passage: the node that is nearest to a point of the user. Nodes without a neighbour do not count.
@@ -98,7 +98,6 @@ class PassageCheck {
   // Refuses an end that lies in the band.
   void check_ends_are_open(const riis_surface *surface) const;
   PassageReport find(const riis_surface *surface) const;
-  PassageReport find_in_pieces(const riis_surface *surface) const;
   // Returns nothing if the passage is wider than the given limit.
   std::optional<PassageReport> find_within(const riis_surface *surface, double limit) const;
   // Finds the opening at which unmarked nodes first join the two ends. All pieces are read again for each opening.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <initializer_list>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -66,34 +67,21 @@ void report_leak(const MovingValve &valve, FlowReport &flow) {
   // The leak is given per unit of pressure, which is Pa if the unit of the mesh is known.
   const std::optional<Unit> &unit = valve.options().unit;
   flow.leak_per_drop = unit ? leak * factor_from_si(a_pressure, *unit) : leak;
-  const std::optional<Amount> &drop = valve.options().given_drop;
-  if (drop) flow.drop = drop->number;
-  if (!unit) return;
-  flow.leak_unit = unit_text(a_flow, *unit);
-  flow.drop_unit = a_pressure.si;
 }
 
-ResistanceReport report_of_resistance(const MarkOptions &own, const MarkOptions &of_case) {
-  ResistanceReport report{own.given_resistance->number};
-  if (own.unit) report.R_unit = a_resistance.si;
-  if (of_case.output.empty()) return report;
-  // The name of OpenFOAM's field has no "riis_" at its beginning.
-  report.K_name = own.density && of_case.prefix == "riis" ? "K" : of_case.prefix + "_K";
-  report.K_unit = own.K_unit;
-  if (own.density) report.density = own.density->number;
-  return report;
-}
-
-// Refuses to replace an array of the mesh unless the user gave --replace.
-void check_new_arrays(const MarkOptions &options, const std::vector<std::string> &names, const riis_vtk_mesh *mesh) {
-  if (options.output.empty() || options.replace) return;
-  for (const std::string &name : names) {
-    int32_t has = 0;
-    check(riis_vtk_mesh_has_point_array(mesh, name.c_str(), &has));
-    if (!has) continue;
-    refuse_usage(options.mesh + " already has an array " + name +
-                 ": write --replace to replace it, or --prefix NAME for other arrays beside it");
-  }
+// Returns the surface of a valve at its present position, converted to another unit.
+Surface surface_in_unit(const MovingValve &valve, const PossibleUnit &unit) {
+  riis_surface_options how = valve.options().surface_options;
+  const double factor = unit.scale / how.scale;
+  how.scale = unit.scale;
+  how.half_thickness = unit.half_thickness;
+  for (double &shift : how.translation) shift *= unit.placement;
+  if (valve.source().valve) return create<Surface>(riis_surface_create, valve.source().valve, &how);
+  auto from_present = defaults<riis_surface_options>();
+  from_present.scale = factor;
+  from_present.half_thickness = unit.half_thickness;
+  for (int k = 0; k < 3; ++k) from_present.translation[k] = how.translation[k] - factor * how.translation[k];
+  return joined_surface({valve.surface()}, from_present);
 }
 
 // Moves each valve to the time with the least or the largest opening, as `order` says. Among times with equal openings, chooses
@@ -114,22 +102,25 @@ Marking::Marking(Case &all, const MeshPieces &mesh)
       mesh_(mesh),
       valves_(moving_valves(all)),
       times_(all.times()),
-      names_(names_of_arrays()),
       wants_measures_(options().measures || !options().stats.empty() || options().check_leaks),
       node_counts_((times_.size() + 1) * valves_.size()),
-      most_steps_(valves_.size()),
       passage_(valves_.size() == 1 ? valves_[0].options() : options(), mesh) {
-  report_.times = options().series.times;
+  report_.options = &options();
   report_.seconds = all.seconds;
-  report_.prints_flow = options().measures || options().check_leaks;
   move_to_first(times_, valves_, std::less<>());
   for (std::size_t i = 0; i < valves_.size(); ++i) {
     if (valves_[i].opening() == 0.0)
       warn_of_bridged_gap(valves_[i].options(), valves_[i].source().valve, all_.part_of(i));
     report_.valves.push_back(report_of(i));
     sums_.push_back({MeshLeaks(valves_[i], mesh, all.surface_of(i))});
+    if (report_.has_mesh()) sums_[i].outside.push_back(outside_of(i));
   }
-  if (!options().mesh.empty()) take_states_for_outside();
+  if (!report_.has_mesh()) return;
+  // The leaflets of the closed valve or of the open valve may reach beyond the wall.
+  move_to_first(times_, valves_, std::greater<>());
+  for (std::size_t i = 0; i < valves_.size(); ++i)
+    if (valves_[i].opening() != report_.valves[i].opening) sums_[i].outside.push_back(outside_of(i));
+  move_to_first(times_, valves_, std::less<>());
 }
 
 bool Marking::has_marks() const {
@@ -141,27 +132,34 @@ std::int32_t Marking::fields() const {
   return RIIS_FIELD_NORMAL | RIIS_FIELD_SIDE | (has_velocities() ? RIIS_FIELD_VELOCITY : 0);
 }
 
-std::vector<std::string> Marking::names_of_arrays() const {
-  std::vector<std::string> names;
-  const auto add = [&](const std::string &prefix, const std::vector<const char *> &ends) {
-    for (const char *const end : ends) names.push_back(prefix + end);
+// Refuses to replace an array of the mesh unless the user gave --replace.
+void Marking::check_new_arrays(const riis_vtk_mesh *file) const {
+  if (options().output.empty() || options().replace) return;
+  const auto check_new = [&](const std::string &prefix, std::initializer_list<const char *> ends) {
+    for (const char *const end : ends) {
+      const std::string name = prefix + end;
+      int32_t has = 0;
+      check(riis_vtk_mesh_has_point_array(file, name.c_str(), &has));
+      if (!has) continue;
+      refuse_usage(options().mesh + " already has an array " + name +
+                   ": write --replace to replace it, or --prefix NAME for other arrays beside it");
+    }
   };
   for (const ValveSource &valve : all_.valves) {
-    add(valve.options.prefix, {"_marked", "_distance", "_leaflet"});
-    if (all_.is_series()) add(valve.options.prefix, {"_normal", "_side"});
-    if (has_velocities()) add(valve.options.prefix, {"_velocity"});
+    check_new(valve.options.prefix, {"_marked", "_distance", "_leaflet"});
+    if (all_.is_series()) check_new(valve.options.prefix, {"_normal", "_side"});
+    if (has_velocities()) check_new(valve.options.prefix, {"_velocity"});
   }
-  if (all_.has_resistance()) add(options().prefix, {"_K"});
-  if (all_.has_resistance() && has_velocities()) add(options().prefix, {"_K_u_surface"});
-  if (all_.is_series() && !options().series.all_cells && options().cells_where.empty()) add("riis_node_id", {""});
-  return names;
+  if (all_.has_resistance()) check_new(options().prefix, {"_K"});
+  if (all_.has_resistance() && has_velocities()) check_new(options().prefix, {"_K_u_surface"});
+  if (all_.is_series() && !options().series.all_cells && options().cells_where.empty()) check_new("riis_node_id", {""});
 }
 
-// Returns the report of a valve's surface at its present position.
 ValveReport Marking::report_of(std::size_t i) {
   const MovingValve &valve = valves_[i];
   const MarkOptions &own = valve.options();
   ValveReport report;
+  report.options = &own;
   report.name = all_.part_of(i);
   report.surface_name = own.surface.empty() ? own.valve : own.surface;
   report.opening = valve.opening();
@@ -172,26 +170,12 @@ ValveReport Marking::report_of(std::size_t i) {
   if (own.skirt && !own.surface.empty()) report.attached = attached_edges_of(valve.surface());
   if (own.skirt && !own.wall.empty()) report.gap = gap_to_wall(own, valve.surface());
   report.crossings = valve.crossings;
-  if (own.given_resistance) report.resistance = report_of_resistance(own, options());
   report_.seconds.surface += report.surface.seconds_triangles;
   report_.seconds.scene += report.surface.seconds_scene;
   return report;
 }
 
 // ---- Times ----
-
-// The leaflets of the closed valve or of the open valve may reach beyond the wall.
-void Marking::take_states_for_outside() {
-  const auto take = [&](std::size_t i) {
-    sums_[i].outside.emplace_back(valves_[i].options(), valves_[i].surface(), valves_[i].opening());
-  };
-  for (std::size_t i = 0; i < valves_.size(); ++i) take(i);
-  if (!all_.is_series()) return;
-  move_to_first(times_, valves_, std::greater<>());
-  for (std::size_t i = 0; i < valves_.size(); ++i)
-    if (valves_[i].opening() != report_.valves[i].opening) take(i);
-  move_to_first(times_, valves_, std::less<>());
-}
 
 void Marking::move_to_step(std::size_t step) {
   const double time = times_[step];
@@ -210,32 +194,32 @@ void Marking::mark_step(FileNodes &nodes, riis_vtk_mesh *file, std::size_t step)
 
 void Marking::measure(Piece &piece) {
   counts_.add(piece);
-  add_loose_nodes(piece.nodes, loose_);
-  if (piece.nodes.n() == 0) return;
-  check_new_arrays(options(), names_, piece.file.get());
+  add_loose_nodes(piece, loose_);
+  if (piece.n() == 0) return;
+  check_new_arrays(piece.file.get());
   find_neighbors_for_search(piece);
   for (MovingValve &valve : valves_) valve.forget_marks();
   mark_at_all_times(piece);
   if (all_.is_series()) {
     move_to_first(times_, valves_, std::less<>());
-    for (MovingValve &valve : valves_) valve.mark(piece.nodes, 0);
+    for (MovingValve &valve : valves_) valve.mark(piece, 0);
   }
   const Stage stage("looking for leaks", options().quiet);
   // The neighbours are used only if all edges of the piece are known.
-  const riis_vtk_sharing &cells = piece.nodes.counts();
+  const riis_vtk_sharing &cells = piece.counts();
   const bool has_edges = cells.n_cells_left_out == 0 && (cells.n_volume_cells > 0 || !mesh_.is_whole());
-  if (options().check_leaks || (wants_measures_ && has_edges))
-    piece.nodes.find_neighbors(options().mark_options.n_threads);
+  if (options().check_leaks || (wants_measures_ && has_edges)) piece.find_neighbors(options().mark_options.n_threads);
   for (std::size_t i = 0; i < valves_.size(); ++i) {
     ValveSums &sums = sums_[i];
     combine(sums.marks, valves_[i].stats());
     sums.leaks.add(piece, valves_[i].result());
     for (LeafletsOutside &state : sums.outside) state.add(piece);
-    node_counts_.add(piece.nodes, list_of(valves_[i].result(), RIIS_LIST_WITHIN_LIMIT), within_limit(i));
+    node_counts_.add(piece, list_of(valves_[i].result(), RIIS_LIST_WITHIN_LIMIT), within_limit(i));
     std::vector<std::int64_t> regions;
-    if (wants_measures_ && piece.nodes.is_whole() && is_closed(valves_[i]))
-      sums.closed_area = closed_area_in(piece.file.get(), valves_[i].surface(), options().mark_options.n_threads,
-                                        error_of_distances(valves_[i].options()));
+    if (wants_measures_ && piece.is_whole() && is_closed(valves_[i]))
+      report_.valves[i].flow.closed_area =
+          closed_area_in(piece.file.get(), valves_[i].surface(), options().mark_options.n_threads,
+                         error_of_distances(valves_[i].options()));
     if (wants_measures_ && has_edges) regions = sums.band.add(piece, valves_[i].result(), options().mark_options);
     if (i == 0 || !regions.empty()) sums.shared.push_back(shared_nodes_of(piece, regions));
   }
@@ -246,27 +230,27 @@ void Marking::measure(Piece &piece) {
 
 void Marking::find_neighbors_for_search(Piece &piece) {
   if (!needs_adjacency(options().mark_options.search)) return;
-  if (piece.nodes.is_grid())
+  if (piece.is_grid())
     refuse_usage(
         "--search: " + options().mesh +
         " is a grid, whose nodes are not stored, so this search cannot walk from node to node; leave --search out");
   const Stage stage("finding the nodes' neighbours", options().quiet);
-  piece.nodes.find_neighbors(options().mark_options.n_threads);
+  piece.find_neighbors(options().mark_options.n_threads);
   report_.seconds.adjacency += stage.seconds();
 }
 
-// Also stores the nodes near the moving valve, and enlarges the box around the whole motion.
+// In a series, also stores the nodes near the moving valve, and enlarges the box around the whole motion.
 void Marking::mark_at_all_times(Piece &piece) {
   const Stage stage("marking", options().quiet || all_.is_series());
-  std::vector<std::uint8_t> is_near(all_.is_series() ? static_cast<std::size_t>(piece.nodes.n()) : 0);
+  std::vector<std::uint8_t> is_near(all_.is_series() ? static_cast<std::size_t>(piece.n()) : 0);
   std::optional<StepProgress> progress;
   if (all_.is_series()) progress.emplace("finding the nodes near the moving valve", times_.size(), options().quiet);
   for (std::size_t step = 0; step < times_.size(); ++step) {
     if (progress) progress->begin(step);
     for (std::size_t i = 0; i < valves_.size(); ++i) {
       valves_[i].move_to(times_[step]);
-      valves_[i].mark(piece.nodes, 0);
-      node_counts_.add(piece.nodes, list_of(valves_[i].result(), RIIS_LIST_MARKED), marked_at(step, i));
+      valves_[i].mark(piece, 0);
+      node_counts_.add(piece, list_of(valves_[i].result(), RIIS_LIST_MARKED), marked_at(step, i));
       if (!all_.is_series()) continue;
       const riis_mark_list within = list_of(valves_[i].result(), RIIS_LIST_WITHIN_LIMIT);
       for (std::int64_t k = 0; k < within.n_nodes; ++k) view(is_near)[within.node_id[k]] = 1;
@@ -280,9 +264,8 @@ void Marking::mark_at_all_times(Piece &piece) {
 }
 
 void Marking::set_arrays(riis_vtk_mesh *file) const {
-  std::int64_t n_nodes = 0;
-  check(riis_vtk_mesh_get_nodes(file, &n_nodes, nullptr, nullptr));
-  // K is a sum over the valves that have a resistance, which have the same units.
+  const std::int64_t n_nodes = valves_[0].stats().n_nodes;
+  // K is the sum over all valves with a resistance. These valves have the same units.
   std::vector<double> K(all_.has_resistance() ? static_cast<std::size_t>(n_nodes) : 0);
   std::vector<double> K_u_surface(has_velocities() ? 3 * K.size() : 0);
   const MarkOptions *with_units = &options();
@@ -315,20 +298,21 @@ void Marking::judge() {
   check_loose_nodes(loose_, mesh_);
   const std::int64_t n_nodes = counts.n_nodes + matched[0].n_nodes;
   n_marked_ = node_counts_.sums();
-  report_.mesh_name = options().mesh;
   report_.n_cells = counts.n_cells;
   for (std::size_t i = 0; i < valves_.size(); ++i) report_marks(i, n_nodes, counts);
-  warn_of_apart(counts, matched[0], mesh_);
+  if (counts.n_with_nodes > 1 && matched[0].n_in_several == 0 && counts.n_volume_cells > 0)
+    warn("the pieces of " + mesh_.path() +
+         " share no node, so nothing passes from one to another: nodes are the same if their global ids or all their "
+         "coordinates are equal");
   mesh_.warn_of_regions();
   warn_of_marks(n_nodes, counts);
   for (std::size_t i = 0; i < valves_.size(); ++i) report_outside(i, counts);
-  if (all_.is_series()) move_to_first(times_, valves_, std::less<>());
+  move_to_first(times_, valves_, std::less<>());
   const Stage stage("looking for leaks", options().quiet);
   for (std::size_t i = 0; i < valves_.size(); ++i) sums_[i].leaks.judge(report_.valves[i]);
   for (std::size_t i = 0; wants_measures_ && i < valves_.size(); ++i) {
     ValveReport &valve = report_.valves[i];
     if (valve.leaks.has_all_edges()) sums_[i].band.judge(matched[i], valve.surface.half_thickness, valve.flow);
-    valve.flow.closed_area = sums_[i].closed_area;
     report_leak(valves_[i], valve.flow);
   }
   if (options().check_leaks) {
@@ -354,13 +338,9 @@ void Marking::report_marks(std::size_t i, std::int64_t n_nodes, const MeshCounts
     if (law.at(times_[step]) < law.at(times_[least])) least = step;
     if (n_marked_[marked_at(step, i)] > n_marked_[marked_at(most, i)]) most = step;
   }
-  most_steps_[i] = most;
+  sums_[i].most_step = most;
   stats.n_marked = n_marked_[marked_at(least, i)];
   stats.n_within_limit = n_marked_[within_limit(i)];
-  const double limit = valve.options().mark_options.distance_limit;
-  report.distance_limit = limit > 0 ? limit : report.surface.half_thickness;
-  report.distance = valve.options().surface_options.measure;
-  report.leaks.is_near = stats.n_marked > 0;
   report.leaks.n_volume_cells = counts.n_volume_cells;
   report.leaks.n_cells_left_out = counts.n_cells_left_out;
 }
@@ -371,11 +351,10 @@ void Marking::warn_of_marks(std::int64_t n_nodes, const MeshCounts &counts) {
   bool are_complete = true;
   for (std::size_t i = 0; i < valves_.size(); ++i) {
     are_complete = are_complete && report_.valves[i].marks.complete;
-    valves_[i].move_to(times_[most_steps_[i]]);
-    const riis_surface_info info = all_.is_series() ? info_of(valves_[i].surface()) : report_.valves[i].surface;
-    Situation situation(valves_[i].options(), info, counts);
+    valves_[i].move_to(times_[sums_[i].most_step]);
+    Situation situation(valves_[i].options(), info_of(valves_[i].surface()), counts);
     situation.n_nodes = n_nodes;
-    situation.n_marked = n_marked_[marked_at(most_steps_[i], i)];
+    situation.n_marked = n_marked_[marked_at(sums_[i].most_step, i)];
     auto warning = warning_of(situation);
     compare_units(i, units_left_open(situation));
     if (!warning) continue;
@@ -400,7 +379,7 @@ void Marking::report_outside(std::size_t i, const MeshCounts &counts) {
     if (found.opening == 0.0) closed = found;
     if (!report || found.share > report->share) report = found;
   }
-  // A valve that is always open may stand inside the mesh where it is closed. Its sizes may allow no closed valve.
+  // A valve that is open at all times may stand inside the mesh when it is closed. Some sizes allow no closed valve.
   const MovingValve &valve = valves_[i];
   if (report->share > most_outside && !closed && valve.source().valve) {
     const Valve copy = copy_of(valve.source().valve);
@@ -411,52 +390,30 @@ void Marking::report_outside(std::size_t i, const MeshCounts &counts) {
     }
   }
   if (report->opening == report_.valves[i].opening) report->opening.reset();
-  if (n_marked_[marked_at(most_steps_[i], i)] > 0)
+  if (n_marked_[marked_at(sums_[i].most_step, i)] > 0)
     warn_of_outside(*report, closed, report_.valves[i].surface.half_thickness, all_.surface_of(i));
 }
-
-namespace {
-
-// Returns the surface of a valve at its present position, converted to another unit.
-Surface surface_in_unit(const MovingValve &valve, const PossibleUnit &unit) {
-  riis_surface_options how = valve.options().surface_options;
-  const double factor = unit.scale / how.scale;
-  how.scale = unit.scale;
-  how.half_thickness = unit.half_thickness;
-  for (double &shift : how.translation) shift *= unit.placement;
-  if (valve.source().valve) return create<Surface>(riis_surface_create, valve.source().valve, &how);
-  auto from_present = defaults<riis_surface_options>();
-  from_present.scale = factor;
-  from_present.half_thickness = unit.half_thickness;
-  for (int k = 0; k < 3; ++k) from_present.translation[k] = how.translation[k] - factor * how.translation[k];
-  return joined_surface({valve.surface()}, from_present);
-}
-
-}  // namespace
 
 void Marking::compare_units(std::size_t i, const std::vector<PossibleUnit> &units) const {
   if (units.empty()) return;
   std::string text;
-  NodeCounts counts(units.size());
-  for (std::size_t k = 0; k < units.size(); ++k) {
-    const Surface surface = surface_in_unit(valves_[i], units[k]);
-    const riis_mark_options how = how_to_mark_again(options());
+  for (const PossibleUnit &unit : units) {
+    const Surface surface = surface_in_unit(valves_[i], unit);
+    NodeCounts counts(1);
     mesh_.for_each_own([&](Piece &piece) {
-      if (piece.nodes.n() == 0) return;
-      const Marks marks = marks_of(surface, piece.nodes.mesh(), how);
-      counts.add(piece.nodes, list_of(marks, RIIS_LIST_MARKED), k);
+      if (piece.n() == 0) return;
+      const Marks marks = marks_of(surface, piece.mesh(), how_to_mark_again(options()));
+      counts.add(piece, list_of(marks, RIIS_LIST_MARKED), 0);
     });
+    text += (text.empty() ? "" : ", ") + unit.write + " marks " + counted(counts.sums()[0], "node");
   }
-  const std::vector<std::int64_t> n_marked = counts.sums();
-  for (std::size_t k = 0; k < units.size(); ++k)
-    text += (k == 0 ? "" : ", ") + units[k].write + " marks " + counted(n_marked[k], "node");
   print_line(all_.before(i) + "the unit is not sure: " + text);
 }
 
 // Measures the areas of the orifices. In a series, each valve is measured at its largest opening.
 void Marking::report_orifices() {
   if (!wants_measures_) return;
-  if (all_.is_series()) move_to_first(times_, valves_, std::greater<>());
+  move_to_first(times_, valves_, std::greater<>());
   for (std::size_t i = 0; i < valves_.size(); ++i) {
     const auto orifice = get<riis_orifice>(riis_surface_get_orifice, valves_[i].surface(), nullptr);
     if (orifice.outline == RIIS_OUTLINE_NONE) continue;

@@ -19,8 +19,9 @@
 
 namespace riis::program {
 
+// A run derives from this class, and writes the files.
 class Marking {
- public:
+ protected:
   // Makes the surfaces of the valves. The case and the mesh must outlive this object.
   Marking(Case &all, const MeshPieces &mesh);
 
@@ -34,41 +35,43 @@ class Marking {
   void move_to_step(std::size_t step);
   // Moves the valves to a step, marks the nodes of a file, and sets its arrays.
   void mark_step(FileNodes &nodes, riis_vtk_mesh *file, std::size_t step);
-
-  std::vector<MovingValve> &valves() { return valves_; }
-  Report &report() { return report_; }
-  const std::vector<double> &times() const { return times_; }
   // The next two functions may be called after judge(). `n_marked` is the number of marked nodes in all pieces.
   std::int64_t n_marked(std::size_t step, std::size_t valve) const { return view(n_marked_)[marked_at(step, valve)]; }
   bool has_marks() const;
-  // Returns the nodes of the last piece to which the valves came near at some time of a series.
-  const std::vector<std::int64_t> &near_nodes() const { return near_; }
-  // Returns the box around all surfaces at all times. A movie needs this box.
-  const Box &swept() const { return swept_; }
+  const MarkOptions &options() const { return all_.options; }
+
+  Case &all_;
+  const MeshPieces &mesh_;
+  std::vector<MovingValve> valves_;
+  Report report_;
+  const std::vector<double> times_;
+  std::vector<std::int64_t> near_;  // in a series: the nodes of the last piece to which the valves came near
+  Box swept_ = empty_box();         // around all surfaces at all times; set for a movie
 
  private:
   // The sums of one valve over all pieces.
   struct ValveSums {
     MeshLeaks leaks;
     riis_mark_stats marks{};
+    std::size_t most_step = 0;  // the step with most marked nodes
     BandMeasures band{};
-    std::optional<double> closed_area{};
     std::vector<std::vector<SharedNode>> shared{};  // by piece, with the open regions of this valve
     std::vector<LeafletsOutside> outside{};         // at the least opening, and in a series at the largest
   };
 
-  const MarkOptions &options() const { return all_.options; }
   // Velocities need an earlier time, so a single time has no velocities.
   bool has_velocities() const { return times_.size() > 1; }
   std::int32_t fields() const;
-  std::vector<std::string> names_of_arrays() const;
   // Returns the report of a valve's surface at its present position.
   ValveReport report_of(std::size_t i);
   // The node counts have several kinds: marked nodes at each step, and nodes within the distance limit at the least opening.
   std::size_t marked_at(std::size_t step, std::size_t valve) const { return step * valves_.size() + valve; }
   std::size_t within_limit(std::size_t valve) const { return marked_at(times_.size(), valve); }
+  LeafletsOutside outside_of(std::size_t i) const {
+    return {valves_[i].options(), valves_[i].surface(), valves_[i].opening()};
+  }
 
-  void take_states_for_outside();
+  void check_new_arrays(const riis_vtk_mesh *file) const;
   void find_neighbors_for_search(Piece &piece);
   void mark_at_all_times(Piece &piece);
   void set_arrays(riis_vtk_mesh *file) const;
@@ -79,21 +82,12 @@ class Marking {
   void compare_units(std::size_t i, const std::vector<PossibleUnit> &units) const;
   void report_orifices();
 
-  Case &all_;
-  const MeshPieces &mesh_;
-  std::vector<MovingValve> valves_;
-  Report report_;
-  const std::vector<double> times_;
-  const std::vector<std::string> names_;
   const bool wants_measures_;
   MeshCounts counts_;
   std::vector<NodeKey> loose_;
   NodeCounts node_counts_;
-  std::vector<std::int64_t> n_marked_;   // by kind of node_counts_, once all pieces are marked
-  std::vector<std::size_t> most_steps_;  // by valve: the step with most marked nodes
-  std::vector<std::int64_t> near_;
-  Box swept_ = empty_box();
-  std::vector<ValveSums> sums_;  // by valve
+  std::vector<std::int64_t> n_marked_;  // by kind of node_counts_, once all pieces are marked
+  std::vector<ValveSums> sums_;         // by valve
   PassageCheck passage_;
 };
 

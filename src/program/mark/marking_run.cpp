@@ -66,29 +66,25 @@ constexpr int n_first_steps = 2;
 // Refusal for a valve that cannot move.
 StepTimes time_steps(const MarkOptions &options, const riis_valve *valve, const riis_vtk_mesh *file) {
   const Stage stage("timing " + std::to_string(options.n_steps) + " steps", options.quiet);
-  const riis_mark_options &how = options.mark_options;
   FileNodes nodes(file, options.mesh);
-  if (needs_adjacency(how.search)) nodes.find_neighbors(how.n_threads);
-  const Valve moved = copy_of(valve);
-  const auto surface = create<Surface>(riis_surface_create, moved, &options.surface_options);
-  const Marks result = new_result();
-  std::vector<double> of_surface, of_marking;
-  // The opening goes up to 1, then down to 0, and so on.
+  ValveSource source{options, copy_of(valve), nullptr, OpeningLaw(OpeningTable{{0, 1}, {0, 1}}, "")};
+  source.subject = "--steps";
   double opening = opening_of(valve), change = opening_of_step;
+  MovingValve moved(source, opening, true);  // the time is the opening
+  std::vector<double> of_surface, of_marking;
   for (int i = 0; i < n_first_steps + options.n_steps; ++i) {
     if (opening + change > 1 || opening + change < 0) change = -change;
     opening = std::clamp(opening + change, 0.0, 1.0);
     const Stage step("", true);
-    check(riis_valve_set_scalar(moved, "opening", opening), "--steps");
-    check(riis_surface_update(surface, moved, nullptr), "--steps");
+    moved.move_to(opening);
     const double updated = step.seconds();
-    check(riis_mark_nodes(surface, nodes.mesh(), &how, result), options.mesh);
+    moved.mark(nodes, 0);
     const double marked = step.seconds();
     if (i < n_first_steps) continue;
     of_surface.push_back(updated);
     of_marking.push_back(marked - updated);
   }
-  return {options.n_steps, stats_of(result).search, median(of_surface), median(of_marking)};
+  return {options.n_steps, moved.stats().search, median(of_surface), median(of_marking)};
 }
 
 void write_stats(const MarkOptions &options, const Report &report) {
@@ -96,15 +92,10 @@ void write_stats(const MarkOptions &options, const Report &report) {
 }
 
 // Marks the pieces of a mesh, and writes all files.
-class MarkingRun {
+class MarkingRun : Marking {
  public:
   MarkingRun(Case &all, const MeshPieces &mesh)
-      : all_(all),
-        mesh_(mesh),
-        marking_(all, mesh),
-        times_(marking_.times()),
-        valves_(marking_.valves()),
-        report_(marking_.report()),
+      : Marking(all, mesh),
         files_(all, mesh),
         surfaces_(all.is_series() ? all.options.surface_output : "", ".vtp", times_.size()),
         table_(all.options.series.table, csv_head_of(report_), ""),
@@ -113,34 +104,34 @@ class MarkingRun {
   // Returns whether all steps are complete. A signal stops a series.
   bool run() {
     MeshFile drawn;
-    if (!all_.options.mesh.empty()) {
+    if (!options().mesh.empty()) {
       find_earlier();
       if (!mesh_.is_whole()) begin_writing();
       mesh_.for_each_own(
           [&](Piece &piece) {
             if (UnbrokenWrite::has_signal()) return;
-            marking_.measure(piece);
+            measure(piece);
             // Warnings about a whole mesh are printed before its files are written, because writing may take long.
-            if (mesh_.is_whole()) marking_.judge();
+            if (mesh_.is_whole()) judge();
             all_.is_series() ? write_steps(piece) : write(piece);
             if (mesh_.is_whole()) drawn = std::move(piece.file);
           },
           &report_.seconds);
       if (!mesh_.is_whole() && !finish_pieces()) return false;
     }
-    const bool has_steps = all_.is_series() && !all_.options.mesh.empty();
+    const bool has_steps = all_.is_series() && !options().mesh.empty();
     if (!has_steps) write_surface();
     table_.finish();
     files_.report(report_);
     surfaces_.report(report_);
-    if (!all_.options.series.table.empty()) report_.written.push_back(all_.options.series.table);
+    if (!options().series.table.empty()) report_.written.push_back(options().series.table);
     if (!has_steps) draw(std::move(drawn));
     return !has_steps || n_done_ == times_.size();
   }
 
+  using Marking::has_marks;
   const Report &report() const { return report_; }
   std::size_t n_done() const { return n_done_; }
-  bool has_marks() const { return marking_.has_marks(); }
 
  private:
   // A bad output is refused before the marking.
@@ -164,33 +155,33 @@ class MarkingRun {
   }
 
   void write(Piece &piece) {
-    piece.nodes.release();
-    if (all_.options.n_steps > 0)
+    piece.release();
+    if (options().n_steps > 0)
       report_.step = time_steps(valves_[0].options(), valves_[0].source().valve, piece.file.get());
-    const Stage stage("writing", all_.options.quiet);
+    const Stage stage("writing", options().quiet);
     files_.write(piece.number, 0, piece.file.get());
     report_.seconds.write += stage.seconds();
   }
 
   void write_surface() {
-    if (all_.options.surface_output.empty()) return;
-    const Stage stage("writing", all_.options.quiet);
+    if (options().surface_output.empty()) return;
+    const Stage stage("writing", options().quiet);
     const UnbrokenWrite unbroken;
     const Surface joined = valves_.size() > 1 ? joined_surface(surfaces_of(valves_)) : nullptr;
     if (ranks::is_first())
-      check(riis_vtk_surface_write(joined ? joined : valves_[0].surface(), all_.options.surface_output.c_str()));
-    report_.written.push_back(all_.options.surface_output);
+      check(riis_vtk_surface_write(joined ? joined : valves_[0].surface(), options().surface_output.c_str()));
+    report_.written.push_back(options().surface_output);
     report_.seconds.write += stage.seconds();
   }
 
   // Draws the pictures of one time.
   void draw(MeshFile file) {
-    if (!RunPictures::are_wanted(all_.options)) return;
+    if (!RunPictures::are_wanted(options())) return;
     try {
-      RunPictures(all_, std::move(file), marking_.swept()).draw(0, valves_, report_);
+      RunPictures(all_, std::move(file), swept_).draw(0, valves_, report_);
     } catch (const Refusal &) {
       // The statistics are written even if a picture could not be drawn, because the marks are valid.
-      write_stats(all_.options, report_);
+      write_stats(options(), report_);
       throw;
     }
   }
@@ -199,28 +190,26 @@ class MarkingRun {
   void write_steps(Piece &piece) {
     if (mesh_.is_whole())
       begin_writing();
-    else if (!files_.is_wanted() || piece.nodes.n() == 0)
+    else if (!files_.is_wanted() || piece.n() == 0)
       return;
-    const std::int64_t n_of_piece = piece.nodes.n();
-    piece.nodes.release();
-    MeshFile file =
-        all_.options.series.all_cells ? std::move(piece.file) : part_of(piece.file.get(), marking_.near_nodes());
+    const std::int64_t n_of_piece = piece.n();
+    piece.release();
+    MeshFile file = options().series.all_cells ? std::move(piece.file) : part_of(piece.file.get(), near_);
     std::optional<RunPictures> pictures;
     // Pictures use a separate mesh, because they show the whole mesh and store other arrays in it.
-    if (RunPictures::are_wanted(all_.options))
-      pictures.emplace(all_, piece.file ? std::move(piece.file) : copy_of_mesh(file.get(), n_of_piece),
-                       marking_.swept());
+    if (RunPictures::are_wanted(options()))
+      pictures.emplace(all_, piece.file ? std::move(piece.file) : copy_of_mesh(file.get(), n_of_piece), swept_);
     piece.file.reset();
-    FileNodes nodes(file.get(), piece.path);
+    FileNodes nodes(file.get(), piece.path());
     if (mesh_.is_whole())
       announce(nodes, file.get(), n_of_piece);
     else if (nodes.n() == 0)
       return;
-    StepProgress progress("writing", times_.size(), all_.options.quiet);
+    StepProgress progress("writing", times_.size(), options().quiet);
     for (std::size_t step = 0; step < times_.size() && !UnbrokenWrite::has_signal(); ++step) {
       progress.begin(step);
       const Stage stage("", true);
-      marking_.mark_step(nodes, file.get(), step);
+      mark_step(nodes, file.get(), step);
       const double marking = stage.seconds();
       files_.write(piece.number, step, file.get());
       seconds_[step] += marking;
@@ -235,9 +224,9 @@ class MarkingRun {
   // Prints the estimated size of all files. The first step's file gives the estimate.
   void announce(FileNodes &nodes, riis_vtk_mesh *file, std::int64_t n_nodes_of_mesh) {
     if (!files_.has_list()) return;
-    if (!all_.options.series.all_cells) report_.n_written = nodes.n();
-    if (all_.options.quiet) return;
-    marking_.mark_step(nodes, file, 0);
+    if (!options().series.all_cells) report_.n_written = nodes.n();
+    if (options().quiet) return;
+    mark_step(nodes, file, 0);
     std::int64_t n_bytes = 0;
     check(riis_vtk_mesh_get_file_size(file, &n_bytes));
     const auto n = static_cast<double>(times_.size());
@@ -254,33 +243,27 @@ class MarkingRun {
       if (surfaces_.is_wanted() && ranks::is_first()) check(riis_vtk_surface_write(valves_[i].surface(), path.c_str()));
       surfaces_.add(times_[step], i, path);
       report_.valves[i].times.push_back(
-          {times_[step], valves_[i].opening(), marking_.n_marked(step, i), valves_[i].largest_speed()});
+          {times_[step], valves_[i].opening(), n_marked(step, i), valves_[i].largest_speed()});
     }
     table_.add(csv_line_of(report_, seconds_[step]));
     ++n_done_;
   }
 
-  // Judges and lists the files. All ranks must have written their pieces. Returns whether all pieces are written.
+  // Judges the marks, and lists the files. All ranks must have written their pieces. Returns whether all pieces are written.
   bool finish_pieces() {
     const bool is_stopped = ranks::sum(UnbrokenWrite::has_signal()) > 0;
-    if (!is_stopped) marking_.judge();
-    const Stage stage("writing", all_.options.quiet);
+    if (!is_stopped) judge();
+    const Stage stage("writing", options().quiet);
     files_.list_pieces();
     report_.seconds.write += stage.seconds();
     for (std::size_t step = 0; all_.is_series() && !is_stopped && step < times_.size(); ++step) {
-      marking_.move_to_step(step);
+      move_to_step(step);
       finish_step(step);
     }
     ranks::agree();
     return !is_stopped;
   }
 
-  Case &all_;
-  const MeshPieces &mesh_;
-  Marking marking_;
-  const std::vector<double> &times_;
-  std::vector<MovingValve> &valves_;
-  Report &report_;
   std::optional<UnbrokenWrite> unbroken_;  // lives until the summary is printed
   MarkedFiles files_;
   SeriesFiles surfaces_;         // of a series
@@ -293,7 +276,7 @@ class MarkingRun {
 bool is_sealed(const Report &report) {
   if (report.passage) return report.passage->found.state == RIIS_PASSAGE_CLOSED && !report.passage->is_unknown;
   return std::all_of(report.valves.begin(), report.valves.end(), [](const ValveReport &valve) {
-    return valve.leaks.found.n_edges == 0 && valve.leaks.has_all_edges() && valve.leaks.is_near;
+    return valve.leaks.found.n_edges == 0 && valve.leaks.has_all_edges() && valve.marks.n_marked > 0;
   });
 }
 

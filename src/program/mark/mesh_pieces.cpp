@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <set>
 #include <tuple>
 
 #ifdef __GLIBC__
@@ -10,7 +11,7 @@
 #endif
 
 #include "common/array_view.hpp"
-#include "common/elementary.hpp"
+#include "common/vectors.hpp"
 #include "program/base/progress.hpp"
 #include "program/base/refusal.hpp"
 #include "program/base/text.hpp"
@@ -18,6 +19,56 @@
 #include "program/mark/warnings.hpp"
 
 namespace riis::program {
+namespace {
+
+// Returns this process's free memory to the system. Without this call, the freed memory of large pieces would remain between the
+// shared nodes.
+void release_free_memory() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+}
+
+std::uint64_t mixed(std::uint64_t x) {
+  x += 0x9e3779b97f4a7c15;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111eb;
+  return x ^ (x >> 31);
+}
+
+std::uint64_t hash_of(const FileNodes::Point &point, std::uint64_t seed) {
+  std::uint64_t hash = seed;
+  for (int k = 0; k < 3; ++k) {
+    const double x = view(point)[k] + 0.0;  // -0 becomes 0
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &x, sizeof bits);
+    hash = mixed(hash ^ bits);
+  }
+  return hash;
+}
+
+std::vector<SharedNode> in_one_list(std::vector<std::vector<SharedNode>> by_piece) {
+  std::size_t n = 0;
+  for (const auto &nodes : by_piece) n += nodes.size();
+  std::vector<SharedNode> all;
+  all.reserve(n);
+  for (auto &nodes : by_piece) {
+    all.insert(all.end(), nodes.begin(), nodes.end());
+    nodes = {};
+    release_free_memory();
+  }
+  return all;
+}
+
+// Distributes nodes among the ranks by `id`, the first part of a node's key. Global ids are dense, so a hash of the id chooses
+// the rank, and the ranks get about equal numbers of nodes.
+template <class Node, class Id>
+std::vector<Node> shared_out(std::vector<Node> nodes, const Id &id) {
+  const auto n_ranks = static_cast<std::uint64_t>(ranks::n_ranks());
+  return ranks::exchange(std::move(nodes), [&](const Node &node) { return mixed(id(node)) % n_ranks; });
+}
+
+}  // namespace
 
 double distance_between(const double *p, const double *q) { return hypotenuse(p[0] - q[0], p[1] - q[1], p[2] - q[2]); }
 
@@ -54,23 +105,9 @@ void FileNodes::lend_neighbors(const riis_csr *rows) {
 
 double FileNodes::longest_edge(std::int64_t node) const {
   double longest = 0;
-  for_each_neighbor(node, [&](std::int64_t other) {
-    longest = std::max(longest, distance_between(point(node).data(), point(other).data()));
-  });
+  for_each_neighbor(node, [&](std::int64_t other) { longest = std::max(longest, norm(point(node) - point(other))); });
   return longest;
 }
-
-namespace {
-
-// Returns this process's free memory to the system. Without this call, the freed memory of large pieces would remain between the
-// shared nodes.
-void release_free_memory() {
-#ifdef __GLIBC__
-  malloc_trim(0);
-#endif
-}
-
-}  // namespace
 
 bool is_in_pieces(const std::string &mesh) { return has_ending(mesh, ".pvtu"); }
 
@@ -112,8 +149,7 @@ void MeshPieces::for_each_own(const std::function<void(Piece &)> &work, Seconds 
     const Stage stage("reading " + file_path, options_.quiet);
     MeshFile file = read(number);
     const double reading = stage.seconds();
-    PieceNodes nodes(file, file_path, options_, is_whole_);
-    auto piece = std::make_unique<Piece>(Piece{number, file_path, std::move(file), std::move(nodes)});
+    auto piece = std::make_unique<Piece>(number, std::move(file), file_path, options_);
     if (seconds) {
       seconds->read += reading;
       seconds->mesh += stage.seconds() - reading;
@@ -140,37 +176,15 @@ void MeshPieces::for_each_own(const std::function<void(Piece &)> &work, Seconds 
 
 // ---- Nodes ----
 
-namespace {
-
-std::uint64_t mixed(std::uint64_t x) {
-  x += 0x9e3779b97f4a7c15;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111eb;
-  return x ^ (x >> 31);
-}
-
-std::uint64_t hash_of(const FileNodes::Point &point, std::uint64_t seed) {
-  std::uint64_t hash = seed;
-  for (int k = 0; k < 3; ++k) {
-    const double x = view(point)[k] + 0.0;  // -0 becomes 0
-    std::uint64_t bits = 0;
-    std::memcpy(&bits, &x, sizeof bits);
-    hash = mixed(hash ^ bits);
-  }
-  return hash;
-}
-
-}  // namespace
-
-PieceNodes::PieceNodes(const riis_vtk_mesh *file, const std::string &path, const MarkOptions &how, bool is_whole)
-    : FileNodes(file, path), is_whole_(is_whole) {
+Piece::Piece(std::int64_t the_number, MeshFile the_file, const std::string &path, const MarkOptions &how)
+    : FileNodes(the_file, path), number(the_number), file(std::move(the_file)), is_whole_(!is_in_pieces(how.mesh)) {
   check(riis_vtk_mesh_get_nodes(file, nullptr, &counts_.n_cells, nullptr));
   if (is_whole_) {
     // The neighbours of all centres are known.
     std::int64_t *const n_left_out = how.at_cells ? nullptr : &counts_.n_cells_left_out;
     check(riis_vtk_mesh_get_volume_cells(file, &counts_.n_volume_cells, n_left_out));
   } else {
-    find_roles(file, path);
+    find_roles();
   }
   // Of a grid, two opposite nodes give the box, and the box gives the size.
   for (std::int64_t i = 0; i < n(); i += is_grid() ? std::max<std::int64_t>(n() - 1, 1) : 1) {
@@ -181,10 +195,10 @@ PieceNodes::PieceNodes(const riis_vtk_mesh *file, const std::string &path, const
   }
 }
 
-void PieceNodes::find_roles(const riis_vtk_mesh *file, const std::string &path) {
+void Piece::find_roles() {
   role_.resize(static_cast<std::size_t>(n()));
   const riis_status status = riis_vtk_mesh_get_sharing(file, n(), role_.data(), nullptr, &counts_, sizeof counts_);
-  if (status == RIIS_FILE_ERROR) refuse_data(path + ": " + riis_last_error());
+  if (status == RIIS_FILE_ERROR) refuse_data(path() + ": " + riis_last_error());
   check(status);
   if (has_ids()) {
     ids_.resize(role_.size());
@@ -194,7 +208,7 @@ void PieceNodes::find_roles(const riis_vtk_mesh *file, const std::string &path) 
   for (const std::uint8_t role : role_) mask_.push_back(role != RIIS_VTK_NODE_GHOST);
 }
 
-NodeKey PieceNodes::key(std::int64_t node) const {
+NodeKey Piece::key(std::int64_t node) const {
   if (is_whole_) return {static_cast<std::uint64_t>(node), 0};
   const std::uint64_t first = hash_of(point(node), 0x243f6a8885a308d3);
   if (has_ids()) return {static_cast<std::uint64_t>(id(node)), first};
@@ -204,14 +218,14 @@ NodeKey PieceNodes::key(std::int64_t node) const {
 // ---- Counts ----
 
 void MeshCounts::add(const Piece &piece) {
-  const PieceNodes &nodes = piece.nodes;
-  const riis_vtk_sharing &cells = nodes.counts();
+  const riis_vtk_sharing &cells = piece.counts();
+  const bool has_nodes = piece.n() > 0;
   MeshCounts own{
-      0, cells.n_cells, cells.n_volume_cells, cells.n_cells_left_out, nodes.n() > 0, nodes.n() > 0 && nodes.has_ids()};
-  for (std::int64_t i = 0; i < nodes.n(); ++i) own.n_nodes += nodes.is_inside(i);
-  own.box = nodes.box();
-  own.moments = nodes.moments();
-  if (nodes.n() > 0) check(riis_vtk_mesh_get_median_edge(piece.file.get(), &own.median_edge));
+      0, cells.n_cells, cells.n_volume_cells, cells.n_cells_left_out, has_nodes, has_nodes && piece.has_ids()};
+  for (std::int64_t i = 0; i < piece.n(); ++i) own.n_nodes += piece.is_inside(i);
+  own.box = piece.box();
+  own.moments = piece.moments();
+  if (has_nodes) check(riis_vtk_mesh_get_median_edge(piece.file, &own.median_edge));
   if (own.median_edge > 0) own.n_edge_cells = static_cast<double>(cells.n_cells);
   add(own);
 }
@@ -242,74 +256,38 @@ MeshCounts sum_of(const MeshCounts &own, const MeshPieces &mesh) {
   return all;
 }
 
-void warn_of_apart(const MeshCounts &counts, const MatchedNodes &matched, const MeshPieces &mesh) {
-  if (counts.n_with_nodes < 2 || matched.n_in_several > 0 || counts.n_volume_cells == 0) return;
-  warn("the pieces of " + mesh.path() +
-       " share no node, so nothing passes from one to another: nodes are the same if their global ids or all their "
-       "coordinates are equal");
-}
-
 // ---- Matching ----
 
 std::vector<SharedNode> shared_nodes_of(const Piece &piece, const std::vector<std::int64_t> &regions) {
-  const PieceNodes &nodes = piece.nodes;
   std::vector<SharedNode> shared;
-  if (nodes.is_whole()) return shared;
+  if (piece.is_whole()) return shared;
   std::int64_t n_shared = 0;
-  for (std::int64_t i = 0; i < nodes.n(); ++i) n_shared += nodes.is_shared(i);
+  for (std::int64_t i = 0; i < piece.n(); ++i) n_shared += piece.is_shared(i);
   shared.reserve(static_cast<std::size_t>(n_shared));
-  for (std::int64_t i = 0; i < nodes.n(); ++i) {
+  for (std::int64_t i = 0; i < piece.n(); ++i) {
     const std::int64_t region = regions.empty() ? -1 : view(regions)[i];
-    if (nodes.is_shared(i))
-      shared.push_back({nodes.key(i), {static_cast<std::int32_t>(piece.number), static_cast<std::int32_t>(region)}});
+    if (piece.is_shared(i))
+      shared.push_back({piece.key(i), {static_cast<std::int32_t>(piece.number), static_cast<std::int32_t>(region)}});
   }
   return shared;
 }
 
-namespace {
-
-std::vector<SharedNode> in_one_list(std::vector<std::vector<SharedNode>> by_piece) {
-  std::size_t n = 0;
-  for (const auto &nodes : by_piece) n += nodes.size();
-  std::vector<SharedNode> all;
-  all.reserve(n);
-  for (auto &nodes : by_piece) {
-    all.insert(all.end(), nodes.begin(), nodes.end());
-    nodes = {};
-    release_free_memory();
-  }
-  return all;
-}
-
-// Distributes nodes among the ranks by `id`, the first part of a node's key. Global ids are dense, so a hash of the id chooses
-// the rank, and the ranks get about equal numbers of nodes.
-template <class Node, class Id>
-std::vector<Node> shared_out(std::vector<Node> nodes, const Id &id) {
-  const auto n_ranks = static_cast<std::uint64_t>(ranks::n_ranks());
-  return ranks::exchange(std::move(nodes), [&](const Node &node) { return mixed(id(node)) % n_ranks; });
-}
-
-}  // namespace
-
 MatchedNodes match_nodes(std::vector<std::vector<SharedNode>> by_piece, bool has_ids,
                          const std::vector<std::string> &files) {
-  constexpr std::size_t few = 1 << 16;
   std::vector<SharedNode> nodes =
       shared_out(in_one_list(std::move(by_piece)), [](const SharedNode &node) { return node.key[0]; });
   std::sort(nodes.begin(), nodes.end(), [](const SharedNode &p, const SharedNode &q) {
     return std::tie(p.key, p.where) < std::tie(q.key, q.where);
   });
-  MatchedNodes own;
-  std::size_t n_kept = few;
+  std::int64_t n_nodes = 0, n_in_several = 0;
+  std::set<JoinedRegions> joined;
   for (std::size_t begin = 0, end = 0; begin < nodes.size(); begin = end) {
     const SharedNode &first = nodes[begin];
-    bool in_several = false;
+    bool is_in_several = false;
     for (end = begin + 1; end < nodes.size() && nodes[end].key == first.key; ++end) {
-      const JoinedRegions joined{nodes[end - 1].where, nodes[end].where};
-      const auto &[p, q] = joined;
-      in_several |= p[0] != q[0];
-      if (p[1] < 0 || q[1] < 0 || p == q) continue;
-      if (own.joined.empty() || own.joined.back() != joined) own.joined.push_back(joined);
+      const PieceRegion &p = nodes[end - 1].where, &q = nodes[end].where;
+      is_in_several |= p[0] != q[0];
+      if (p[1] >= 0 && q[1] >= 0 && p != q) joined.insert({p, q});
     }
     if (has_ids && end < nodes.size() && nodes[end].key[0] == first.key[0])
       refuse_data(
@@ -317,15 +295,10 @@ MatchedNodes match_nodes(std::vector<std::vector<SharedNode>> by_piece, bool has
           " is at one place in " + view(files)[first.where[0]] + " and at another in " +
           view(files)[nodes[end].where[0]] +
           "; on each rank, dolfinx writes the nodes of a function with other last digits: use VTKFile.write_mesh");
-    ++own.n_nodes;
-    own.n_in_several += in_several;
-    if (own.joined.size() > 2 * n_kept) {
-      sort_unique(own.joined);
-      n_kept = std::max(few, own.joined.size());
-    }
+    ++n_nodes;
+    n_in_several += is_in_several;
   }
-  sort_unique(own.joined);
-  return {ranks::sum(own.n_nodes), ranks::sum(own.n_in_several), gathered(own.joined)};
+  return {ranks::sum(n_nodes), ranks::sum(n_in_several), gathered(std::vector(joined.begin(), joined.end()))};
 }
 
 std::int64_t MatchedNodes::n_joins() const {
@@ -335,10 +308,10 @@ std::int64_t MatchedNodes::n_joins() const {
   return n;
 }
 
-void add_loose_nodes(const PieceNodes &nodes, std::vector<NodeKey> &keys) {
-  if (nodes.is_whole()) return;
-  for (std::int64_t i = 0; i < nodes.n(); ++i)
-    if (nodes.is_loose(i)) keys.push_back(nodes.key(i));
+void add_loose_nodes(const Piece &piece, std::vector<NodeKey> &keys) {
+  if (piece.is_whole()) return;
+  for (std::int64_t i = 0; i < piece.n(); ++i)
+    if (piece.is_loose(i)) keys.push_back(piece.key(i));
 }
 
 void check_loose_nodes(const std::vector<NodeKey> &own, const MeshPieces &mesh) {
@@ -346,8 +319,8 @@ void check_loose_nodes(const std::vector<NodeKey> &own, const MeshPieces &mesh) 
   if (keys.empty()) return;
   std::int64_t n = 0;
   mesh.for_each_own([&](const Piece &piece) {
-    for (std::int64_t i = 0; i < piece.nodes.n(); ++i)
-      n += piece.nodes.is_inside(i) && std::binary_search(keys.begin(), keys.end(), piece.nodes.key(i));
+    for (std::int64_t i = 0; i < piece.n(); ++i)
+      n += piece.is_inside(i) && std::binary_search(keys.begin(), keys.end(), piece.key(i));
   });
   const std::int64_t sum = ranks::sum(n);
   if (sum > 0)
@@ -356,11 +329,11 @@ void check_loose_nodes(const std::vector<NodeKey> &own, const MeshPieces &mesh) 
                 "points of its own cells");
 }
 
-void NodeCounts::add(const PieceNodes &nodes, const riis_mark_list &list, std::size_t kind) {
+void NodeCounts::add(const Piece &piece, const riis_mark_list &list, std::size_t kind) {
   for (std::int64_t i = 0; i < list.n_nodes; ++i) {
     const std::int64_t node = list.node_id[i];
-    n_inside_.at(kind) += nodes.is_inside(node);
-    if (nodes.is_shared(node)) shared_.push_back({kind, nodes.key(node)[0], nodes.key(node)[1]});
+    n_inside_.at(kind) += piece.is_inside(node);
+    if (piece.is_shared(node)) shared_.push_back({kind, piece.key(node)[0], piece.key(node)[1]});
   }
 }
 

@@ -39,6 +39,7 @@ class FileNodes {
   // The file must outlive this object. Refusals call the file by `path`.
   FileNodes(const riis_vtk_mesh *file, std::string path);
 
+  const std::string &path() const { return path_; }
   std::int64_t n() const { return n_; }
   riis_mesh *mesh() const { return mesh_.get(); }
   bool is_grid() const { return axes_.ni > 0; }
@@ -91,7 +92,7 @@ using PieceList = Handle<riis_vtk_pieces, riis_vtk_pieces_destroy>;
 // Returns whether the path names a mesh in pieces.
 bool is_in_pieces(const std::string &mesh);
 
-struct Piece;
+class Piece;
 
 // A mesh, whose pieces are distributed among the ranks. Each rank takes some of its pieces. A mesh in one file stays in memory
 // until its only piece is dropped.
@@ -132,13 +133,13 @@ class MeshPieces {
 
 using NodeKey = std::array<std::uint64_t, 2>;
 
-// The nodes of one piece, and their keys. In a whole mesh, all nodes are inside, and the key of a node is its number. If a piece
-// has global ids, a key is the id and a hash of the coordinates. If a piece has no global ids, a key is a hash of the coordinates
-// with 128 bits. The probability that two of a billion nodes have equal hashes is below 1e-20.
-class PieceNodes : public FileNodes {
+// A piece in memory: its file, its nodes and their keys. In a whole mesh, all nodes are inside, and the key of a node is its
+// number. If a piece has global ids, a key is the id and a hash of the coordinates. If a piece has no global ids, a key is a hash
+// of the coordinates with 128 bits. The probability that two of a billion nodes have equal hashes is below 1e-20.
+class Piece : public FileNodes {
  public:
-  // `how` names the mesh to which the file belongs.
-  PieceNodes(const riis_vtk_mesh *file, const std::string &path, const MarkOptions &how, bool is_whole);
+  // `how` names the mesh to which the piece belongs. The nodes borrow from the file.
+  Piece(std::int64_t number, MeshFile file, const std::string &path, const MarkOptions &how);
 
   NodeKey key(std::int64_t node) const;
   bool is_shared(std::int64_t node) const { return role(node) == RIIS_VTK_NODE_SHARED || is_loose(node); }
@@ -156,27 +157,21 @@ class PieceNodes : public FileNodes {
   // Returns the global id of a node. Without global ids, returns the node's number in the piece.
   std::int64_t id(std::int64_t node) const { return has_ids() ? ids_[static_cast<std::size_t>(node)] : node; }
 
+  const std::int64_t number;
+  MeshFile file;
+
  private:
   std::uint8_t role(std::int64_t node) const {
     return is_whole_ ? static_cast<std::uint8_t>(RIIS_VTK_NODE_INSIDE) : role_[static_cast<std::size_t>(node)];
   }
+  void find_roles();
 
-  void find_roles(const riis_vtk_mesh *file, const std::string &path);
-
-  bool is_whole_;
+  const bool is_whole_;
   Box box_ = empty_box();
   Moments moments_;
   std::vector<std::uint8_t> role_, mask_;
   std::vector<std::int64_t> ids_;
   riis_vtk_sharing counts_{};
-};
-
-// A piece in memory. The nodes borrow from the file.
-struct Piece {
-  std::int64_t number;
-  std::string path;
-  MeshFile file;
-  PieceNodes nodes;
 };
 
 // The numbers of a part of a mesh, such as the pieces of one rank. Nodes that pieces share are counted separately.
@@ -253,12 +248,9 @@ struct MatchedNodes {
 MatchedNodes match_nodes(std::vector<std::vector<SharedNode>> by_piece, bool has_ids,
                          const std::vector<std::string> &files);
 
-// Warns if no node belongs to more than one piece.
-void warn_of_apart(const MeshCounts &counts, const MatchedNodes &matched, const MeshPieces &mesh);
-
 // Adds the keys of the loose nodes: the nodes that no cell of their piece uses. A loose node counts if it is inside no other
 // piece.
-void add_loose_nodes(const PieceNodes &nodes, std::vector<NodeKey> &keys);
+void add_loose_nodes(const Piece &piece, std::vector<NodeKey> &keys);
 // Refuses a mesh in which a loose node is inside another piece, because the node would be counted twice. The pieces are read
 // again only if there are loose nodes.
 void check_loose_nodes(const std::vector<NodeKey> &own, const MeshPieces &mesh);
@@ -268,7 +260,7 @@ void check_loose_nodes(const std::vector<NodeKey> &own, const MeshPieces &mesh);
 class NodeCounts {
  public:
   explicit NodeCounts(std::size_t n_kinds) : n_inside_(n_kinds) {}
-  void add(const PieceNodes &nodes, const riis_mark_list &list, std::size_t kind);
+  void add(const Piece &piece, const riis_mark_list &list, std::size_t kind);
   // For each kind, returns the number of nodes in all pieces of all ranks. Each node counts at most once for a kind.
   std::vector<std::int64_t> sums() const;
 

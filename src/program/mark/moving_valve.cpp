@@ -41,6 +41,25 @@ void add_resistance(const MarkOptions &options, const riis_marks *result, std::v
   check(riis_marks_add_resistance(result, &how, &to), "--resistance");
 }
 
+namespace {
+
+// Marks a single node. The library therefore refuses bad options before a large mesh is read and marked.
+void rehearse_marking(const MarkOptions &options, const riis_surface *surface) {
+  const double origin[3] = {0, 0, 0};
+  const auto mesh = create<Mesh>(riis_mesh_create, 1, origin, origin + 1, origin + 2, 3);
+  riis_mark_options mark_options = options.mark_options;
+  if (needs_adjacency(mark_options.search)) mark_options.search = RIIS_SEARCH_EXHAUSTIVE;
+  const Marks result = marks_of(surface, mesh, mark_options);
+  auto dense = defaults<riis_dense_arrays>();
+  dense.n_nodes = 1;
+  dense.far_distance = options.far_distance;
+  check(riis_marks_get_dense(result, &dense));
+  std::vector<double> K(1), none;
+  if (options.resistance) add_resistance(options, result, K, none);
+}
+
+}  // namespace
+
 MovingValve::MovingValve(ValveSource &source, double time, bool moves) : source_(source), result_(new_result()) {
   is_at_rest_ = !moves || (!source.keyframes && (!source.valve || (source.law.is_constant() && !source.warp.moves())));
   if (source.keyframes) source.options.time = time;
@@ -94,25 +113,6 @@ double MovingValve::largest_speed() const {
   return largest;
 }
 
-namespace {
-
-// Marks a single node. The library therefore refuses bad options before a large mesh is read and marked.
-void rehearse_marking(const MarkOptions &options, const riis_surface *surface) {
-  const double origin[3] = {0, 0, 0};
-  const auto mesh = create<Mesh>(riis_mesh_create, 1, origin, origin + 1, origin + 2, 3);
-  riis_mark_options mark_options = options.mark_options;
-  if (needs_adjacency(mark_options.search)) mark_options.search = RIIS_SEARCH_EXHAUSTIVE;
-  const Marks result = marks_of(surface, mesh, mark_options);
-  auto dense = defaults<riis_dense_arrays>();
-  dense.n_nodes = 1;
-  dense.far_distance = options.far_distance;
-  check(riis_marks_get_dense(result, &dense));
-  std::vector<double> K(1), none;
-  if (options.resistance) add_resistance(options, result, K, none);
-}
-
-}  // namespace
-
 std::vector<MovingValve> moving_valves(Case &all) {
   std::vector<MovingValve> valves;
   valves.reserve(all.valves.size());
@@ -140,46 +140,28 @@ std::vector<MovingValve> moving_valves(Case &all) {
 
 // ---- Joined surface ----
 
-void JoinedTriangles::add(const riis_triangles &triangles, std::int32_t first_leaflet) {
-  const int64_t before = view(triangles_.points).size();
-  for (const double *xyz = triangles.xyz; xyz != triangles.xyz + 3 * triangles.n_vertices; xyz += 3)
-    triangles_.points.push_back({xyz[0], xyz[1], xyz[2]});
-  for (int64_t i = 0; i < triangles.n_triangles; ++i) {
-    const int64_t *const id = triangles.vertex_id + 3 * i;
-    triangles_.corners.push_back({before + id[0], before + id[1], before + id[2]});
-    leaflets_.push_back(first_leaflet + triangles.leaflet_id[i]);
-  }
-}
-
-void JoinedTriangles::add(const std::array<Vector3, 3> &corners) {
-  const int64_t first = view(triangles_.points).size();
-  triangles_.points.insert(triangles_.points.end(), corners.begin(), corners.end());
-  triangles_.corners.push_back({first, first + 1, first + 2});
-  leaflets_.push_back(0);
-}
-
-riis_surface_arrays JoinedTriangles::arrays() const {
-  riis_surface_arrays arrays = arrays_of(triangles_);
-  arrays.leaflet_id = leaflets_.data();
-  return arrays;
-}
-
-std::vector<int32_t> first_leaflets(const std::vector<const riis_surface *> &surfaces) {
-  std::vector<int32_t> first = {0};
-  for (const riis_surface *const surface : surfaces) {
-    const riis_triangles triangles = triangles_of(surface);
-    const int32_t *const ids = triangles.leaflet_id, *const end = ids + triangles.n_triangles;
-    first.push_back(first.back() + (ids == end ? 0 : *std::max_element(ids, end) + 1));
-  }
-  return first;
+void add_triangles(Triangles &all, const riis_triangles &more) {
+  const int64_t before = view(all.points).size();
+  for (const double *xyz = more.xyz; xyz != more.xyz + 3 * more.n_vertices; xyz += 3)
+    all.points.push_back({xyz[0], xyz[1], xyz[2]});
+  for (const int64_t *id = more.vertex_id; id != more.vertex_id + 3 * more.n_triangles; id += 3)
+    all.corners.push_back({before + id[0], before + id[1], before + id[2]});
 }
 
 Surface joined_surface(const std::vector<const riis_surface *> &surfaces, const riis_surface_options &how,
                        double skirt_length) {
-  JoinedTriangles joined;
-  const std::vector<int32_t> first = first_leaflets(surfaces);
-  for (std::size_t i = 0; i < surfaces.size(); ++i) joined.add(triangles_of(surfaces[i]), first[i]);
-  riis_surface_arrays arrays = joined.arrays();
+  Triangles joined;
+  std::vector<std::int32_t> leaflets;
+  std::int64_t first = 0;
+  for (const riis_surface *const surface : surfaces) {
+    const riis_triangles triangles = triangles_of(surface);
+    add_triangles(joined, triangles);
+    for (int64_t i = 0; i < triangles.n_triangles; ++i)
+      leaflets.push_back(static_cast<std::int32_t>(first + triangles.leaflet_id[i]));
+    first += info_of(surface).largest_leaflet_id + 1;
+  }
+  riis_surface_arrays arrays = arrays_of(joined);
+  arrays.leaflet_id = leaflets.data();
   arrays.skirt_length = skirt_length;
   return create<Surface>(riis_surface_create_from_arrays, &arrays, &how);
 }

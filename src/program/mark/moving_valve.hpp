@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One valve of a run, with its marks and its surface at the present time, which may have velocities. Marks by any surface, and
-// their arrays.
+// A valve of a run has a surface at the present time, which may have velocities, and marks. Other functions mark by any surface,
+// and join surfaces.
 #pragma once
 
 #include <riis/riis.h>
@@ -72,23 +72,8 @@ class MovingValve {
 // node, so that bad options are refused early.
 std::vector<MovingValve> moving_valves(Case &all);
 
-// The triangles of several surfaces, or of one surface at several times.
-class JoinedTriangles {
- public:
-  // Adds the triangles of a surface. The ids of the surface's leaflets begin at `first_leaflet`.
-  void add(const riis_triangles &triangles, std::int32_t first_leaflet);
-  // Adds one triangle of leaflet 0.
-  void add(const std::array<Vector3, 3> &corners);
-  // Returns arrays that refer to all triangles.
-  riis_surface_arrays arrays() const;
-
- private:
-  Triangles triangles_;
-  std::vector<std::int32_t> leaflets_;
-};
-
-// For each valve, returns the number of its first leaflet in the joined surface. The last entry is the number of all leaflets.
-std::vector<int32_t> first_leaflets(const std::vector<const riis_surface *> &surfaces);
+// Adds the triangles of a surface.
+void add_triangles(Triangles &all, const riis_triangles &more);
 // Returns one surface with the triangles of all surfaces, and with a skirt if the length is not 0. The leaflets of each surface
 // are numbered after the leaflets of the surfaces before it.
 Surface joined_surface(const std::vector<const riis_surface *> &surfaces,

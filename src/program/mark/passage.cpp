@@ -56,12 +56,8 @@ void warn_of_passage(const MarkOptions &options, const PassageReport &report, co
 }
 
 PassageNode node_of(const Piece &piece, std::int64_t node, double distance) {
-  PassageNode made{piece.nodes.key(node), piece.number, node, piece.nodes.id(node), {0, 0, 0}, distance};
-  std::copy_n(piece.nodes.point(node).data(), 3, made.point);
-  return made;
+  return {piece.key(node), piece.number, node, piece.id(node), piece.point(node), distance};
 }
-
-}  // namespace
 
 // ---- The widest passage in pieces ----
 //
@@ -72,8 +68,6 @@ PassageNode node_of(const Piece &piece, std::int64_t node, double distance) {
 // distance of its node. Regions of different pieces are joined if they have a common node. Links between regions are opened from
 // far to near until the two ends are joined. If the two ends are joined before any link is opened, the limit was too small.
 
-namespace {
-
 // A place in the mesh: a region of a piece beyond the limit, or a node within the limit. If the place is a node, its piece and
 // its region are -1.
 struct Place {
@@ -82,11 +76,6 @@ struct Place {
   bool is_region() const { return region[0] >= 0; }
   bool operator<(const Place &other) const { return std::tie(region, key) < std::tie(other.region, other.key); }
 };
-
-// Sorts nodes from far to near. If distances are equal, sorts by the id.
-bool operator<(const PassageNode &a, const PassageNode &b) {
-  return std::tie(b.distance, a.id, a.piece) < std::tie(a.distance, b.id, b.piece);
-}
 
 // A node that joins two places. For an end of the passage, both places are the place of the end.
 struct Link {
@@ -98,9 +87,9 @@ struct Link {
 class PieceWays {
  public:
   PieceWays(const Piece &piece, const riis_mark_list &within, const Band &band, double limit)
-      : piece_(piece), nodes_(piece.nodes), sets_(nodes_.n()) {
-    resize(distance_, nodes_.n());
-    std::fill(distance_.begin(), distance_.end(), std::numeric_limits<double>::infinity());
+      : piece_(piece), sets_(piece.n()) {
+    const auto n = static_cast<std::size_t>(piece_.n());
+    distance_.assign(n, std::numeric_limits<double>::infinity());
     for (std::int64_t i = 0; i < within.n_nodes; ++i) {
       const std::int64_t node = within.node_id[i];
       const double distance = band.marking_thickness(within.distance[i], within.height ? within.height[i] : 0);
@@ -108,15 +97,14 @@ class PieceWays {
       view(distance_)[node] = distance;
       near_.push_back(node);
     }
-    resize(is_open_, nodes_.n());
-    for (std::int64_t i = 0; i < nodes_.n(); ++i)
+    is_open_.resize(n);
+    for (std::int64_t i = 0; i < piece_.n(); ++i)
       if (is_far(i)) open(i, [&](std::int64_t j) { sets_.unite(i, j); });
-    resize(region_, nodes_.n());
-    resize(terminal_, nodes_.n());
-    std::fill(terminal_.begin(), terminal_.end(), -1);
-    for (std::int64_t i = 0; i < nodes_.n(); ++i) {
+    region_.resize(n);
+    terminal_.assign(n, -1);
+    for (std::int64_t i = 0; i < piece_.n(); ++i) {
       view(region_)[i] = view(is_open_)[i] ? sets_.root(i) : -1;
-      if (nodes_.is_shared(i)) add_terminal(i);
+      if (piece_.is_shared(i)) add_terminal(i);
     }
   }
 
@@ -129,7 +117,7 @@ class PieceWays {
   void add_links(std::vector<Link> &links) {
     std::sort(near_.begin(), near_.end(), [&](std::int64_t a, std::int64_t b) {
       const double p = view(distance_)[a], q = view(distance_)[b];
-      return p != q ? p > q : nodes_.id(a) < nodes_.id(b);
+      return p != q ? p > q : piece_.id(a) < piece_.id(b);
     });
     for (const std::int64_t node : near_) open(node, [&](std::int64_t other) { unite(node, other, links); });
   }
@@ -143,16 +131,16 @@ class PieceWays {
   void add_terminal(std::int64_t node) { view(terminal_)[is_far(node) ? sets_.root(node) : node] = node; }
 
   Place place_of(std::int64_t node) const {
-    if (!is_far(node)) return {{-1, -1}, nodes_.key(node)};
+    if (!is_far(node)) return {{-1, -1}, piece_.key(node)};
     return {{static_cast<std::int32_t>(piece_.number), static_cast<std::int32_t>(view(region_)[node])}, {0, 0}};
   }
 
   // Opens a node that is no ghost, and calls `join` for each open neighbour.
   template <class Join>
   void open(std::int64_t node, const Join &join) {
-    if (nodes_.is_ghost(node)) return;
+    if (piece_.is_ghost(node)) return;
     view(is_open_)[node] = 1;
-    nodes_.for_each_neighbor(node, [&](std::int64_t other) {
+    piece_.for_each_neighbor(node, [&](std::int64_t other) {
       if (view(is_open_)[other]) join(other);
     });
   }
@@ -165,7 +153,6 @@ class PieceWays {
   }
 
   const Piece &piece_;
-  const PieceNodes &nodes_;
   DisjointSets sets_;
   std::vector<double> distance_;    // infinite beyond the limit
   std::vector<std::int64_t> near_;  // the nodes within the limit
@@ -184,10 +171,10 @@ std::optional<PassageReport> PassageCheck::find_within(const riis_surface *surfa
   std::vector<std::vector<SharedNode>> shared;
   int has_ids = 0;
   mesh_.for_each_own([&](Piece &piece) {
-    if (piece.nodes.n() == 0) return;
-    has_ids = piece.nodes.has_ids();
-    piece.nodes.find_neighbors(how.n_threads);
-    const Marks marks = marks_of(surface, piece.nodes.mesh(), how);
+    if (piece.n() == 0) return;
+    has_ids = piece.has_ids();
+    piece.find_neighbors(how.n_threads);
+    const Marks marks = marks_of(surface, piece.mesh(), how);
     PieceWays ways(piece, list_of(marks, RIIS_LIST_WITHIN_LIMIT), band, limit);
     for (const PassageEnd &end : ends_)
       if (end.piece == piece.number) own_ends.push_back(ways.end_at(end.node));
@@ -196,8 +183,11 @@ std::optional<PassageReport> PassageCheck::find_within(const riis_surface *surfa
   });
   const std::vector<Link> placed = ranks::gather(own_ends);
   const MatchedNodes matched = match_nodes(std::move(shared), ranks::sum(has_ids) > 0, mesh_.files());
+  // From far to near. If distances are equal, the ids decide.
   std::vector<Link> links = ranks::gather(own_links);
-  std::sort(links.begin(), links.end(), [](const Link &a, const Link &b) { return a.node < b.node; });
+  std::sort(links.begin(), links.end(), [](const Link &a, const Link &b) {
+    return std::tie(b.node.distance, a.node.id, a.node.piece) < std::tie(a.node.distance, b.node.id, b.node.piece);
+  });
   JoinedSets<Place> ways;
   for (const auto &[p, q] : matched.joined) ways.unite({p, {0, 0}}, {q, {0, 0}});
   const auto are_joined = [&] { return ways.are_joined(placed[0].p, placed[1].p); };
@@ -215,20 +205,32 @@ std::optional<PassageReport> PassageCheck::find_within(const riis_surface *surfa
   if (!found) return passage;
   const bool is_open = found->distance > info.half_thickness;
   passage.found = {found->id, found->distance, {}, 0, is_open ? RIIS_PASSAGE_OPEN : RIIS_PASSAGE_CLOSED, 0};
-  std::copy_n(found->point, 3, passage.found.point);
+  std::copy_n(found->point.data(), 3, passage.found.point);
   for (const PassageEnd &end : ends_) passage.is_end |= end.key == found->key;
   return passage;
 }
 
-// Finds the widest passage as riis_find_passage does in a whole mesh.
-PassageReport PassageCheck::find_in_pieces(const riis_surface *surface) const {
+PassageReport PassageCheck::find(const riis_surface *surface) const {
+  check_ends_are_open(surface);
+  if (mesh_.is_whole()) {
+    const riis_mark_options how = how_to_mark_again(options_);
+    auto sets = defaults<riis_passage_ends>();
+    sets.n_from = sets.n_to = 1;
+    sets.from = &ends_[0].node;
+    sets.to = &ends_[1].node;
+    PassageReport passage;
+    mesh_.for_each_own([&](const Piece &piece) {
+      check(riis_find_passage(surface, piece.mesh(), &sets, &how, &passage.found, sizeof passage.found));
+    });
+    for (const PassageEnd &end : ends_) passage.is_end |= end.node == passage.found.node_id;
+    return passage;
+  }
+  // In pieces, the passage is found as riis_find_passage finds it. Its width has an upper limit: a band with the half thickness
+  // `farthest` contains the two ends of every path.
   const riis_surface_info info = info_of(surface);
-  // An upper limit of the widths of passages: a band with this half thickness contains the two ends of every path.
-  double farthest = 0;
-  for (const PassageEnd &end : ends_)
-    for (int k = 0; k < 3; ++k)
-      farthest = std::max({farthest, std::abs(end.point[k] - info.lower[k]), std::abs(end.point[k] - info.upper[k])});
-  farthest = std::max(2 * farthest / (1 - std::abs(info.offset)), 2 * info.half_thickness);
+  Box around = box_of(info);
+  for (const PassageEnd &end : ends_) around.grow(end.point.data());
+  const double farthest = std::max(2 * around.largest_side() / (1 - std::abs(info.offset)), 2 * info.half_thickness);
   double growth = 2;
   for (double limit = 2 * info.half_thickness;; limit = std::min(limit * growth, farthest)) {
     if (const auto found = find_within(surface, limit)) return *found;
@@ -236,28 +238,12 @@ PassageReport PassageCheck::find_in_pieces(const riis_surface *surface) const {
   }
 }
 
-PassageReport PassageCheck::find(const riis_surface *surface) const {
-  check_ends_are_open(surface);
-  if (!mesh_.is_whole()) return find_in_pieces(surface);
-  const riis_mark_options how = how_to_mark_again(options_);
-  auto sets = defaults<riis_passage_ends>();
-  sets.n_from = sets.n_to = 1;
-  sets.from = &ends_[0].node;
-  sets.to = &ends_[1].node;
-  PassageReport passage;
-  mesh_.for_each_own([&](const Piece &piece) {
-    check(riis_find_passage(surface, piece.nodes.mesh(), &sets, &how, &passage.found, sizeof passage.found));
-  });
-  for (const PassageEnd &end : ends_) passage.is_end |= end.node == passage.found.node_id;
-  return passage;
-}
-
 // ---- The ends ----
 
 void PassageCheck::check_ends_are_open(const riis_surface *surface) const {
   const riis_surface_info info = info_of(surface);
   for (int end = 0; end < 2; ++end) {
-    const double *const point = ends_[end].point;
+    const double *const point = ends_[end].point.data();
     const auto mesh = create<Mesh>(riis_mesh_create, 1, point, point + 1, point + 2, 3);
     const Marks marks = marks_of(surface, mesh, how_to_mark_again(options_));
     const riis_mark_list marked = list_of(marks, RIIS_LIST_MARKED);
@@ -273,18 +259,17 @@ void PassageCheck::check_ends_are_open(const riis_surface *surface) const {
 
 void PassageCheck::add(const Piece &piece) {
   if (!options_.check_leaks) return;
-  const PieceNodes &nodes = piece.nodes;
   for (int end = 0; end < 2; ++end) {
     const double *const asked = options_.check_leaks->point(end);
     std::int64_t found = -1;
     double least = 0;
-    for (std::int64_t i = 0; i < nodes.n(); ++i) {
-      const double away = distance_between(nodes.point(i).data(), asked);
-      if (nodes.is_ghost(i) || (found >= 0 && !(away < least)) || piece.nodes.longest_edge(i) == 0) continue;
+    for (std::int64_t i = 0; i < piece.n(); ++i) {
+      const double away = distance_between(piece.point(i).data(), asked);
+      if (piece.is_ghost(i) || (found >= 0 && !(away < least)) || piece.longest_edge(i) == 0) continue;
       found = i;
       least = away;
     }
-    if (found >= 0) found_ends_[end].push_back({node_of(piece, found, least), piece.nodes.longest_edge(found)});
+    if (found >= 0) found_ends_[end].push_back({node_of(piece, found, least), piece.longest_edge(found)});
   }
 }
 

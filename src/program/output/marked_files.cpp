@@ -37,14 +37,10 @@ std::string padded(std::size_t number, std::size_t n_digits) {
   return std::string(std::max(n_digits, digits.size()) - digits.size(), '0') + digits;
 }
 
-// Returns the name of a step's file: STEM_PART_0012.vtu, or STEM_0012.vtu if there are no parts.
+// The parts of the name of a step's file: STEM_PART_0012.vtu, or STEM_0012.vtu if the step has one file.
 struct StepName {
   std::string part, digits, ending;
-
-  // Returns whether this part of a file's name stands for a piece of a mesh. An example is p0012.
-  bool is_of_piece() const {
-    return part.size() >= 5 && part[0] == 'p' && part.find_first_not_of("0123456789", 1) == std::string::npos;
-  }
+  bool is_of_piece;  // the part is the name of a piece of a mesh, such as p0012
 };
 
 // Returns the values of all attributes "file" of a list, without changes.
@@ -59,11 +55,11 @@ std::set<std::string> files_named_in(const std::string &text) {
 }
 
 std::optional<StepName> step_name_of(const std::string &stem, const std::string &file) {
-  static const std::regex form("_(?:(.*)_)?([0-9]{4,})(\\.vtu|\\.vtp|\\.pvtu)");
+  static const std::regex form("_(?:(.*)_)?([0-9]{4,})(\\.vtu|\\.vtp|\\.pvtu)"), piece("p[0-9]{4,}");
   const std::string rest = file.rfind(stem + "_", 0) == 0 ? file.substr(stem.size()) : "";
   std::smatch found;
   if (!std::regex_match(rest, found, form)) return std::nullopt;
-  return StepName{found[1], found[2], found[3]};
+  return StepName{found[1], found[2], found[3], std::regex_match(found[1].str(), piece)};
 }
 
 bool is_file(const fs::path &path) {
@@ -146,13 +142,13 @@ void SeriesFiles::find_earlier(const std::vector<std::string> &parts, bool has_p
     const std::string path = at->path().string(), name = at->path().filename().string();
     const auto step = step_name_of(stem_, name);
     if (!step) continue;
-    const bool has_my_form = (has_pieces && step->ending == ".vtu" && step->is_of_piece()) ||
+    const bool has_my_form = (has_pieces && step->ending == ".vtu" && step->is_of_piece) ||
                              (step->ending == ending_ && std::count(parts.begin(), parts.end(), step->part) > 0);
     const bool will_be_written =
         has_my_form && step->digits.size() == n_digits_ && step->digits <= padded(n_times_ - 1, n_digits_);
     if (will_be_written) continue;
     const std::string in_list = in_xml(stem_ + "/" + name);
-    if (listed.count(in_list) != 0 || (step->is_of_piece() && listed_digits.count(step->digits) != 0)) {
+    if (listed.count(in_list) != 0 || (step->is_of_piece && listed_digits.count(step->digits) != 0)) {
       earlier_.push_back(path);
       removed.insert(in_list);
     } else if (has_my_form) {
@@ -196,27 +192,26 @@ void SeriesFiles::report(Report &report) const {
 // ---- Marked files ----
 
 MarkedFiles::MarkedFiles(const Case &all, const MeshPieces &mesh)
-    : path_(all.options.output),
-      times_(all.times()),
-      is_series_(all.is_series()),
-      is_whole_(mesh.is_whole()),
-      is_foam_case_(is_series_ && program::is_foam_case(path_)),
-      steps_(is_foam_case_ ? "" : path_, is_whole_ ? ".vtu" : ".pvtu",
-             is_series_ ? times_.size() : mesh.files().size()) {}
+    : all_(all),
+      mesh_(mesh),
+      path_(all.options.output),
+      is_foam_case_(all.is_series() && program::is_foam_case(path_)),
+      steps_(is_foam_case_ ? "" : path_, mesh.is_whole() ? ".vtu" : ".pvtu",
+             all.is_series() ? all.times().size() : mesh.files().size()) {}
 
 void MarkedFiles::find_earlier() {
-  if (has_list()) steps_.find_earlier({""}, !is_whole_);
+  if (has_list()) steps_.find_earlier({""}, !mesh_.is_whole());
 }
 
 void MarkedFiles::make_folder() const {
-  if (is_series_ || !is_whole_) steps_.make_folder();
+  if (all_.is_series() || !mesh_.is_whole()) steps_.make_folder();
 }
 
 std::string MarkedFiles::path_of(std::int64_t piece, std::size_t step) const {
-  if (is_foam_case_) return foam_time(path_, times_[step]);
-  if (is_whole_) return is_series_ ? steps_.path_of(step, "") : path_;
+  if (is_foam_case_) return foam_time(path_, all_.options.series.times[step]);
+  if (mesh_.is_whole()) return all_.is_series() ? steps_.path_of(step, "") : path_;
   const auto number = static_cast<std::size_t>(piece);
-  return is_series_ ? steps_.path_of(step, "p" + padded(number, 4), ".vtu") : steps_.path_of(number, "", ".vtu");
+  return all_.is_series() ? steps_.path_of(step, "p" + padded(number, 4), ".vtu") : steps_.path_of(number, "", ".vtu");
 }
 
 void MarkedFiles::write(std::int64_t piece, std::size_t step, const riis_vtk_mesh *file) {
@@ -224,7 +219,7 @@ void MarkedFiles::write(std::int64_t piece, std::size_t step, const riis_vtk_mes
   const std::string path = path_of(piece, step);
   const UnbrokenWrite unbroken;
   check(riis_vtk_mesh_write(file, path.c_str()));
-  if (is_whole_) return;
+  if (mesh_.is_whole()) return;
   written_.push_back({static_cast<std::int64_t>(step), piece});
   std::int64_t n_nodes = 0;
   check(riis_vtk_mesh_get_nodes(file, &n_nodes, nullptr, nullptr));
@@ -234,7 +229,7 @@ void MarkedFiles::write(std::int64_t piece, std::size_t step, const riis_vtk_mes
 }
 
 void MarkedFiles::add(std::size_t step) {
-  if (has_list() && is_whole_) steps_.add(times_[step], 0, steps_.path_of(step, ""));
+  if (has_list() && mesh_.is_whole()) steps_.add(all_.options.series.times[step], 0, steps_.path_of(step, ""));
 }
 
 void MarkedFiles::list_pieces() {
@@ -253,20 +248,20 @@ void MarkedFiles::list_pieces() {
     for (; next != written.end() && (*next)[0] == step; ++next)
       files.push_back(path_of((*next)[1], static_cast<std::size_t>(step)));
     for (const std::string &file : files) names.push_back(file.c_str());
-    const std::string path = is_series_ ? steps_.path_of(static_cast<std::size_t>(step), "") : path_;
+    const std::string path = all_.is_series() ? steps_.path_of(static_cast<std::size_t>(step), "") : path_;
     if (is_writer) {
       check(riis_vtk_pieces_set_files(sample_, view(names).size(), names.data()));
       check(riis_vtk_pieces_write(sample_, path.c_str()));
     }
-    if (is_series_) steps_.add(view(times_)[step], 0, path);
+    if (all_.is_series()) steps_.add(view(all_.options.series.times)[step], 0, path);
   }
   ranks::agree();
 }
 
 void MarkedFiles::report(Report &report) const {
   if (is_foam_case_)
-    report.written.push_back(path_ + ", fields of " + counted(view(times_).size(), "time"));
-  else if (is_series_)
+    report.written.push_back(path_ + ", fields of " + counted(view(all_.options.series.times).size(), "time"));
+  else if (all_.is_series())
     steps_.report(report);
   else if (is_wanted())
     report.written.push_back(path_);

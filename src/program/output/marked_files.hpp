@@ -70,11 +70,12 @@ class SeriesFiles {
 // each time a .pvtu file that lists the pieces.
 class MarkedFiles {
  public:
+  // The case and the mesh must outlive this object.
   MarkedFiles(const Case &all, const MeshPieces &mesh);
 
   bool is_wanted() const { return !path_.empty(); }
   // Returns whether the files of a series are in a list.
-  bool has_list() const { return is_wanted() && is_series_ && !is_foam_case_; }
+  bool has_list() const { return is_wanted() && all_.is_series() && !is_foam_case_; }
   // If the run has a series, finds the files that an earlier run left behind.
   void find_earlier();
   // Makes the folder of the files if there are several files.
@@ -91,9 +92,10 @@ class MarkedFiles {
  private:
   std::string path_of(std::int64_t piece, std::size_t step) const;
 
-  const std::string path_;
-  const std::vector<double> times_;
-  const bool is_series_, is_whole_, is_foam_case_;
+  const Case &all_;
+  const MeshPieces &mesh_;
+  const std::string &path_;
+  const bool is_foam_case_;  // the fields of a series go to times of OpenFOAM
   SeriesFiles steps_;
   std::vector<std::array<std::int64_t, 2>> written_;  // the step and the piece of each file of this rank
   PieceList sample_;  // with the arrays of this rank's first file that has nodes, if there is one

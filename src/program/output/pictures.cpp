@@ -132,14 +132,14 @@ std::string half_thickness_line(const std::vector<MovingValve> &valves, const st
 struct JoinedMarks {
   explicit JoinedMarks(std::size_t n) : marked(n, 0.0), distance(n, RIIS_FAR_DISTANCE), leaflet(n, -1.0) {}
 
-  void add(const riis_marks *result, int32_t first_leaflet) {
+  void add(const riis_marks *result, int64_t first_leaflet) {
     const riis_mark_list list = list_of(result, RIIS_LIST_MARKED);
     for (int64_t i = 0; i < list.n_nodes; ++i) {
       const int64_t node = list.node_id[i];
       if (view(distance)[node] <= list.distance[i]) continue;
       view(marked)[node] = 1;
       view(distance)[node] = list.distance[i];
-      view(leaflet)[node] = first_leaflet + list.leaflet_id[i];
+      view(leaflet)[node] = static_cast<double>(first_leaflet + list.leaflet_id[i]);
     }
   }
 
@@ -184,8 +184,11 @@ void RunPictures::set_marks_of(std::vector<MovingValve> &valves) {
   }
   const std::int64_t n = valves[0].stats().n_nodes;
   JoinedMarks marks(static_cast<std::size_t>(n));
-  const std::vector<int32_t> first = first_leaflets(surfaces_of(valves));
-  for (std::size_t valve = 0; valve < valves.size(); ++valve) marks.add(valves[valve].result(), first[valve]);
+  std::int64_t first_leaflet = 0;
+  for (const MovingValve &valve : valves) {
+    marks.add(valve.result(), first_leaflet);
+    first_leaflet += info_of(valve.surface()).largest_leaflet_id + 1;
+  }
   check(riis_vtk_mesh_set_point_array(mesh_, "riis_marked", n, 1, marks.marked.data()));
   check(riis_vtk_mesh_set_point_array(mesh_, "riis_distance", n, 1, marks.distance.data()));
   check(riis_vtk_mesh_set_point_array(mesh_, "riis_leaflet", n, 1, marks.leaflet.data()));

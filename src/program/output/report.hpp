@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The inputs are the results and times of a run. The results are JSON for programs, and a short table for the user.
+// A report has the results and the times of a run. It is written as JSON for programs, and as a short table for the user.
 #pragma once
 
 #include <riis/riis.h>
@@ -7,6 +7,8 @@
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "program/base/options.hpp"
 
 namespace riis::program {
 
@@ -52,29 +54,19 @@ struct LeakReport {
   Closing closing{};
   int64_t n_volume_cells = 0;
   int64_t n_cells_left_out = 0;  // volume cells whose edges are not known
-  bool is_near = true;           // whether a node of the mesh is marked
 
   bool has_all_edges() const { return n_volume_cells > 0 && n_cells_left_out == 0; }
 };
 
-// R with its unit, and the unit of K in the output. If the unit of the mesh is not known, these two units are "".
-struct ResistanceReport {
-  double R = 0;
-  std::string R_unit{}, K_unit{};
-  std::string K_name{};             // the array of K, or "" if none is written
-  std::optional<double> density{};  // by which K is divided, in kg/m3 or in the units of the mesh
-};
-
 // The measures of the valve and the mesh that matter for a flow.
 struct FlowReport {
-  std::optional<riis_orifice> orifice;        // set if the surface has an outline
-  std::optional<double> orifice_opening;      // set if the orifice has another opening than the marks
-  std::optional<riis_cells_across> cells;     // set if the mesh's edges are known
-  std::optional<int64_t> n_open_regions;      // set if the mesh's edges are known
-  std::optional<riis_first_passage> first;    // set if the first passage was looked for
-  std::optional<double> closed_area;          // in the mesh; set for a closed valve in a mesh of one type of element
-  std::optional<double> leak_per_drop, drop;  // set if the user gave a resistance
-  std::string leak_unit{}, drop_unit{};       // "" if not known
+  std::optional<riis_orifice> orifice;      // set if the surface has an outline
+  std::optional<double> orifice_opening;    // set if the orifice has another opening than the marks
+  std::optional<riis_cells_across> cells;   // set if the mesh's edges are known
+  std::optional<int64_t> n_open_regions;    // set if the mesh's edges are known
+  std::optional<riis_first_passage> first;  // set if the first passage was looked for
+  std::optional<double> closed_area;        // in the mesh; set for a closed valve in a mesh of one type of element
+  std::optional<double> leak_per_drop;  // per Pa if the unit of the mesh is known; set if the user gave a resistance
 };
 
 // The shares of the leaflets' area that lie farther than the half thickness outside the mesh.
@@ -91,8 +83,8 @@ struct OutsideReport {
 // Returns a text such as "12.3 MB".
 std::string bytes_text(double n);
 
-// has_slits returns whether an orifice has an area but hardly a perimeter, because slits have no perimeter. slits_text is the
-// text about slits.
+// has_slits returns whether an orifice has an area but hardly a perimeter, because narrow slits count only in the area.
+// slits_text is the text about slits.
 bool has_slits(const riis_orifice &orifice);
 inline constexpr const char *slits_text =
     ", where slits narrower than a fifth of the half thickness do not count: only the open area contains them";
@@ -119,33 +111,37 @@ struct AttachedReport {
 
 // One valve of a run. In a series, the numbers belong to the valve's least opening.
 struct ValveReport {
-  std::string name;               // the valve's name among several, or "" for the only one
-  std::string surface_name;       // the valve's kind, or a file
-  std::optional<double> opening;  // not set for a surface from a file
-  std::optional<double> time;     // set for a surface that moves, without a series
-  int64_t n_leaflets = 0;         // number of leaflets that --leaflets found in a file; 0 if it is not printed
+  double distance_limit() const {
+    const double limit = options->mark_options.distance_limit;
+    return limit > 0 ? limit : surface.half_thickness;
+  }
+
+  const MarkOptions *options = nullptr;  // of this valve; they must outlive the report
+  std::string name;                      // the valve's name among several, or "" for the only one
+  std::string surface_name;              // the valve's kind, or a file
+  std::optional<double> opening;         // not set for a surface from a file
+  std::optional<double> time;            // set for a surface that moves, without a series
+  int64_t n_leaflets = 0;                // number of leaflets that --leaflets found in a file; 0 if it is not printed
   riis_surface_info surface{};
   std::optional<riis_gap> gap;             // set if a skirt reaches a wall
   std::optional<AttachedReport> attached;  // set if a surface from a file has a skirt
-  double distance_limit = 0;
-  int32_t distance = RIIS_MEASURE_TRIANGLES;
   riis_mark_stats marks{};
   LeakReport leaks;
   FlowReport flow;
-  std::optional<OutsideReport> outside;        // set if the mesh has volume cells
-  std::optional<ResistanceReport> resistance;  // set if the user gave a resistance
-  std::optional<CrossingReport> crossings;     // set if crossings were looked for
-  std::vector<TimeReport> times;               // the steps of a series that are complete
+  std::optional<OutsideReport> outside;     // set if the mesh has volume cells
+  std::optional<CrossingReport> crossings;  // set if crossings were looked for
+  std::vector<TimeReport> times;            // the steps of a series that are complete
 };
 
 struct Report {
-  std::vector<double> times;  // empty without a series
-  std::string mesh_name;      // "" if no mesh was marked
+  bool is_series() const { return !options->series.times.empty(); }
+  bool has_mesh() const { return !options->mesh.empty(); }
+
+  const MarkOptions *options = nullptr;  // of the run; they must outlive the report
   int64_t n_cells = 0;
   std::optional<int64_t> n_written;  // number of nodes in each file of a series, if they are only a part of the mesh
   std::vector<ValveReport> valves;
   std::optional<PassageReport> passage;  // set if two points are checked
-  bool prints_flow = false;              // true if the table for people has the measures of the flow
   Seconds seconds;
   std::vector<std::string> written;  // paths of files
   std::optional<StepTimes> step;
@@ -159,8 +155,6 @@ std::string counted(int64_t n, const char *singular);
 std::string surface_title(const ValveReport &valve);
 // Returns the reason why leaks are unknown, such as "MESH has no volume cells". Returns "" if all edges of the mesh are known.
 std::string why_unknown(const LeakReport &leaks, const std::string &mesh);
-// Returns the table's line about the passage, or "" if no points were checked.
-std::string line_of_passage(const Report &report);
 std::string json_of(const Report &report);
 std::string table_of(const Report &report);
 // The table of a series has a line for each complete step. The columns are time, opening, n_marked, largest_speed and seconds. If
