@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-"""For the templates of module riis: the components of a type that shows a struct of riis.h, and the statements that copy them."""
+"""For the templates of module riis: procedures with a status, the components of a type that shows a struct of riis.h, and the
+statements that copy them."""
 
 import os
 import re
 import textwrap
+from itertools import takewhile
 
 import generate
 from fortran import folded
@@ -11,6 +13,7 @@ from header import Header, plain
 from table import Table
 
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
+STATUS = f"{'    integer(riis_status), intent(out), optional :: status':59} !< RIIS_OK or the error. Without it an error stops the program."
 KINDS = {"double": "real(c_double)", "int32_t": "integer(int32)", "int64_t": "integer(int64)"}
 header = Header(os.path.join(ROOT, generate.HEADER), generate.HEADER)
 table = Table(os.path.join(ROOT, generate.TABLE), generate.TABLE)
@@ -55,3 +58,24 @@ def copied(struct, made, into, without="", indent=4):
         pointed = f"if (c_associated({one})) call c_f_pointer({one}, {other}, [{sizes}])"
         lines += folded(pointed if extents else f"{other} = {one}", " " * indent, "  ")
     return "\n".join(lines)
+
+
+def procedure(name, text, instead=""):
+    """Returns a public subroutine. The text has its comment, its arguments, and then its other declarations and statements, which
+    set `code`. Arguments are declared in their order and have an INTENT. The last one is the status, unless the text declares it
+    elsewhere. A subroutine that does the same as another for other kinds has the comment `instead`."""
+    lines = text.splitlines()
+    comment = list(takewhile(lambda line: line.startswith("  !"), lines))
+    arguments = list(takewhile(lambda line: re.match(r" +!!|.*\bintent\(", line), lines[len(comment):]))
+    rest = "\n".join(lines[len(comment) + len(arguments):]).strip("\n")
+    arguments += [STATUS] * (STATUS not in arguments)
+    names = [re.search(r":: (\w+)", line)[1] for line in arguments if "::" in line]
+    head = folded(f"subroutine {name}({', '.join(names)})", "  ")
+    return "\n".join([*([f"  !> {instead}"] if instead else comment), *head, *arguments, "    integer(riis_status) :: code", rest,
+                      "    call finish(code, status)", f"  end subroutine {name}", ""])
+
+
+def specific_names(bindings):
+    """Returns the names of the specific procedures behind the generic names in the bindings of a type."""
+    text = re.sub("!<.*|&\n", "", bindings)
+    return re.findall(r"\w+", " ".join(re.findall(r"generic :: \w+ => (.*)", text)))

@@ -72,8 +72,8 @@ contains
                                                             !! copied. Default: all nodes.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    integer(int8), allocatable :: bytes(:)
     integer(riis_status) :: code
+    integer(int8), allocatable :: bytes(:)
     code = RIIS_OK
     call get_mask(node_mask, bytes, code)
     call find(surface, mesh, marks, leaks, bytes, n_threads, code)
@@ -104,8 +104,8 @@ contains
     integer(int32), intent(in) :: node_mask(:)              !< (n_nodes): nodes with 0 are left out.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    integer(int8), allocatable :: bytes(:)
     integer(riis_status) :: code
+    integer(int8), allocatable :: bytes(:)
     code = RIIS_OK
     call get_mask(node_mask, bytes, code)
     call find(surface, mesh, marks, leaks, bytes, n_threads, code)

@@ -153,8 +153,8 @@ contains
     real(c_double), intent(in), optional :: half_thickness  !< eps of K, at most the distance limit. Default RIIS_AUTO: the
                                                             !! surface's half thickness. Needs R.
     class(*), intent(in), optional :: rim                   !< integer, RIIS_RIM_*. Default RIIS_RIM_ROUND. Needs R.
-    integer(int8), allocatable :: bytes(:)
     integer(riis_status) :: code
+    integer(int8), allocatable :: bytes(:)
     code = RIIS_OK
     call get_mask(node_mask, bytes, code)
     call mark(surface, mesh, marks, distance_limit, bytes, search, n_threads, fields, R, half_thickness, rim, code)
@@ -205,8 +205,8 @@ contains
     real(c_double), intent(in), optional :: half_thickness  !< eps of K, at most the distance limit. Default RIIS_AUTO: the
                                                             !! surface's half thickness. Needs R.
     class(*), intent(in), optional :: rim                   !< integer, RIIS_RIM_*. Default RIIS_RIM_ROUND. Needs R.
-    integer(int8), allocatable :: bytes(:)
     integer(riis_status) :: code
+    integer(int8), allocatable :: bytes(:)
     code = RIIS_OK
     call get_mask(node_mask, bytes, code)
     call mark(surface, mesh, marks, distance_limit, bytes, search, n_threads, fields, R, half_thickness, rim, code)
@@ -779,8 +779,8 @@ contains
   !! edges are loads for tissue codes. They do not model how a membrane carries loads to its edges. Ranks pass the same point and
   !! edges, and add their sums by a reduction. Errors: as for %add_resistance; RIIS_INVALID_ARGUMENT also for too few leaflets,
   !! for a leaflet without an edge, and for a bad edge.
-  subroutine marks_add_reaction_vectors(this, R, velocity, weight, force, half_thickness, rim, &
-      moment, about, leaflet_force, leaflet_moment, edges, edge_force, edge_moment, edge_leaflet_id, status)
+  subroutine marks_add_reaction_vectors(this, R, velocity, weight, force, half_thickness, rim, moment, about, &
+      leaflet_force, leaflet_moment, edges, edge_force, edge_moment, edge_leaflet_id, status)
     class(riis_marks), intent(in) :: this                   !< From riis_mark_nodes.
     real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
     real(c_double), intent(in) :: velocity(:, :)            !< (3, n_nodes), the flow's velocity.
@@ -816,8 +816,8 @@ contains
   end subroutine marks_add_reaction_vectors
 
   !> Does the same for solvers with the velocity in three arrays. Arrays of rank 3 or 4 are also taken, as by %add_resistance.
-  subroutine marks_add_reaction_rank1(this, R, vx, vy, vz, weight, force, half_thickness, rim, &
-      moment, about, leaflet_force, leaflet_moment, edges, edge_force, edge_moment, edge_leaflet_id, status)
+  subroutine marks_add_reaction_rank1(this, R, vx, vy, vz, weight, force, half_thickness, rim, moment, about, &
+      leaflet_force, leaflet_moment, edges, edge_force, edge_moment, edge_leaflet_id, status)
     class(riis_marks), intent(in) :: this                   !< From riis_mark_nodes.
     real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
     real(c_double), intent(in) :: vx(:) !< (n_nodes), the x component of the flow's velocity.
@@ -856,8 +856,8 @@ contains
   end subroutine marks_add_reaction_rank1
 
   !> Implements %add_reaction for arrays of rank 3.
-  subroutine marks_add_reaction_rank3(this, R, vx, vy, vz, weight, force, half_thickness, rim, &
-      moment, about, leaflet_force, leaflet_moment, edges, edge_force, edge_moment, edge_leaflet_id, status)
+  subroutine marks_add_reaction_rank3(this, R, vx, vy, vz, weight, force, half_thickness, rim, moment, about, &
+      leaflet_force, leaflet_moment, edges, edge_force, edge_moment, edge_leaflet_id, status)
     class(riis_marks), intent(in) :: this                   !< From riis_mark_nodes.
     real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
     real(c_double), intent(in) :: vx(:, :, :) !< (n_nodes), the x component of the flow's velocity.
@@ -896,8 +896,8 @@ contains
   end subroutine marks_add_reaction_rank3
 
   !> Implements %add_reaction for arrays of rank 4.
-  subroutine marks_add_reaction_rank4(this, R, vx, vy, vz, weight, force, half_thickness, rim, &
-      moment, about, leaflet_force, leaflet_moment, edges, edge_force, edge_moment, edge_leaflet_id, status)
+  subroutine marks_add_reaction_rank4(this, R, vx, vy, vz, weight, force, half_thickness, rim, moment, about, &
+      leaflet_force, leaflet_moment, edges, edge_force, edge_moment, edge_leaflet_id, status)
     class(riis_marks), intent(in) :: this                   !< From riis_mark_nodes.
     real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
     real(c_double), intent(in) :: vx(:, :, :, :) !< (n_nodes), the x component of the flow's velocity.
@@ -1036,8 +1036,8 @@ contains
   !! node goes to the vertices of its closest triangle, in the shares of the closest point's barycentric coordinates. Ranks add
   !! their forces by a reduction. Errors: as for %add_reaction; RIIS_INVALID_ARGUMENT also for another number of vertices, and for
   !! a surface that lacks the closest triangle of a node.
-  subroutine marks_add_vertex_reaction_vectors(this, surface, R, velocity, weight, vertex_force, &
-      half_thickness, rim, status)
+  subroutine marks_add_vertex_reaction_vectors(this, surface, R, velocity, weight, vertex_force, half_thickness, rim, &
+      status)
     class(riis_marks), intent(in) :: this                   !< From riis_mark_nodes with RIIS_FIELD_BARYCENTRIC.
     class(riis_surface), intent(in) :: surface              !< The surface of the marking, without an update since then.
     real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
@@ -1065,8 +1065,8 @@ contains
   end subroutine marks_add_vertex_reaction_vectors
 
   !> Does the same for solvers with the velocity in three arrays. Arrays of rank 3 or 4 are also taken, as by %add_resistance.
-  subroutine marks_add_vertex_reaction_rank1(this, surface, R, vx, vy, vz, weight, vertex_force, &
-      half_thickness, rim, status)
+  subroutine marks_add_vertex_reaction_rank1(this, surface, R, vx, vy, vz, weight, vertex_force, half_thickness, rim, &
+      status)
     class(riis_marks), intent(in) :: this                   !< From riis_mark_nodes with RIIS_FIELD_BARYCENTRIC.
     class(riis_surface), intent(in) :: surface              !< The surface of the marking, without an update since then.
     real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
@@ -1097,8 +1097,8 @@ contains
   end subroutine marks_add_vertex_reaction_rank1
 
   !> Implements %add_vertex_reaction for arrays of rank 3.
-  subroutine marks_add_vertex_reaction_rank3(this, surface, R, vx, vy, vz, weight, vertex_force, &
-      half_thickness, rim, status)
+  subroutine marks_add_vertex_reaction_rank3(this, surface, R, vx, vy, vz, weight, vertex_force, half_thickness, rim, &
+      status)
     class(riis_marks), intent(in) :: this                   !< From riis_mark_nodes with RIIS_FIELD_BARYCENTRIC.
     class(riis_surface), intent(in) :: surface              !< The surface of the marking, without an update since then.
     real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
@@ -1129,8 +1129,8 @@ contains
   end subroutine marks_add_vertex_reaction_rank3
 
   !> Implements %add_vertex_reaction for arrays of rank 4.
-  subroutine marks_add_vertex_reaction_rank4(this, surface, R, vx, vy, vz, weight, vertex_force, &
-      half_thickness, rim, status)
+  subroutine marks_add_vertex_reaction_rank4(this, surface, R, vx, vy, vz, weight, vertex_force, half_thickness, rim, &
+      status)
     class(riis_marks), intent(in) :: this                   !< From riis_mark_nodes with RIIS_FIELD_BARYCENTRIC.
     class(riis_surface), intent(in) :: surface              !< The surface of the marking, without an update since then.
     real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).

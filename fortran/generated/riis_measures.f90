@@ -196,7 +196,8 @@ contains
   !! surface and time, positive along the normals. Errors: RIIS_INVALID_ARGUMENT for an opening out of range and a leaflet that
   !! the valve lacks; RIIS_INVALID_PARAMETER for parameters that do not fit together, and for a valve of one state unless both are
   !! 0.
-  subroutine riis_get_swept_volume(valve, opening_from, opening_to, volume, leaflet_id, scale, flip_normals, n_threads, status)
+  subroutine riis_get_swept_volume(valve, opening_from, opening_to, volume, leaflet_id, scale, flip_normals, &
+      n_threads, status)
     class(riis_valve), intent(in) :: valve                  !< Must be created. Its own opening has no effect.
     real(c_double), intent(in) :: opening_from              !< 0 to 1.
     real(c_double), intent(in) :: opening_to                !< 0 to 1.
@@ -225,8 +226,9 @@ contains
   !! and of several sizes the one nearest to the present size. Errors: RIIS_INVALID_ARGUMENT naming the area, counted from 0, and
   !! the range if it is out of reach; RIIS_INVALID_PARAMETER for a name that is unknown, has three values or does not change the
   !! area, and for a valve with one state or no orifice.
-  subroutine find_by_area(valve, areas, values, name, reached, range, effective, from, to, half_thickness, tolerance, scale, &
-      rotation_axis, rotation_angle, translation, triangulation, rim, area_tolerance, n_samples, n_threads, status)
+  subroutine find_by_area(valve, areas, values, name, reached, range, effective, from, to, half_thickness, tolerance, &
+      scale, rotation_axis, rotation_angle, translation, triangulation, rim, area_tolerance, n_samples, n_threads, &
+      status)
     class(riis_valve), intent(in) :: valve                  !< Must be created. Its own opening has no effect on openings.
     real(c_double), intent(in), contiguous :: areas(:)      !< Mesh units squared.
     real(c_double), intent(inout), contiguous :: values(:)  !< As many: the openings or sizes. Unchanged on an error.
