@@ -60,19 +60,20 @@ def copied(struct, made, into, without="", indent=4):
     return "\n".join(lines)
 
 
-def procedure(name, text, instead=""):
+def procedure(name, text, form=0):
     """Returns a public subroutine. The text has its comment, its arguments, and then its other declarations and statements, which
     set `code`. Arguments are declared in their order and have an INTENT. The last one is the status, unless the text declares it
-    elsewhere. A subroutine that does the same as another for other kinds has the comment `instead`."""
+    elsewhere. A text for subroutines of several kinds has several comments. `form` is the number of the comment, from 0. If there
+    are fewer comments, it is the last one."""
     lines = text.splitlines()
-    comment = list(takewhile(lambda line: line.startswith("  !"), lines))
-    arguments = list(takewhile(lambda line: re.match(r" +!!|.*\bintent\(", line), lines[len(comment):]))
-    rest = "\n".join(lines[len(comment) + len(arguments):]).strip("\n")
+    comments = list(takewhile(lambda line: line.startswith("  !"), lines))
+    arguments = list(takewhile(lambda line: re.match(r" +!!|.*\bintent\(", line), lines[len(comments):]))
+    rest = "\n".join(lines[len(comments) + len(arguments):]).strip("\n")
     arguments += [STATUS] * (STATUS not in arguments)
     names = [re.search(r":: (\w+)", line)[1] for line in arguments if "::" in line]
-    head = folded(f"subroutine {name}({', '.join(names)})", "  ")
-    return "\n".join([*([f"  !> {instead}"] if instead else comment), *head, *arguments, "    integer(riis_status) :: code", rest,
-                      "    call finish(code, status)", f"  end subroutine {name}", ""])
+    comment = re.split(r"\n(?=  !>)", "\n".join(comments))[:form + 1][-1]
+    return "\n".join([comment, *folded(f"subroutine {name}({', '.join(names)})", "  "), *arguments,
+                      "    integer(riis_status) :: code", rest, "    call finish(code, status)", f"  end subroutine {name}", ""])
 
 
 def specific_names(bindings):

@@ -522,33 +522,29 @@ contains
                                                             !! RIIS_FAR_DISTANCE.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(riis_status) :: code
+    real(c_double) :: far
     integer(int64) :: n
     n = -1
+    far = RIIS_FAR_DISTANCE
+    if (present(far_distance)) far = far_distance
     code = check_created(this%handle, 'the object marks')
     if (present(mark)) n = size(mark, kind=int64)
-    if (present(distance)) call check('distance', size(distance, kind=int64))
-    if (present(triangle_id)) call check('triangle_id', size(triangle_id, kind=int64))
-    if (present(leaflet_id)) call check('leaflet_id', size(leaflet_id, kind=int64))
-    if (code == RIIS_OK .and. n < 0) code = refuse('none of mark, distance, triangle_id and leaflet_id is given')
-    if (code == RIIS_OK) then
-      if (present(far_distance)) then
-        code = write_dense(this%handle, n, far_distance, mark, distance, triangle_id, leaflet_id)
-      else
-        code = write_dense(this%handle, n, RIIS_FAR_DISTANCE, mark, distance, triangle_id, leaflet_id)
-      end if
-    end if
-    call finish(code, status)
-
-  contains
-
     ! The first array determines the size, which the library compares with the mesh.
-    subroutine check(name, n_entries)
-      character(len=*), intent(in) :: name
-      integer(int64), intent(in) :: n_entries
-      if (code /= RIIS_OK) return
-      if (n < 0) n = n_entries
-      code = check_size(n_entries, n, name, 'entries in the array before it')
-    end subroutine check
+    if (code == RIIS_OK .and. present(distance)) then
+      if (n < 0) n = size(distance, kind=int64)
+      code = check_size(size(distance, kind=int64), n, 'distance', 'entries in the array before it')
+    end if
+    if (code == RIIS_OK .and. present(triangle_id)) then
+      if (n < 0) n = size(triangle_id, kind=int64)
+      code = check_size(size(triangle_id, kind=int64), n, 'triangle_id', 'entries in the array before it')
+    end if
+    if (code == RIIS_OK .and. present(leaflet_id)) then
+      if (n < 0) n = size(leaflet_id, kind=int64)
+      code = check_size(size(leaflet_id, kind=int64), n, 'leaflet_id', 'entries in the array before it')
+    end if
+    if (code == RIIS_OK .and. n < 0) code = refuse('none of mark, distance, triangle_id and leaflet_id is given')
+    if (code == RIIS_OK) code = write_dense(this%handle, n, far, mark, distance, triangle_id, leaflet_id)
+    call finish(code, status)
   end subroutine marks_dense_int8
 
   !> Implements %dense for marks of another integer kind, which are converted.
