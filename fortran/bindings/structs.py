@@ -61,16 +61,16 @@ def copied(struct, made, into, without="", indent=4):
 
 
 def procedure(name, text, form=0):
-    """Returns a public subroutine. The text has its comment, its arguments, and then its other declarations and statements, which
-    set `code`. Arguments are declared in their order and have an INTENT. The last one is the status, unless the text declares it
-    elsewhere. A text for subroutines of several kinds has several comments. `form` is the number of the comment, from 0. If there
-    are fewer comments, it is the last one."""
+    """Returns a public subroutine. The text has its comment, its arguments in order, and then its local variables and statements,
+    which set `code`. Each argument has an INTENT, so that no list of the arguments is needed. The status is the last argument,
+    unless the text declares the status elsewhere. A text for several kinds may have several comments. `form` is the number of the
+    comment, from 0, and a number that is too large stands for the last comment."""
     lines = text.splitlines()
     comments = list(takewhile(lambda line: line.startswith("  !"), lines))
     arguments = list(takewhile(lambda line: re.match(r" +!!|.*\bintent\(", line), lines[len(comments):]))
     rest = "\n".join(lines[len(comments) + len(arguments):]).strip("\n")
     arguments += [STATUS] * (STATUS not in arguments)
-    names = [re.search(r":: (\w+)", line)[1] for line in arguments if "::" in line]
+    names = [re.search(r":: (\w+)", line)[1] for line in arguments if "intent(" in line]
     comment = re.split(r"\n(?=  !>)", "\n".join(comments))[:form + 1][-1]
     return "\n".join([comment, *folded(f"subroutine {name}({', '.join(names)})", "  "), *arguments,
                       "    integer(riis_status) :: code", rest, "    call finish(code, status)", f"  end subroutine {name}", ""])

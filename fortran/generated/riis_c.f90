@@ -731,7 +731,7 @@ module riis_c
   type, bind(c) :: riis_warp_options
     integer(c_int64_t) :: struct_size
     real(c_double) :: noise
-    type(c_ptr) :: placement !< type(riis_surface_options), (*), or c_null_ptr; c_loc of a riis_surface_options
+    type(c_ptr) :: placement !< type(riis_surface_options), (*), c_loc of a riis_surface_options; or c_null_ptr
   end type riis_warp_options
 
   !> A warp's quality, in the units of its landmarks.
