@@ -46,7 +46,7 @@ class Subroutine:
         self.name = entry.name + ("_64" if kind == "int64" else "")
         self.functions = [writer.functions.get(name) or self.refuse(f"riis.h has no {name}") for name in entry.functions]
         self.structs = {}  # for each argument of a function that is a struct: its type, and whether the function only reads it
-        self.nested = {}  # for each field of these that points to a struct: its type and the field's path
+        self.nested = {}  # for each of their fields that points to a struct: its type and the field's path
         self.values = {}  # the places of the other arguments
         for function in self.functions:
             for argument in function.arguments:
@@ -69,7 +69,7 @@ class Subroutine:
         self.set = []  # statements before the calls
         self.passed = dict(entry.fixed)  # for each argument of the functions, what is passed
         self.results, self.copied = [], []  # statements after the calls, and arguments to which arrays are copied
-        self.handle = self.created = ""  # the handle that a call makes, and its type if it is made only where it is 0
+        self.handle = self.created = ""  # the handle that a call makes; its type, if it makes one only for 0
 
     def refuse(self, message):
         raise Problem(f"{self.entry.place}: {self.entry.name}: {message}")
@@ -150,7 +150,8 @@ class Subroutine:
         self.declarations.append((f"{type_}, intent({intent}) :: {argument.name}{argument.shape}", text))
 
     def told(self, text):
-        """Returns a text of riis.h as it holds here: with the names of subroutines, and without sentences about C's pointers."""
+        """Returns a text of riis.h with the names of subroutines and of their arguments, and without sentences about C's
+        pointers."""
         text = re.sub(r"\briis_\w+", lambda match: self.writer.subroutines.get(match[0], match[0]), plain(text))
         for path, name in self.filled.items():  # a number such as n_points has the name of the argument that gives it
             text = re.sub(rf"\b{path.rpartition('%')[2]}\b", name, text) if name.startswith("n_") else text
@@ -342,7 +343,8 @@ class Subroutine:
         return f"{function.name}({', '.join(parts)})"
 
     def bits(self):
-        """Returns statements for fields such as id_bits, whose text in riis.h is "of" an array: the kind of the argument."""
+        """Returns statements that give fields such as id_bits the kind of an argument. The text of such a field in riis.h names
+        the array, as in "of node_ids"."""
         lines = []
         for base in [*self.nested, *self.structs]:
             for field in self.fields((self.nested.get(base) or self.structs[base])[0]) if base in self.used else []:

@@ -13,7 +13,8 @@ from header import Header, plain
 from table import Table
 
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
-STATUS = f"{'    integer(riis_status), intent(out), optional :: status':59} !< RIIS_OK or the error. Without it an error stops the program."
+STATUS = ("    integer(riis_status), intent(out), optional :: status   "
+          "!< RIIS_OK or the error. Without it an error stops the program.")
 KINDS = {"double": "real(c_double)", "int32_t": "integer(int32)", "int64_t": "integer(int64)"}
 header = Header(os.path.join(ROOT, generate.HEADER), generate.HEADER)
 table = Table(os.path.join(ROOT, generate.TABLE), generate.TABLE)

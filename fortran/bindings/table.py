@@ -88,8 +88,8 @@ class Table:
 
     def add_from(self, header):
         """Adds what the header says where the table has no line: the shape at the beginning of a text, as in "(n_nodes): ...",
-        fields that may point to a struct, and whether an argument may be NULL. It may if a sentence of the header begins with NULL, or if it is `options`. A
-        function without a comment says nothing."""
+        fields that may point to a struct, and whether an argument may be NULL. It may if a sentence of its text begins
+        with NULL, or if it is `options`. A function without a comment says nothing."""
         structs = {struct.name for struct in header.structs}
         for struct in header.structs:
             for line in struct.lines:

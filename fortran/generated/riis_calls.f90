@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: Apache-2.0
 ! Generated from fortran/templates/riis_calls.fypp by fortran/expand_templates.sh: edit that template, not this file.
-!> For module riis, calls of riis_c whose structs are filled from plain arguments. Arrays are contiguous. Users do not need this
-!! module, and `use riis` does not give its names.
+!> These procedures fill structs from plain arguments and call riis_c, for module riis. Arrays are contiguous. Users do not need
+!! this module, and `use riis` does not give its names.
 module riis_calls
   use, intrinsic :: iso_c_binding, only: c_double, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int8, int32, int64

@@ -59,10 +59,10 @@ module riis_leaking
 
 contains
 
-  !> Finds every edge of the mesh's adjacency that leaks, which crosses the surface between two unmarked nodes. Edges of at most
-  !! two half thicknesses do not leak. With an offset o, the limit is 2 (1 - |o|) half thicknesses. Gaps of the surface itself are
-  !! not found. %get_list of the leaks gives the edges. Errors: RIIS_INVALID_ARGUMENT if the mesh has no adjacency, or if the
-  !! marks do not come from a marking with this mesh and half thickness. The leaks are then unchanged.
+  !> Finds every edge that leaks. Such an edge belongs to the mesh's adjacency, and crosses the surface between two unmarked
+  !! nodes. Edges of at most two half thicknesses do not leak. With an offset o, the limit is 2 (1 - |o|) half thicknesses. Gaps
+  !! of the surface itself are not found. %get_list of the leaks gives the edges. Errors: RIIS_INVALID_ARGUMENT if the mesh has no
+  !! adjacency, or if the marks do not come from a marking with this mesh and half thickness. The leaks are then unchanged.
   subroutine find_leaks_logical(surface, mesh, marks, leaks, node_mask, n_threads, status)
     class(riis_surface), intent(in) :: surface              !< The surface of the marking.
     class(riis_mesh), intent(in) :: mesh                    !< The mesh of the marking, with an adjacency.

@@ -13,8 +13,8 @@ module riis_meshes
 
   !> The caller's nodes. The coordinates and the rows of an adjacency are borrowed: they must stay in place until the mesh is
   !! destroyed or gets other arrays. Pass variables that outlive the mesh, as whole arrays or as sections with subscript triplets
-  !! and any positive stride. TARGET is not needed. The compiler may pass a copy, which is lost after the call, so that the mesh
-  !! would then read other data. The compiler copies
+  !! and any positive stride. TARGET is not needed. If the compiler passes a copy, the copy is lost after the call, and the mesh
+  !! then reads other data. The compiler copies
   !!
   !! - expressions, such as 2 * xyz, transpose(xyz) or (xyz) in parentheses;
   !! - sections with vector subscripts;
@@ -404,8 +404,8 @@ contains
     real(real32), intent(in), contiguous, target :: x(:) !< At least one node, strictly ascending; copied.
     real(real32), intent(in), contiguous, target :: y(:) !< At least one node, strictly ascending; copied.
     real(real32), intent(in), contiguous, target :: z(:) !< At least one node, strictly ascending; copied.
-    class(*), intent(in), optional :: halo                  !< integer: layers around the nodes in the caller's arrays. Without it
-                                                            !! first, stride and n_nodes count.
+    class(*), intent(in), optional :: halo                  !< integer: layers around the nodes in the caller's arrays. Without
+                                                            !! halo, the call uses first, stride and n_nodes.
     class(*), intent(in), optional :: first                 !< integer: the number of node (1, 1, 1). Default 1.
     class(*), intent(in), optional :: stride(:)             !< integer (3): from a node to the next along each axis. Default 1,
                                                             !! size(x), size(x) * size(y).
@@ -434,8 +434,8 @@ contains
     real(real64), intent(in), contiguous, target :: x(:) !< At least one node, strictly ascending; copied.
     real(real64), intent(in), contiguous, target :: y(:) !< At least one node, strictly ascending; copied.
     real(real64), intent(in), contiguous, target :: z(:) !< At least one node, strictly ascending; copied.
-    class(*), intent(in), optional :: halo                  !< integer: layers around the nodes in the caller's arrays. Without it
-                                                            !! first, stride and n_nodes count.
+    class(*), intent(in), optional :: halo                  !< integer: layers around the nodes in the caller's arrays. Without
+                                                            !! halo, the call uses first, stride and n_nodes.
     class(*), intent(in), optional :: first                 !< integer: the number of node (1, 1, 1). Default 1.
     class(*), intent(in), optional :: stride(:)             !< integer (3): from a node to the next along each axis. Default 1,
                                                             !! size(x), size(x) * size(y).
@@ -464,8 +464,8 @@ contains
     real(real32), intent(in), contiguous, target :: x(:) !< At least one node, strictly ascending; copied.
     real(real32), intent(in), contiguous, target :: y(:) !< At least one node, strictly ascending; copied.
     real(real32), intent(in), contiguous, target :: z(:) !< At least one node, strictly ascending; copied.
-    class(*), intent(in), optional :: halo                  !< integer: layers around the nodes in the caller's arrays. Without it
-                                                            !! first, stride and n_nodes count.
+    class(*), intent(in), optional :: halo                  !< integer: layers around the nodes in the caller's arrays. Without
+                                                            !! halo, the call uses first, stride and n_nodes.
     class(*), intent(in), optional :: first                 !< integer: the number of node (1, 1, 1). Default 1.
     class(*), intent(in), optional :: stride(:)             !< integer (3): from a node to the next along each axis. Default 1,
                                                             !! size(x), size(x) * size(y).
@@ -494,8 +494,8 @@ contains
     real(real64), intent(in), contiguous, target :: x(:) !< At least one node, strictly ascending; copied.
     real(real64), intent(in), contiguous, target :: y(:) !< At least one node, strictly ascending; copied.
     real(real64), intent(in), contiguous, target :: z(:) !< At least one node, strictly ascending; copied.
-    class(*), intent(in), optional :: halo                  !< integer: layers around the nodes in the caller's arrays. Without it
-                                                            !! first, stride and n_nodes count.
+    class(*), intent(in), optional :: halo                  !< integer: layers around the nodes in the caller's arrays. Without
+                                                            !! halo, the call uses first, stride and n_nodes.
     class(*), intent(in), optional :: first                 !< integer: the number of node (1, 1, 1). Default 1.
     class(*), intent(in), optional :: stride(:)             !< integer (3): from a node to the next along each axis. Default 1,
                                                             !! size(x), size(x) * size(y).

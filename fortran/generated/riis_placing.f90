@@ -26,7 +26,7 @@ contains
   !! RIIS_INVALID_PARAMETER for a valve from patches and for sizes that do not fit together.
   subroutine place(valve, xyz, role, scale, placement, leaflet_id, flow, noise, held, residual, standard_error, &
       size_state, places, status)
-    class(riis_valve), intent(inout) :: valve               !< Must be created; a kind of valve. Unchanged on an error.
+    class(riis_valve), intent(inout) :: valve               !< Must be created from a kind's name. Unchanged on an error.
     real(c_double), intent(in), target :: xyz(:, :)         !< (3, n_landmarks), in mesh units.
     integer(int32), intent(in), contiguous, target :: role(:) !< (n_landmarks): RIIS_LANDMARK_*.
     real(c_double), intent(in) :: scale                     !< Mesh units in a centimetre: 10 for millimetres, 0.01 for metres.

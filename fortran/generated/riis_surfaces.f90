@@ -246,11 +246,11 @@ contains
                                                             !! placement changes, the same valve. Read during the call only.
     real(c_double), intent(in) :: dp                        !< The parameter's difference from valve_before to valve_after,
                                                             !! 1e-30 to 1e30 in magnitude.
-    real(c_double), intent(in), optional :: scale_after     !< For the state after, like the next three. Default: as the surface.
+    real(c_double), intent(in), optional :: scale_after     !< For the state after, like the next three. Default: the surface's.
     real(c_double), intent(in), optional :: rotation_axis_after(:) !< (3), of any length.
     real(c_double), intent(in), optional :: rotation_angle_after !< Degrees.
     real(c_double), intent(in), optional :: translation_after(:) !< (3), mesh units.
-    real(c_double), intent(in), optional :: scale_before    !< For the state before, like the next three. Default: as the surface.
+    real(c_double), intent(in), optional :: scale_before    !< For the state before, like the next three. Default: the surface's.
     real(c_double), intent(in), optional :: rotation_axis_before(:) !< (3), of any length.
     real(c_double), intent(in), optional :: rotation_angle_before !< Degrees.
     real(c_double), intent(in), optional :: translation_before(:) !< (3), mesh units.
@@ -960,8 +960,8 @@ contains
 
   !> Finds the closest points of the surface to many points, in parallel. It writes the arrays that are present. For sections of
   !! them that are not contiguous, the compiler makes copies in both directions. No array may overlap another or the coordinates,
-  !! which are never copied. Errors: RIIS_INVALID_ARGUMENT naming the first bad point, or for barycentric or side if distances are
-  !! by sampling or minimisation. Nothing is then written.
+  !! which are never copied. Errors: RIIS_INVALID_ARGUMENT naming the first bad point. Barycentric and side have the same error if
+  !! distances are measured by sampling or minimisation. Nothing is then written.
   subroutine surface_closest_points_xyz_logical(this, xyz, distance_limit, far_distance, n_threads, distance, point, &
       barycentric, normal, triangle_id, leaflet_id, side, status, point_mask, point_id)
     class(riis_surface), intent(in) :: this                 !< Must be created.
