@@ -564,24 +564,6 @@ contains
     end select
   end subroutine set_numbers
 
-  subroutine create_mesh_of_grid(this, grid, code)
-    class(riis_mesh), intent(inout) :: this
-    type(riis_grid), intent(in) :: grid
-    integer(riis_status), intent(inout) :: code
-    if (code == RIIS_OK) code = check_not_created(this%handle, 'the mesh')
-    if (code == RIIS_OK) code = riis_mesh_create_grid(grid, this%handle)
-    if (code == RIIS_OK) this%n = n_numbers_of(grid)
-  end subroutine create_mesh_of_grid
-
-  subroutine update_mesh_of_grid(this, grid, code)
-    class(riis_mesh), intent(inout) :: this
-    type(riis_grid), intent(in) :: grid
-    integer(riis_status), intent(inout) :: code
-    if (code == RIIS_OK) code = check_created(this%handle, 'the mesh')
-    if (code == RIIS_OK) code = riis_mesh_update_grid(this%handle, grid)
-    if (code == RIIS_OK) this%n = n_numbers_of(grid)
-  end subroutine update_mesh_of_grid
-
   ! Returns the length of the caller's arrays. The library has checked the grid.
   function n_numbers_of(grid) result(n)
     type(riis_grid), intent(in) :: grid
@@ -600,9 +582,20 @@ contains
     type(strided_points), intent(in) :: points
     integer(riis_status), intent(inout) :: code
     if (code == RIIS_OK) code = check_not_created(this%handle, 'the mesh')
-    if (code == RIIS_OK) code = riis_mesh_create(points%n, points%x, points%y, points%z, points%stride, this%handle)
+    if (code == RIIS_OK) &
+      code = riis_mesh_create(points%n, points%x, points%y, points%z, points%stride, this%handle)
     if (code == RIIS_OK) this%n = points%n
   end subroutine create_mesh
+
+  ! The common part of all specific procedures of create_grid. It does nothing after an error.
+  subroutine create_mesh_of_grid(this, grid, code)
+    class(riis_mesh), intent(inout) :: this
+    type(riis_grid), intent(in) :: grid
+    integer(riis_status), intent(inout) :: code
+    if (code == RIIS_OK) code = check_not_created(this%handle, 'the mesh')
+    if (code == RIIS_OK) code = riis_mesh_create_grid(grid, this%handle)
+    if (code == RIIS_OK) this%n = n_numbers_of(grid)
+  end subroutine create_mesh_of_grid
 
   ! The common part of all specific procedures of update. It does nothing after an error.
   subroutine update_mesh(this, points, code)
@@ -610,9 +603,20 @@ contains
     type(strided_points), intent(in) :: points
     integer(riis_status), intent(inout) :: code
     if (code == RIIS_OK) code = check_created(this%handle, 'the mesh')
-    if (code == RIIS_OK) code = riis_mesh_update(this%handle, points%n, points%x, points%y, points%z, points%stride)
+    if (code == RIIS_OK) &
+      code = riis_mesh_update(this%handle, points%n, points%x, points%y, points%z, points%stride)
     if (code == RIIS_OK) this%n = points%n
   end subroutine update_mesh
+
+  ! The common part of all specific procedures of update_grid. It does nothing after an error.
+  subroutine update_mesh_of_grid(this, grid, code)
+    class(riis_mesh), intent(inout) :: this
+    type(riis_grid), intent(in) :: grid
+    integer(riis_status), intent(inout) :: code
+    if (code == RIIS_OK) code = check_created(this%handle, 'the mesh')
+    if (code == RIIS_OK) code = riis_mesh_update_grid(this%handle, grid)
+    if (code == RIIS_OK) this%n = n_numbers_of(grid)
+  end subroutine update_mesh_of_grid
 
   !> Gives the mesh its adjacency as compressed sparse rows and checks them once. The rows are borrowed: they must be contiguous
   !! and stay in place, unchanged, until the mesh is destroyed or gets other rows. With the default base, the neighbours of node i
