@@ -77,7 +77,9 @@ def procedure(name, text, form=0):
                       "    integer(riis_status) :: code", rest, "    call finish(code, status)", f"  end subroutine {name}", ""])
 
 
-def specific_names(bindings):
-    """Returns the names of the specific procedures behind the generic names in the bindings of a type."""
+def specific_procedures(stem, bindings, renamed):
+    """Yields the bindings that the generic names of a type need for specific procedures, and the names of these procedures."""
     text = re.sub("!<.*|&\n", "", bindings)
-    return re.findall(r"\w+", " ".join(re.findall(r"generic :: \w+ => (.*)", text)))
+    for name in re.findall(r"\w+", " ".join(re.findall(r"generic :: \w+ => (.*)", text))):
+        first, _, rest = name.partition("_")
+        yield name, f"{renamed.get(first, f'{stem}_{first}')}_{rest}"
