@@ -37,8 +37,8 @@ module riis_support
     module procedure get_int64
   end interface get_integer
 
-  !> Converts a mask to bytes: 1 for .true. and for numbers other than 0. If the mask is absent, the bytes stay unallocated. As an
-  !! actual argument, unallocated bytes also count as absent.
+  !> Converts a mask to bytes: 1 for .true. and for numbers other than 0. If the mask is absent, the bytes stay unallocated. If
+  !! unallocated bytes are passed to an optional argument, this argument is absent.
   interface get_mask
     module procedure get_mask_logical
     module procedure get_mask_int32
@@ -92,7 +92,7 @@ contains
 
   !> Turns the STAT of an ALLOCATE into a status.
   function out_of_memory(stat) result(code)
-    integer, intent(in) :: stat                             !< 0 if it succeeded.
+    integer, intent(in) :: stat                             !< 0 if the ALLOCATE succeeded.
     integer(riis_status) :: code                            !< RIIS_OK or RIIS_OUT_OF_MEMORY.
     code = RIIS_OK
     if (stat /= 0) code = fail(RIIS_OUT_OF_MEMORY, 'out of memory')

@@ -134,8 +134,8 @@ class Fortran:
 
 
 class Calls:
-    """For each C call, its procedures in both languages, and a reason if one language has none. Names in the table take the place
-    of the language's names that follow from the call: riis_type%name, riis_name or the subroutines that riisf.table has."""
+    """For each C call, its procedures in both languages, and a reason if one language has none. Names in the table replace those
+    names of a language that follow from the call: riis_type%name, riis_name or the subroutines that riisf.table has."""
 
     def __init__(self, root, declared, fortran):
         self.entries, self.problems = {}, []

@@ -25,6 +25,8 @@ CREATED, MADE = "Written on success.", "0, which creates them, or from an earlie
 
 # A place in C: the argument of a function, or a field of a struct, whose path is "struct%field". `words` are bindings.table's.
 Place = namedtuple("Place", "path type extent words struct")
+# A struct that the functions read or write: an argument, or a struct to which a field of an argument points, at this path.
+Base = namedtuple("Base", "struct is_read path")
 
 
 @lru_cache(maxsize=None)
@@ -45,31 +47,29 @@ class Subroutine:
         self.writer = writer
         self.name = entry.name + ("_64" if kind == "int64" else "")
         self.functions = [writer.functions.get(name) or self.refuse(f"riis.h has no {name}") for name in entry.functions]
-        self.structs = {}  # for each argument of a function that is a struct: its type, and whether the function only reads it
-        self.nested = {}  # for each field of these that points to a struct: its type and the field's path
+        self.bases = {}  # the structs, by the name of the argument or of the field that points to the struct
         self.values = {}  # the places of the other arguments
         for function in self.functions:
             for argument in function.arguments:
                 if argument.type.base in writer.structs:
-                    self.structs.setdefault(argument.name, (argument.type.base, argument.type.const))
+                    self.bases.setdefault(argument.name, Base(argument.type.base, argument.type.const, ""))
                 elif argument.name != "struct_size":
                     self.values.setdefault(argument.name, Place(argument.name, argument.type, "",
                                                                 self.words_of(function.name, argument.name), ""))
         self.arguments = entry.arguments or [
             Argument(name, "(*)" * any(word == "borrowed" or word.startswith("(") for word in place.words), "", "", "")
             for name, place in self.values.items()]
-        for struct in [struct for struct, const in self.structs.values() if const]:
-            for field in self.fields(struct):
+        for name, base in list(self.bases.items()):
+            for field in self.fields(base.struct) if base.is_read else []:
                 if field.type.base in writer.structs:
-                    owner = next(name for name, (other, _) in self.structs.items() if other == struct)
-                    self.nested[field.name] = (field.type.base, f"{owner}%{field.name}")
+                    self.bases.setdefault(field.name, Base(field.type.base, True, f"{name}%{field.name}"))
         self.declarations, self.locals, self.allocated = [], [], []
         self.used = set()  # the structs that have a variable
         self.filled = {}  # the fields and arguments of C that arguments fill, and these arguments
         self.set = []  # statements before the calls
         self.passed = dict(entry.fixed)  # for each argument of the functions, what is passed
         self.results, self.copied = [], []  # statements after the calls, and arguments to which arrays are copied
-        self.handle = self.created = ""  # the handle that a call makes, and its type if it is made only where it is 0
+        self.handle = self.created = ""  # the handle that a call makes; its type, if it makes one only for 0
 
     def refuse(self, message):
         raise Problem(f"{self.entry.place}: {self.entry.name}: {message}")
@@ -86,7 +86,7 @@ class Subroutine:
 
     def field(self, base, name):
         """Returns the place of a struct's field. The struct is an argument, or a field of an argument points to it."""
-        struct = (self.structs.get(base) or self.nested.get(base) or ("",))[0]
+        struct = self.bases[base].struct if base in self.bases else ""
         for field in self.fields(struct) if struct else []:
             if field.name == name:
                 return Place(f"{base}%{name}", field.type, field.extent, self.words_of(struct, name), struct)
@@ -94,8 +94,8 @@ class Subroutine:
 
     def line_of(self, base, name):
         """Returns the line of riis.h that declares a struct's field."""
-        struct = (self.nested.get(base) or self.structs[base])[0]
-        return next(line for line in self.writer.structs[struct].lines if name in [field.name for field in line.fields])
+        lines = self.writer.structs[self.bases[base].struct].lines
+        return next(line for line in lines if name in [field.name for field in line.fields])
 
     def find(self, argument, target):
         """Returns the place of an argument: the one that the table names, or the one with the argument's name."""
@@ -103,8 +103,7 @@ class Subroutine:
         if base:
             return self.field(base, name) or self.refuse(f"riis.h has no {target}")
         stem = re.sub("_num$", "", argument.name)
-        reads = [name for name, (_, const) in self.structs.items() if const]
-        bases = [*self.nested, *reads, *(name for name in self.structs if name not in reads)]
+        bases = sorted(self.bases, key=lambda name: (not self.bases[name].path, not self.bases[name].is_read))
         for name in [target] if target else dict.fromkeys([argument.name, stem + "_id", stem]):
             for place in [self.values.get(name), *(self.field(base, name) for base in bases)]:
                 if place:
@@ -124,9 +123,6 @@ class Subroutine:
         base, _, name = path.partition("%")
         self.used.add(base)
         return f"{self.local(base)}%{name}"
-
-    def is_read(self, base):
-        return base in self.nested or self.structs[base][1]
 
     # Arguments ----------------------------------------------------------------------------------------------------
 
@@ -150,7 +146,8 @@ class Subroutine:
         self.declarations.append((f"{type_}, intent({intent}) :: {argument.name}{argument.shape}", text))
 
     def told(self, text):
-        """Returns a text of riis.h as it holds here: with the names of subroutines, and without sentences about C's pointers."""
+        """Returns a text of riis.h with the names of subroutines and of their arguments, and without sentences about C's
+        pointers."""
         text = re.sub(r"\briis_\w+", lambda match: self.writer.subroutines.get(match[0], match[0]), plain(text))
         for path, name in self.filled.items():  # a number such as n_points has the name of the argument that gives it
             text = re.sub(rf"\b{path.rpartition('%')[2]}\b", name, text) if name.startswith("n_") else text
@@ -211,7 +208,7 @@ class Subroutine:
             self.declare(argument, argument.type, "in")
             return
         type_ = self.type_of(argument, place)
-        if place.struct and self.is_read(place.path.partition("%")[0]):
+        if place.struct and self.bases[place.path.partition("%")[0]].is_read:
             self.set_field(argument, type_, place, size)
         elif place.struct:
             self.declare(argument, type_, "inout", self.described(argument, place))
@@ -240,21 +237,21 @@ class Subroutine:
             self.set.append(f"{self.path(base + '%stride')} = {len(places)}")
             return
         self.declare(argument, REALS, "inout")
-        if self.is_read(base):
+        if self.bases[base].is_read:
             self.set += [f"{self.path(place.path)} = {argument.name}({i})" for i, place in enumerate(places, 1)]
         later = [self.path(place.path.replace(base, self.after(base), 1)) for place in places]
         self.results.append(f"{argument.name} = [{', '.join(later)}]")
 
     def after(self, base):
         """Returns the struct that a function writes as the next state of the struct `base`, or `base`."""
-        struct = self.structs[base][0]
-        return next((name for name, (other, const) in self.structs.items() if other == struct and not const), base)
+        struct = self.bases[base].struct
+        return next((name for name, other in self.bases.items() if other.struct == struct and not other.is_read), base)
 
     def set_field(self, argument, type_, place, size):
         """An argument that goes into a field of a struct that is read."""
         name, path, base = argument.name, self.path(place.path), place.path.partition("%")[0]
         self.filled[place.path] = name
-        next_state = self.after(base) if base in self.structs else base
+        next_state = self.after(base)
         writes = place.type.stars and not place.type.const or next_state != base
         self.declare(argument, type_, "inout" if writes else "in", self.described(argument, place))
         if any(f"{place.path} = " in line for line in self.entry.before):
@@ -324,11 +321,11 @@ class Subroutine:
     def call_of(self, function):
         """Returns the call of a function. Arguments that are left out are optional; keywords follow them."""
         parts, keyword = [], ""
-        written = [name for name, (_, const) in self.structs.items() if not const]
+        written = [name for name, base in self.bases.items() if not base.is_read]
         for argument in function.arguments:
             name, part = argument.name, self.passed.get(argument.name)
             optional = "optional" in self.words_of(function.name, name)
-            if name in self.structs and (name in self.used or not optional):
+            if argument.type.base in self.writer.structs and (name in self.used or not optional):
                 self.used.add(name)
                 part = self.local(name)
             elif name == "struct_size":
@@ -342,10 +339,11 @@ class Subroutine:
         return f"{function.name}({', '.join(parts)})"
 
     def bits(self):
-        """Returns statements for fields such as id_bits, whose text in riis.h is "of" an array: the kind of the argument."""
+        """Returns statements that give fields such as id_bits the kind of an argument. The text of such a field in riis.h names
+        the array, as in "of node_ids"."""
         lines = []
-        for base in [*self.nested, *self.structs]:
-            for field in self.fields((self.nested.get(base) or self.structs[base])[0]) if base in self.used else []:
+        for base in self.bases:
+            for field in self.fields(self.bases[base].struct) if base in self.used else []:
                 array = re.match(r"of (\w+)", self.line_of(base, field.name).text)
                 given = array and self.filled.get(f"{base}%{array[1]}")
                 if given and field.name in ("id_bits", "offset_bits", "column_bits"):
@@ -354,11 +352,12 @@ class Subroutine:
 
     def statements(self):
         before = self.bits() + [re.sub(r"\b(\w+)%", lambda match: self.path(match[0]), line) for line in self.entry.before]
-        for base in [base for base in self.nested if base in self.used]:
-            before.append(f"{self.path(self.nested[base][1])} = c_loc({self.local(base)})")
+        for name, base in self.bases.items():
+            if base.path and name in self.used:
+                before.append(f"{self.path(base.path)} = c_loc({self.local(name)})")
         calls = [f"status = {self.call_of(function)}" for function in self.functions]
-        for base in self.structs:
-            if base in self.used and self.is_read(base) and self.after(base) != base:
+        for base in self.bases:
+            if base in self.used and self.bases[base].is_read and self.after(base) != base:
                 before.append(f"{self.local(self.after(base))} = {self.local(base)}")
         lines = [*self.variables(), *self.set, *before, *self.chain(calls)]
         if self.handle and not self.created:
@@ -370,11 +369,11 @@ class Subroutine:
     def variables(self):
         """Declares the structs and copies. Returns the statements that give the structs their defaults and the copies memory."""
         inits = []
-        for base, (struct, const) in {**self.structs, **self.nested}.items():
+        for base, (struct, is_read, path) in self.bases.items():
             if base in self.used:
-                name, target = self.local(base), "" if base in self.structs else ", target"
-                self.locals.append(f"type({struct}){target} :: {name}")
-                inits += [f"status = {struct}_init({name}, c_sizeof({name}))"] if const else []
+                name = self.local(base)
+                self.locals.append(f"type({struct}){', target' * bool(path)} :: {name}")
+                inits += [f"status = {struct}_init({name}, c_sizeof({name}))"] * is_read
         lines = if_ok(inits) + ["if (status /= RIIS_OK) return"] * bool(inits)
         if self.allocated:
             self.locals.append("integer :: stat")

@@ -88,11 +88,14 @@ class Table:
 
     def add_from(self, header):
         """Adds what the header says where the table has no line: the shape at the beginning of a text, as in "(n_nodes): ...",
-        and whether an argument may be NULL. It may if a sentence of the header begins with NULL, or if it is `options`. A
-        function without a comment says nothing."""
+        fields that may point to a struct, and whether an argument may be NULL. It may if a sentence of its text begins
+        with NULL, or if it is `options`. A function without a comment says nothing."""
         structs = {struct.name for struct in header.structs}
         for struct in header.structs:
             for line in struct.lines:
+                base = line.fields[0].type.base
+                if base in structs and "NULL" in line.text:
+                    self.add(struct.name, line.line, [line.fields[0].name], ["(*)"], f"c_loc of a {base}; or c_null_ptr")
                 shape = SHAPE.match(line.text)
                 if shape and line.fields[0].type.stars:
                     null = "or c_null_ptr" if re.search("NULL(?! only)", line.text) else ""

@@ -20,16 +20,18 @@
 !!
 !! Rules for every procedure:
 !!
-!! - Errors. The last argument is `integer(riis_status), intent(out), optional :: status`: RIIS_OK or an error, whose message
-!!   riis_error_message() gives. Without it an error stops the program, with its name and message on the error unit. After a
+!! - Errors. Each procedure has the argument `integer(riis_status), intent(out), optional :: status`. It gets RIIS_OK or an error,
+!!   and riis_error_message() gives the message of the error. Without `status`, an error stops the program, with the error's name
+!!   and message on the error unit. After a
 !!   positive error nothing has changed. After a negative error, an object that the call would have written can only be
 !!   destroyed. Each thread has its own message. Messages name the C arguments and count from 0.
 !! - Objects. Each is empty until it is created, and must be destroyed: the end of a scope does not destroy it. An
 !!   intent(out) argument loses its object. Creating an object twice is an error, and so is the use of an empty object.
 !!   Destroying an empty object is allowed. Objects cannot be copied: a = b stops the program unless both are empty. Pass them as
 !!   arguments or point to them; functions cannot return them. Array constructors and allocate(..., source=...) copy objects
-!!   without an error. So does gfortran when it assigns a variable of a type with objects in allocatable components, such as
-!!   type(riis_valve), allocatable :: v. Avoid all of these, and do not enlarge an array of objects by assignment.
+!!   without an error. If a type has an object in an allocatable component, such as type(riis_valve), allocatable :: v, gfortran
+!!   also copies the object when it assigns a variable of this type. Avoid all of these, and do not enlarge an array of objects
+!!   by assignment.
 !! - Integers. Ids, counts, numbers of threads and bases may be integer(int32), the default kind, or integer(int64). Optional
 !!   integers are declared class(*), since a generic procedure cannot distinguish them; other types are refused. If a call has
 !!   several counts that are not optional (n_nodes and stride; ni, nj, nk), they must be of one kind. Integers that the
@@ -41,7 +43,7 @@
 !! - Arrays are whole or sections. Coordinates are read in place, with any positive stride. The coordinates of a mesh and
 !!   the rows of an adjacency are borrowed beyond the call: riis_mesh describes how, and which arguments to avoid. Other arrays
 !!   are used during the call only. The call copies sections that are not contiguous, and arrays for which the procedure's
-!!   comment says so. If the argument is CONTIGUOUS, gfortran also copies the target of a pointer without this attribute.
+!!   comment says so. If an argument is declared CONTIGUOUS and a pointer is not, gfortran also copies the pointer's target.
 !! - Threads. Any number of threads may read an object (intent(in)) at once. One thread may write it while no other reads it.
 !!   Different objects never interfere. Results are bitwise the same for any number of threads. In an OpenMP region, declare
 !!   a thread's own objects in a procedure that it calls or in a BLOCK: gfortran leaves copies by PRIVATE undefined.

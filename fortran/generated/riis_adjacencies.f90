@@ -251,21 +251,6 @@ contains
       text_of(n) // ' entries')
   end function check_nodes_of_cells
 
-  ! The common part of all specific procedures of create_from_cells. It does nothing after an error.
-  subroutine create_from_cells(this, n_nodes, cells, index_base, n_threads, code)
-    class(riis_adjacency), intent(inout) :: this
-    integer(int64), intent(in) :: n_nodes
-    type(riis_mesh_cells), intent(inout) :: cells
-    class(*), intent(in), optional :: index_base, n_threads
-    integer(riis_status), intent(inout) :: code
-    cells%n_nodes = n_nodes
-    cells%index_base = 1
-    call get_integer(index_base, 'index_base', cells%index_base, code)
-    call get_integer(n_threads, 'n_threads', cells%n_threads, code)
-    if (code == RIIS_OK) code = check_not_created(this%handle, 'the adjacency')
-    if (code == RIIS_OK) code = riis_adjacency_create_from_cells(cells, this%handle)
-  end subroutine create_from_cells
-
   !> Makes an adjacency from faces, for codes that mark cell centres. Two cells are neighbours if they have a common face. The
   !! array is read during the call only, and a section that is not contiguous is copied. The errors are those of
   !! %create_from_cells.
@@ -460,6 +445,21 @@ contains
     call finish(code, status)
   end subroutine adjacency_owner_int64_int64
 
+  ! The common part of all specific procedures of create_from_cells. It does nothing after an error.
+  subroutine create_from_cells(this, n_nodes, cells, index_base, n_threads, code)
+    class(riis_adjacency), intent(inout) :: this
+    integer(int64), intent(in) :: n_nodes
+    type(riis_mesh_cells), intent(inout) :: cells
+    class(*), intent(in), optional :: index_base, n_threads
+    integer(riis_status), intent(inout) :: code
+    cells%n_nodes = n_nodes
+    cells%index_base = 1
+    call get_integer(index_base, 'index_base', cells%index_base, code)
+    call get_integer(n_threads, 'n_threads', cells%n_threads, code)
+    if (code == RIIS_OK) code = check_not_created(this%handle, 'the adjacency')
+    if (code == RIIS_OK) code = riis_adjacency_create_from_cells(cells, this%handle)
+  end subroutine create_from_cells
+
   ! The common part of all specific procedures of create_from_faces. It does nothing after an error.
   subroutine create_from_faces(this, n_cells, faces, index_base, n_threads, code)
     class(riis_adjacency), intent(inout) :: this
@@ -484,7 +484,9 @@ contains
     integer(int32), intent(in) :: nk                        !< >= 1.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    call adjacency_grid_int64(this, int(ni, int64), int(nj, int64), int(nk, int64), n_threads, status)
+    integer(riis_status) :: code
+    call adjacency_grid_int64(this, int(ni, int64), int(nj, int64), int(nk, int64), n_threads, code)
+    call finish(code, status)
   end subroutine adjacency_grid_int32
 
   !> Implements %create_from_grid for integer(int64).

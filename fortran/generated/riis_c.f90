@@ -23,7 +23,7 @@
 !! - Arrays of the library are type(c_ptr), for c_f_pointer with the shape given here. Do not write to them. Empty
 !!   arrays are c_null_ptr.
 !! - Ids that the library gives count from 0, also in Fortran: node_id + 1 is the column of xyz(3, n). Ids in a struct count from
-!!   its index_base, so set that to 1. Its *_bits give their kind: storage_size(the array).
+!!   the field index_base, so set index_base to 1. Set id_bits and similar fields to the kind of the ids: storage_size(the array).
 !! - Structs: call the init function with c_sizeof(the variable) as struct_size, then set the fields that differ:
 !!     status = riis_mark_options_init(options, c_sizeof(options))
 !! - Pass texts through riis_c_string and take them through riis_c_text. A bare literal also compiles, but it is wrong, because
@@ -731,7 +731,7 @@ module riis_c
   type, bind(c) :: riis_warp_options
     integer(c_int64_t) :: struct_size
     real(c_double) :: noise
-    type(c_ptr) :: placement !< type(riis_surface_options), (*), or c_null_ptr; c_loc of a riis_surface_options
+    type(c_ptr) :: placement !< type(riis_surface_options), (*), c_loc of a riis_surface_options; or c_null_ptr
   end type riis_warp_options
 
   !> A warp's quality, in the units of its landmarks.

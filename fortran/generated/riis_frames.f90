@@ -32,8 +32,8 @@ contains
 
   !> Makes keyframes from frames, which are copied. The faces are as for %create_from_arrays of a surface. Errors:
   !! RIIS_INVALID_ARGUMENT naming the key, counted from 0, and its value; RIIS_INVALID_SURFACE naming the frame, vertex or face.
-  subroutine keyframes_create_int32(this, time, xyz, vertex_ids, leaflet_id, index_base, period, interpolation, status, &
-      skirt_length, attached, skirt_lengths)
+  subroutine keyframes_create_int32(this, time, xyz, vertex_ids, leaflet_id, index_base, period, interpolation, &
+      status, skirt_length, attached, skirt_lengths)
     class(riis_keyframes), intent(inout) :: this            !< Must be empty.
     real(c_double), intent(in), contiguous, target :: time(:) !< (n_keys), 1 to 1,000,000, strictly ascending, magnitude at
                                                             !! most 1e30.
@@ -49,12 +49,12 @@ contains
     class(*), intent(in), optional :: interpolation         !< integer, RIIS_INTERPOLATION_*, for every coordinate. Default
                                                             !! RIIS_INTERPOLATION_LINEAR.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    integer(riis_status) :: code
     real(c_double), intent(in), optional :: skirt_length    !< The length of a skirt before placement, 0 for none. Default 0.
     logical, intent(in), optional :: attached(:)            !< (n_vertices): the vertices of the attachment. Default: with a
                                                             !! skirt, the attachment is chosen in the first frame.
     real(c_double), intent(in), contiguous, optional, target :: skirt_lengths(:) !< (n_vertices): the skirt's lengths at the
                                                             !! attached vertices. Default skirt_length.
+    integer(riis_status) :: code
     type(riis_surface_arrays) :: faces
     integer(int8), allocatable, target :: bytes(:)
     code = check_not_created(this%handle, 'keyframes')
@@ -68,8 +68,8 @@ contains
   end subroutine keyframes_create_int32
 
   !> Implements %create for integer(int64).
-  subroutine keyframes_create_int64(this, time, xyz, vertex_ids, leaflet_id, index_base, period, interpolation, status, &
-      skirt_length, attached, skirt_lengths)
+  subroutine keyframes_create_int64(this, time, xyz, vertex_ids, leaflet_id, index_base, period, interpolation, &
+      status, skirt_length, attached, skirt_lengths)
     class(riis_keyframes), intent(inout) :: this            !< Must be empty.
     real(c_double), intent(in), contiguous, target :: time(:) !< (n_keys), 1 to 1,000,000, strictly ascending, magnitude at
                                                             !! most 1e30.
@@ -85,12 +85,12 @@ contains
     class(*), intent(in), optional :: interpolation         !< integer, RIIS_INTERPOLATION_*, for every coordinate. Default
                                                             !! RIIS_INTERPOLATION_LINEAR.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    integer(riis_status) :: code
     real(c_double), intent(in), optional :: skirt_length    !< The length of a skirt before placement, 0 for none. Default 0.
     logical, intent(in), optional :: attached(:)            !< (n_vertices): the vertices of the attachment. Default: with a
                                                             !! skirt, the attachment is chosen in the first frame.
     real(c_double), intent(in), contiguous, optional, target :: skirt_lengths(:) !< (n_vertices): the skirt's lengths at the
                                                             !! attached vertices. Default skirt_length.
+    integer(riis_status) :: code
     type(riis_surface_arrays) :: faces
     integer(int8), allocatable, target :: bytes(:)
     code = check_not_created(this%handle, 'keyframes')

@@ -261,4 +261,5 @@ contains
     end if
     call finish(code, status)
   end subroutine advance_angle
+
 end module riis_laws

@@ -59,10 +59,10 @@ module riis_leaking
 
 contains
 
-  !> Finds every edge of the mesh's adjacency that leaks, which crosses the surface between two unmarked nodes. Edges of at most
-  !! two half thicknesses do not leak. With an offset o, the limit is 2 (1 - |o|) half thicknesses. Gaps of the surface itself are
-  !! not found. %get_list of the leaks gives the edges. Errors: RIIS_INVALID_ARGUMENT if the mesh has no adjacency, or if the
-  !! marks do not come from a marking with this mesh and half thickness. The leaks are then unchanged.
+  !> Finds every edge that leaks. Such an edge belongs to the mesh's adjacency, and crosses the surface between two unmarked
+  !! nodes. Edges of at most two half thicknesses do not leak. With an offset o, the limit is 2 (1 - |o|) half thicknesses. Gaps
+  !! of the surface itself are not found. %get_list of the leaks gives the edges. Errors: RIIS_INVALID_ARGUMENT if the mesh has no
+  !! adjacency, or if the marks do not come from a marking with this mesh and half thickness. The leaks are then unchanged.
   subroutine find_leaks_logical(surface, mesh, marks, leaks, node_mask, n_threads, status)
     class(riis_surface), intent(in) :: surface              !< The surface of the marking.
     class(riis_mesh), intent(in) :: mesh                    !< The mesh of the marking, with an adjacency.
@@ -72,8 +72,8 @@ contains
                                                             !! copied. Default: all nodes.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    integer(int8), allocatable :: bytes(:)
     integer(riis_status) :: code
+    integer(int8), allocatable :: bytes(:)
     code = RIIS_OK
     call get_mask(node_mask, bytes, code)
     call find(surface, mesh, marks, leaks, bytes, n_threads, code)
@@ -104,8 +104,8 @@ contains
     integer(int32), intent(in) :: node_mask(:)              !< (n_nodes): nodes with 0 are left out.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    integer(int8), allocatable :: bytes(:)
     integer(riis_status) :: code
+    integer(int8), allocatable :: bytes(:)
     code = RIIS_OK
     call get_mask(node_mask, bytes, code)
     call find(surface, mesh, marks, leaks, bytes, n_threads, code)

@@ -153,8 +153,8 @@ contains
     real(c_double), intent(in), optional :: half_thickness  !< eps of K, at most the distance limit. Default RIIS_AUTO: the
                                                             !! surface's half thickness. Needs R.
     class(*), intent(in), optional :: rim                   !< integer, RIIS_RIM_*. Default RIIS_RIM_ROUND. Needs R.
-    integer(int8), allocatable :: bytes(:)
     integer(riis_status) :: code
+    integer(int8), allocatable :: bytes(:)
     code = RIIS_OK
     call get_mask(node_mask, bytes, code)
     call mark(surface, mesh, marks, distance_limit, bytes, search, n_threads, fields, R, half_thickness, rim, code)
@@ -205,8 +205,8 @@ contains
     real(c_double), intent(in), optional :: half_thickness  !< eps of K, at most the distance limit. Default RIIS_AUTO: the
                                                             !! surface's half thickness. Needs R.
     class(*), intent(in), optional :: rim                   !< integer, RIIS_RIM_*. Default RIIS_RIM_ROUND. Needs R.
-    integer(int8), allocatable :: bytes(:)
     integer(riis_status) :: code
+    integer(int8), allocatable :: bytes(:)
     code = RIIS_OK
     call get_mask(node_mask, bytes, code)
     call mark(surface, mesh, marks, distance_limit, bytes, search, n_threads, fields, R, half_thickness, rim, code)
@@ -522,33 +522,29 @@ contains
                                                             !! RIIS_FAR_DISTANCE.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(riis_status) :: code
+    real(c_double) :: far
     integer(int64) :: n
     n = -1
+    far = RIIS_FAR_DISTANCE
+    if (present(far_distance)) far = far_distance
     code = check_created(this%handle, 'the object marks')
     if (present(mark)) n = size(mark, kind=int64)
-    if (present(distance)) call check('distance', size(distance, kind=int64))
-    if (present(triangle_id)) call check('triangle_id', size(triangle_id, kind=int64))
-    if (present(leaflet_id)) call check('leaflet_id', size(leaflet_id, kind=int64))
-    if (code == RIIS_OK .and. n < 0) code = refuse('none of mark, distance, triangle_id and leaflet_id is given')
-    if (code == RIIS_OK) then
-      if (present(far_distance)) then
-        code = write_dense(this%handle, n, far_distance, mark, distance, triangle_id, leaflet_id)
-      else
-        code = write_dense(this%handle, n, RIIS_FAR_DISTANCE, mark, distance, triangle_id, leaflet_id)
-      end if
-    end if
-    call finish(code, status)
-
-  contains
-
     ! The first array determines the size, which the library compares with the mesh.
-    subroutine check(name, n_entries)
-      character(len=*), intent(in) :: name
-      integer(int64), intent(in) :: n_entries
-      if (code /= RIIS_OK) return
-      if (n < 0) n = n_entries
-      code = check_size(n_entries, n, name, 'entries in the array before it')
-    end subroutine check
+    if (code == RIIS_OK .and. present(distance)) then
+      if (n < 0) n = size(distance, kind=int64)
+      code = check_size(size(distance, kind=int64), n, 'distance', 'entries in the array before it')
+    end if
+    if (code == RIIS_OK .and. present(triangle_id)) then
+      if (n < 0) n = size(triangle_id, kind=int64)
+      code = check_size(size(triangle_id, kind=int64), n, 'triangle_id', 'entries in the array before it')
+    end if
+    if (code == RIIS_OK .and. present(leaflet_id)) then
+      if (n < 0) n = size(leaflet_id, kind=int64)
+      code = check_size(size(leaflet_id, kind=int64), n, 'leaflet_id', 'entries in the array before it')
+    end if
+    if (code == RIIS_OK .and. n < 0) code = refuse('none of mark, distance, triangle_id and leaflet_id is given')
+    if (code == RIIS_OK) code = write_dense(this%handle, n, far, mark, distance, triangle_id, leaflet_id)
+    call finish(code, status)
   end subroutine marks_dense_int8
 
   !> Implements %dense for marks of another integer kind, which are converted.
@@ -779,8 +775,8 @@ contains
   !! edges are loads for tissue codes. They do not model how a membrane carries loads to its edges. Ranks pass the same point and
   !! edges, and add their sums by a reduction. Errors: as for %add_resistance; RIIS_INVALID_ARGUMENT also for too few leaflets,
   !! for a leaflet without an edge, and for a bad edge.
-  subroutine marks_add_reaction_vectors(this, R, velocity, weight, force, half_thickness, rim, &
-      moment, about, leaflet_force, leaflet_moment, edges, edge_force, edge_moment, edge_leaflet_id, status)
+  subroutine marks_add_reaction_vectors(this, R, velocity, weight, force, half_thickness, rim, moment, about, &
+      leaflet_force, leaflet_moment, edges, edge_force, edge_moment, edge_leaflet_id, status)
     class(riis_marks), intent(in) :: this                   !< From riis_mark_nodes.
     real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
     real(c_double), intent(in) :: velocity(:, :)            !< (3, n_nodes), the flow's velocity.
@@ -816,8 +812,8 @@ contains
   end subroutine marks_add_reaction_vectors
 
   !> Does the same for solvers with the velocity in three arrays. Arrays of rank 3 or 4 are also taken, as by %add_resistance.
-  subroutine marks_add_reaction_rank1(this, R, vx, vy, vz, weight, force, half_thickness, rim, &
-      moment, about, leaflet_force, leaflet_moment, edges, edge_force, edge_moment, edge_leaflet_id, status)
+  subroutine marks_add_reaction_rank1(this, R, vx, vy, vz, weight, force, half_thickness, rim, moment, about, &
+      leaflet_force, leaflet_moment, edges, edge_force, edge_moment, edge_leaflet_id, status)
     class(riis_marks), intent(in) :: this                   !< From riis_mark_nodes.
     real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
     real(c_double), intent(in) :: vx(:) !< (n_nodes), the x component of the flow's velocity.
@@ -856,8 +852,8 @@ contains
   end subroutine marks_add_reaction_rank1
 
   !> Implements %add_reaction for arrays of rank 3.
-  subroutine marks_add_reaction_rank3(this, R, vx, vy, vz, weight, force, half_thickness, rim, &
-      moment, about, leaflet_force, leaflet_moment, edges, edge_force, edge_moment, edge_leaflet_id, status)
+  subroutine marks_add_reaction_rank3(this, R, vx, vy, vz, weight, force, half_thickness, rim, moment, about, &
+      leaflet_force, leaflet_moment, edges, edge_force, edge_moment, edge_leaflet_id, status)
     class(riis_marks), intent(in) :: this                   !< From riis_mark_nodes.
     real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
     real(c_double), intent(in) :: vx(:, :, :) !< (n_nodes), the x component of the flow's velocity.
@@ -896,8 +892,8 @@ contains
   end subroutine marks_add_reaction_rank3
 
   !> Implements %add_reaction for arrays of rank 4.
-  subroutine marks_add_reaction_rank4(this, R, vx, vy, vz, weight, force, half_thickness, rim, &
-      moment, about, leaflet_force, leaflet_moment, edges, edge_force, edge_moment, edge_leaflet_id, status)
+  subroutine marks_add_reaction_rank4(this, R, vx, vy, vz, weight, force, half_thickness, rim, moment, about, &
+      leaflet_force, leaflet_moment, edges, edge_force, edge_moment, edge_leaflet_id, status)
     class(riis_marks), intent(in) :: this                   !< From riis_mark_nodes.
     real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
     real(c_double), intent(in) :: vx(:, :, :, :) !< (n_nodes), the x component of the flow's velocity.
@@ -1036,8 +1032,8 @@ contains
   !! node goes to the vertices of its closest triangle, in the shares of the closest point's barycentric coordinates. Ranks add
   !! their forces by a reduction. Errors: as for %add_reaction; RIIS_INVALID_ARGUMENT also for another number of vertices, and for
   !! a surface that lacks the closest triangle of a node.
-  subroutine marks_add_vertex_reaction_vectors(this, surface, R, velocity, weight, vertex_force, &
-      half_thickness, rim, status)
+  subroutine marks_add_vertex_reaction_vectors(this, surface, R, velocity, weight, vertex_force, half_thickness, rim, &
+      status)
     class(riis_marks), intent(in) :: this                   !< From riis_mark_nodes with RIIS_FIELD_BARYCENTRIC.
     class(riis_surface), intent(in) :: surface              !< The surface of the marking, without an update since then.
     real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
@@ -1065,8 +1061,8 @@ contains
   end subroutine marks_add_vertex_reaction_vectors
 
   !> Does the same for solvers with the velocity in three arrays. Arrays of rank 3 or 4 are also taken, as by %add_resistance.
-  subroutine marks_add_vertex_reaction_rank1(this, surface, R, vx, vy, vz, weight, vertex_force, &
-      half_thickness, rim, status)
+  subroutine marks_add_vertex_reaction_rank1(this, surface, R, vx, vy, vz, weight, vertex_force, half_thickness, rim, &
+      status)
     class(riis_marks), intent(in) :: this                   !< From riis_mark_nodes with RIIS_FIELD_BARYCENTRIC.
     class(riis_surface), intent(in) :: surface              !< The surface of the marking, without an update since then.
     real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
@@ -1097,8 +1093,8 @@ contains
   end subroutine marks_add_vertex_reaction_rank1
 
   !> Implements %add_vertex_reaction for arrays of rank 3.
-  subroutine marks_add_vertex_reaction_rank3(this, surface, R, vx, vy, vz, weight, vertex_force, &
-      half_thickness, rim, status)
+  subroutine marks_add_vertex_reaction_rank3(this, surface, R, vx, vy, vz, weight, vertex_force, half_thickness, rim, &
+      status)
     class(riis_marks), intent(in) :: this                   !< From riis_mark_nodes with RIIS_FIELD_BARYCENTRIC.
     class(riis_surface), intent(in) :: surface              !< The surface of the marking, without an update since then.
     real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
@@ -1129,8 +1125,8 @@ contains
   end subroutine marks_add_vertex_reaction_rank3
 
   !> Implements %add_vertex_reaction for arrays of rank 4.
-  subroutine marks_add_vertex_reaction_rank4(this, surface, R, vx, vy, vz, weight, vertex_force, &
-      half_thickness, rim, status)
+  subroutine marks_add_vertex_reaction_rank4(this, surface, R, vx, vy, vz, weight, vertex_force, half_thickness, rim, &
+      status)
     class(riis_marks), intent(in) :: this                   !< From riis_mark_nodes with RIIS_FIELD_BARYCENTRIC.
     class(riis_surface), intent(in) :: surface              !< The surface of the marking, without an update since then.
     real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).

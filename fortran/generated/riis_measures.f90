@@ -137,8 +137,8 @@ contains
   end subroutine riis_get_gap
 
   !> Gives a valve a skirt that reaches a wall, and no farther. Its length at each point of the closed valve's attachment is the
-  !! gap to the wall. Errors: RIIS_INVALID_ARGUMENT for a wall that is missed or farther than longest; RIIS_INVALID_PARAMETER for
-  !! a bileaflet valve, and for an attachment that encloses no area.
+  !! gap to the wall. Errors: RIIS_INVALID_ARGUMENT for a wall that the skirt misses, or that is farther than longest;
+  !! RIIS_INVALID_PARAMETER for a bileaflet valve, and for an attachment that encloses no area.
   subroutine riis_set_skirt_to_wall(valve, wall, longest, scale, rotation_axis, rotation_angle, translation, status)
     class(riis_valve), intent(inout) :: valve               !< Must be created.
     class(riis_surface), intent(in) :: wall                 !< Must be created, in the frame of the placed valve.
@@ -178,7 +178,7 @@ contains
     call finish(code, status)
   end subroutine riis_get_leak
 
-  !> Tells how many mesh edges lie across the band around the surface, by the edges with a marked node. Errors:
+  !> Tells how many mesh edges lie across the band around the surface, by the lengths of the edges with a marked node. Errors:
   !! RIIS_INVALID_ARGUMENT for a mesh without an adjacency, and for marks that do not come from a marking with this mesh.
   subroutine riis_get_cells_across(marks, mesh, cells, status)
     class(riis_marks), intent(in) :: marks                  !< From riis_mark_nodes.
@@ -194,9 +194,10 @@ contains
 
   !> Gives the volume that a valve sweeps between two openings, in mesh units cubed. It is the integral of u_surface . n over
   !! surface and time, positive along the normals. Errors: RIIS_INVALID_ARGUMENT for an opening out of range and a leaflet that
-  !! the valve lacks; RIIS_INVALID_PARAMETER for parameters that do not fit together, and for a valve of one state unless both are
-  !! 0.
-  subroutine riis_get_swept_volume(valve, opening_from, opening_to, volume, leaflet_id, scale, flip_normals, n_threads, status)
+  !! the valve lacks; RIIS_INVALID_PARAMETER for parameters that do not fit together, and for a valve of one state unless both
+  !! openings are 0.
+  subroutine riis_get_swept_volume(valve, opening_from, opening_to, volume, leaflet_id, scale, flip_normals, &
+      n_threads, status)
     class(riis_valve), intent(in) :: valve                  !< Must be created. Its own opening has no effect.
     real(c_double), intent(in) :: opening_from              !< 0 to 1.
     real(c_double), intent(in) :: opening_to                !< 0 to 1.
@@ -225,8 +226,9 @@ contains
   !! and of several sizes the one nearest to the present size. Errors: RIIS_INVALID_ARGUMENT naming the area, counted from 0, and
   !! the range if it is out of reach; RIIS_INVALID_PARAMETER for a name that is unknown, has three values or does not change the
   !! area, and for a valve with one state or no orifice.
-  subroutine find_by_area(valve, areas, values, name, reached, range, effective, from, to, half_thickness, tolerance, scale, &
-      rotation_axis, rotation_angle, translation, triangulation, rim, area_tolerance, n_samples, n_threads, status)
+  subroutine find_by_area(valve, areas, values, name, reached, range, effective, from, to, half_thickness, tolerance, &
+      scale, rotation_axis, rotation_angle, translation, triangulation, rim, area_tolerance, n_samples, n_threads, &
+      status)
     class(riis_valve), intent(in) :: valve                  !< Must be created. Its own opening has no effect on openings.
     real(c_double), intent(in), contiguous :: areas(:)      !< Mesh units squared.
     real(c_double), intent(inout), contiguous :: values(:)  !< As many: the openings or sizes. Unchanged on an error.
@@ -299,8 +301,9 @@ contains
     if (code == RIIS_OK .and. present(range)) range = found
   end subroutine find_values
 
-  !> Finds the first opening at which riis_find_passage finds a passage. It tries 0, 1/8, 2/8, ... until one is open, and then
-  !! halves the last step. Errors: those of riis_surface%create and riis_find_passage, with the opening.
+  !> Finds the first opening at which riis_find_passage finds an open passage. It tries the openings 0, 1/8, 2/8, ... until it
+  !! finds one, and then halves the last step again and again. Errors: those of riis_surface%create and riis_find_passage, with
+  !! the opening.
   subroutine find_first_passage_int32(valve, mesh, from_num, to_num, first, half_thickness, tolerance, scale, &
       rotation_axis, rotation_angle, translation, opening_tolerance, node_mask, n_threads, status)
     class(riis_valve), intent(in) :: valve                  !< Must be created. Its own opening has no effect.

@@ -13,8 +13,8 @@ module riis_meshes
 
   !> The caller's nodes. The coordinates and the rows of an adjacency are borrowed: they must stay in place until the mesh is
   !! destroyed or gets other arrays. Pass variables that outlive the mesh, as whole arrays or as sections with subscript triplets
-  !! and any positive stride. TARGET is not needed. The compiler may pass a copy, which is lost after the call, so that the mesh
-  !! would then read other data. The compiler copies
+  !! and any positive stride. TARGET is not needed. If the compiler passes a copy, the copy is lost after the call, and the mesh
+  !! then reads other data. The compiler copies
   !!
   !! - expressions, such as 2 * xyz, transpose(xyz) or (xyz) in parentheses;
   !! - sections with vector subscripts;
@@ -404,8 +404,8 @@ contains
     real(real32), intent(in), contiguous, target :: x(:) !< At least one node, strictly ascending; copied.
     real(real32), intent(in), contiguous, target :: y(:) !< At least one node, strictly ascending; copied.
     real(real32), intent(in), contiguous, target :: z(:) !< At least one node, strictly ascending; copied.
-    class(*), intent(in), optional :: halo                  !< integer: layers around the nodes in the caller's arrays. Without it
-                                                            !! first, stride and n_nodes count.
+    class(*), intent(in), optional :: halo                  !< integer: layers around the nodes in the caller's arrays. Without
+                                                            !! halo, the call uses first, stride and n_nodes.
     class(*), intent(in), optional :: first                 !< integer: the number of node (1, 1, 1). Default 1.
     class(*), intent(in), optional :: stride(:)             !< integer (3): from a node to the next along each axis. Default 1,
                                                             !! size(x), size(x) * size(y).
@@ -434,8 +434,8 @@ contains
     real(real64), intent(in), contiguous, target :: x(:) !< At least one node, strictly ascending; copied.
     real(real64), intent(in), contiguous, target :: y(:) !< At least one node, strictly ascending; copied.
     real(real64), intent(in), contiguous, target :: z(:) !< At least one node, strictly ascending; copied.
-    class(*), intent(in), optional :: halo                  !< integer: layers around the nodes in the caller's arrays. Without it
-                                                            !! first, stride and n_nodes count.
+    class(*), intent(in), optional :: halo                  !< integer: layers around the nodes in the caller's arrays. Without
+                                                            !! halo, the call uses first, stride and n_nodes.
     class(*), intent(in), optional :: first                 !< integer: the number of node (1, 1, 1). Default 1.
     class(*), intent(in), optional :: stride(:)             !< integer (3): from a node to the next along each axis. Default 1,
                                                             !! size(x), size(x) * size(y).
@@ -464,8 +464,8 @@ contains
     real(real32), intent(in), contiguous, target :: x(:) !< At least one node, strictly ascending; copied.
     real(real32), intent(in), contiguous, target :: y(:) !< At least one node, strictly ascending; copied.
     real(real32), intent(in), contiguous, target :: z(:) !< At least one node, strictly ascending; copied.
-    class(*), intent(in), optional :: halo                  !< integer: layers around the nodes in the caller's arrays. Without it
-                                                            !! first, stride and n_nodes count.
+    class(*), intent(in), optional :: halo                  !< integer: layers around the nodes in the caller's arrays. Without
+                                                            !! halo, the call uses first, stride and n_nodes.
     class(*), intent(in), optional :: first                 !< integer: the number of node (1, 1, 1). Default 1.
     class(*), intent(in), optional :: stride(:)             !< integer (3): from a node to the next along each axis. Default 1,
                                                             !! size(x), size(x) * size(y).
@@ -494,8 +494,8 @@ contains
     real(real64), intent(in), contiguous, target :: x(:) !< At least one node, strictly ascending; copied.
     real(real64), intent(in), contiguous, target :: y(:) !< At least one node, strictly ascending; copied.
     real(real64), intent(in), contiguous, target :: z(:) !< At least one node, strictly ascending; copied.
-    class(*), intent(in), optional :: halo                  !< integer: layers around the nodes in the caller's arrays. Without it
-                                                            !! first, stride and n_nodes count.
+    class(*), intent(in), optional :: halo                  !< integer: layers around the nodes in the caller's arrays. Without
+                                                            !! halo, the call uses first, stride and n_nodes.
     class(*), intent(in), optional :: first                 !< integer: the number of node (1, 1, 1). Default 1.
     class(*), intent(in), optional :: stride(:)             !< integer (3): from a node to the next along each axis. Default 1,
                                                             !! size(x), size(x) * size(y).
@@ -564,24 +564,6 @@ contains
     end select
   end subroutine set_numbers
 
-  subroutine create_mesh_of_grid(this, grid, code)
-    class(riis_mesh), intent(inout) :: this
-    type(riis_grid), intent(in) :: grid
-    integer(riis_status), intent(inout) :: code
-    if (code == RIIS_OK) code = check_not_created(this%handle, 'the mesh')
-    if (code == RIIS_OK) code = riis_mesh_create_grid(grid, this%handle)
-    if (code == RIIS_OK) this%n = n_numbers_of(grid)
-  end subroutine create_mesh_of_grid
-
-  subroutine update_mesh_of_grid(this, grid, code)
-    class(riis_mesh), intent(inout) :: this
-    type(riis_grid), intent(in) :: grid
-    integer(riis_status), intent(inout) :: code
-    if (code == RIIS_OK) code = check_created(this%handle, 'the mesh')
-    if (code == RIIS_OK) code = riis_mesh_update_grid(this%handle, grid)
-    if (code == RIIS_OK) this%n = n_numbers_of(grid)
-  end subroutine update_mesh_of_grid
-
   ! Returns the length of the caller's arrays. The library has checked the grid.
   function n_numbers_of(grid) result(n)
     type(riis_grid), intent(in) :: grid
@@ -600,9 +582,20 @@ contains
     type(strided_points), intent(in) :: points
     integer(riis_status), intent(inout) :: code
     if (code == RIIS_OK) code = check_not_created(this%handle, 'the mesh')
-    if (code == RIIS_OK) code = riis_mesh_create(points%n, points%x, points%y, points%z, points%stride, this%handle)
+    if (code == RIIS_OK) &
+      code = riis_mesh_create(points%n, points%x, points%y, points%z, points%stride, this%handle)
     if (code == RIIS_OK) this%n = points%n
   end subroutine create_mesh
+
+  ! The common part of all specific procedures of create_grid. It does nothing after an error.
+  subroutine create_mesh_of_grid(this, grid, code)
+    class(riis_mesh), intent(inout) :: this
+    type(riis_grid), intent(in) :: grid
+    integer(riis_status), intent(inout) :: code
+    if (code == RIIS_OK) code = check_not_created(this%handle, 'the mesh')
+    if (code == RIIS_OK) code = riis_mesh_create_grid(grid, this%handle)
+    if (code == RIIS_OK) this%n = n_numbers_of(grid)
+  end subroutine create_mesh_of_grid
 
   ! The common part of all specific procedures of update. It does nothing after an error.
   subroutine update_mesh(this, points, code)
@@ -610,9 +603,20 @@ contains
     type(strided_points), intent(in) :: points
     integer(riis_status), intent(inout) :: code
     if (code == RIIS_OK) code = check_created(this%handle, 'the mesh')
-    if (code == RIIS_OK) code = riis_mesh_update(this%handle, points%n, points%x, points%y, points%z, points%stride)
+    if (code == RIIS_OK) &
+      code = riis_mesh_update(this%handle, points%n, points%x, points%y, points%z, points%stride)
     if (code == RIIS_OK) this%n = points%n
   end subroutine update_mesh
+
+  ! The common part of all specific procedures of update_grid. It does nothing after an error.
+  subroutine update_mesh_of_grid(this, grid, code)
+    class(riis_mesh), intent(inout) :: this
+    type(riis_grid), intent(in) :: grid
+    integer(riis_status), intent(inout) :: code
+    if (code == RIIS_OK) code = check_created(this%handle, 'the mesh')
+    if (code == RIIS_OK) code = riis_mesh_update_grid(this%handle, grid)
+    if (code == RIIS_OK) this%n = n_numbers_of(grid)
+  end subroutine update_mesh_of_grid
 
   !> Gives the mesh its adjacency as compressed sparse rows and checks them once. The rows are borrowed: they must be contiguous
   !! and stay in place, unchanged, until the mesh is destroyed or gets other rows. With the default base, the neighbours of node i

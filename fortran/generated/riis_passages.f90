@@ -43,8 +43,8 @@ contains
                                                             !! copied. Default: all nodes.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    integer(int8), allocatable :: bytes(:)
     integer(riis_status) :: code
+    integer(int8), allocatable :: bytes(:)
     code = RIIS_OK
     call get_mask(node_mask, bytes, code)
     call label(mesh, marks, region_num, n_regions, bytes, n_threads, code)
@@ -77,8 +77,8 @@ contains
     integer(int32), intent(in) :: node_mask(:)              !< (n_nodes): nodes with 0 are left out.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    integer(int8), allocatable :: bytes(:)
     integer(riis_status) :: code
+    integer(int8), allocatable :: bytes(:)
     code = RIIS_OK
     call get_mask(node_mask, bytes, code)
     call label(mesh, marks, region_num, n_regions, bytes, n_threads, code)
@@ -98,8 +98,8 @@ contains
                                                             !! copied. Default: all nodes.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    integer(int8), allocatable :: bytes(:)
     integer(riis_status) :: code
+    integer(int8), allocatable :: bytes(:)
     integer(int64), allocatable :: from(:), to(:)
     code = RIIS_OK
     call get_mask(node_mask, bytes, code)
@@ -120,8 +120,8 @@ contains
                                                             !! copied. Default: all nodes.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    integer(int8), allocatable :: bytes(:)
     integer(riis_status) :: code
+    integer(int8), allocatable :: bytes(:)
     integer(int64), allocatable :: from(:), to(:)
     code = RIIS_OK
     call get_mask(node_mask, bytes, code)
@@ -179,8 +179,8 @@ contains
     integer(int32), intent(in) :: node_mask(:)              !< (n_nodes): nodes with 0 are left out.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    integer(int8), allocatable :: bytes(:)
     integer(riis_status) :: code
+    integer(int8), allocatable :: bytes(:)
     integer(int64), allocatable :: from(:), to(:)
     code = RIIS_OK
     call get_mask(node_mask, bytes, code)
@@ -200,8 +200,8 @@ contains
     integer(int32), intent(in) :: node_mask(:)              !< (n_nodes): nodes with 0 are left out.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    integer(int8), allocatable :: bytes(:)
     integer(riis_status) :: code
+    integer(int8), allocatable :: bytes(:)
     integer(int64), allocatable :: from(:), to(:)
     code = RIIS_OK
     call get_mask(node_mask, bytes, code)

@@ -123,7 +123,6 @@ contains
     real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units. Default 0.
     logical, intent(in), optional :: flip_normals           !< .true. reverses every triangle. Default .false.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    integer(riis_status) :: code
     integer(int32), intent(in), optional :: measure         !< RIIS_MEASURE_*: how distances are measured from now on. Default
                                                             !! RIIS_MEASURE_TRIANGLES.
     real(c_double), intent(in), optional :: measure_tolerance !< For the other methods: a fraction of half_thickness, 1e-6 to
@@ -136,6 +135,7 @@ contains
                                                             !! RIIS_TRIANGULATION_ADAPTED.
     real(c_double), intent(in), optional :: offset          !< By how many half thicknesses the band steps aside along the
                                                             !! normals, above -1 and below 1. Default 0.
+    integer(riis_status) :: code
     type(riis_surface_options) :: options
     code = RIIS_OK
     call create_options(this, options, code)
@@ -163,12 +163,12 @@ contains
     real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units.
     logical, intent(in), optional :: flip_normals           !< .true. reverses every triangle.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    integer(riis_status) :: code
     integer(int32), intent(in), optional :: measure         !< RIIS_MEASURE_*.
     real(c_double), intent(in), optional :: measure_tolerance !< 1e-6 to 1, or RIIS_AUTO.
     integer(int32), intent(in), optional :: n_threads       !< 0 to 1024.
     integer(int32), intent(in), optional :: triangulation   !< RIIS_TRIANGULATION_*.
     real(c_double), intent(in), optional :: offset          !< Half thicknesses, above -1 and below 1.
+    integer(riis_status) :: code
     type(riis_surface_options) :: options
     code = RIIS_OK
     call update_options(this, options, code)
@@ -203,14 +203,14 @@ contains
     integer(int32), intent(in), optional :: measure         !< RIIS_MEASURE_*.
     real(c_double), intent(in), optional :: measure_tolerance !< 1e-6 to 1, or RIIS_AUTO.
     integer(int32), intent(in), optional :: n_threads       !< 0 to 1024.
-    integer(int32), intent(in), optional :: triangulation   !< RIIS_TRIANGULATION_*.
     real(c_double), intent(in), optional :: scale_before    !< For the earlier state, like the next three. Default: as now.
     real(c_double), intent(in), optional :: rotation_axis_before(:) !< (3), of any length.
     real(c_double), intent(in), optional :: rotation_angle_before !< Degrees.
     real(c_double), intent(in), optional :: translation_before(:) !< (3), mesh units.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    integer(riis_status) :: code
+    integer(int32), intent(in), optional :: triangulation   !< RIIS_TRIANGULATION_*.
     real(c_double), intent(in), optional :: offset          !< Half thicknesses, above -1 and below 1.
+    integer(riis_status) :: code
     type(riis_surface_options) :: options, before
     code = RIIS_OK
     call update_options(this, options, code)
@@ -246,11 +246,11 @@ contains
                                                             !! placement changes, the same valve. Read during the call only.
     real(c_double), intent(in) :: dp                        !< The parameter's difference from valve_before to valve_after,
                                                             !! 1e-30 to 1e30 in magnitude.
-    real(c_double), intent(in), optional :: scale_after     !< For the state after, like the next three. Default: as the surface.
+    real(c_double), intent(in), optional :: scale_after     !< For the state after, like the next three. Default: the surface's.
     real(c_double), intent(in), optional :: rotation_axis_after(:) !< (3), of any length.
     real(c_double), intent(in), optional :: rotation_angle_after !< Degrees.
     real(c_double), intent(in), optional :: translation_after(:) !< (3), mesh units.
-    real(c_double), intent(in), optional :: scale_before    !< For the state before, like the next three. Default: as the surface.
+    real(c_double), intent(in), optional :: scale_before    !< For the state before, like the next three. Default: the surface's.
     real(c_double), intent(in), optional :: rotation_axis_before(:) !< (3), of any length.
     real(c_double), intent(in), optional :: rotation_angle_before !< Degrees.
     real(c_double), intent(in), optional :: translation_before(:) !< (3), mesh units.
@@ -283,8 +283,8 @@ contains
   !! face or vertex and its value, RIIS_INVALID_ARGUMENT for an option out of range, RIIS_LIMIT_EXCEEDED for more than 16,777,216
   !! triangles.
   subroutine surface_create_from_arrays_xyz_int32(this, xyz, vertex_ids, leaflet_id, index_base, skip_zero_area, &
-      half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status, &
-      velocity, n_threads, skirt_length, attached, skirt_lengths, offset)
+      half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status, velocity, &
+      n_threads, skirt_length, attached, skirt_lengths, offset)
     class(riis_surface), intent(inout) :: this              !< Must be empty.
     real(c_double), intent(in), target :: xyz(:, :)         !< (3, n_vertices), any positive stride, never copied.
     integer(int32), intent(in), contiguous, target :: vertex_ids(:, :) !< (3 or 4, n_faces), counted from index_base.
@@ -311,10 +311,10 @@ contains
     real(c_double), intent(in), contiguous, optional, target :: skirt_lengths(:) !< (n_vertices): the skirt's lengths at the
                                                             !! attached vertices. Default skirt_length.
     real(c_double), intent(in), optional :: offset          !< Half thicknesses, above -1 and below 1.
+    integer(riis_status) :: code
     type(riis_surface_arrays) :: arrays
     type(strided_points) :: points, velocities
     integer(int8), allocatable, target :: bytes(:)
-    integer(riis_status) :: code
     call points_of(xyz, 'xyz', points, code)
     if (code == RIIS_OK .and. present(velocity)) then
       call points_of(velocity, 'velocity', velocities, code)
@@ -333,8 +333,8 @@ contains
 
   !> Implements %create_from_arrays for integer(int64).
   subroutine surface_create_from_arrays_xyz_int64(this, xyz, vertex_ids, leaflet_id, index_base, skip_zero_area, &
-      half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status, &
-      velocity, n_threads, skirt_length, attached, skirt_lengths, offset)
+      half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status, velocity, &
+      n_threads, skirt_length, attached, skirt_lengths, offset)
     class(riis_surface), intent(inout) :: this              !< Must be empty.
     real(c_double), intent(in), target :: xyz(:, :)         !< (3, n_vertices), any positive stride, never copied.
     integer(int64), intent(in), contiguous, target :: vertex_ids(:, :) !< (3 or 4, n_faces), counted from index_base.
@@ -361,10 +361,10 @@ contains
     real(c_double), intent(in), contiguous, optional, target :: skirt_lengths(:) !< (n_vertices): the skirt's lengths at the
                                                             !! attached vertices. Default skirt_length.
     real(c_double), intent(in), optional :: offset          !< Half thicknesses, above -1 and below 1.
+    integer(riis_status) :: code
     type(riis_surface_arrays) :: arrays
     type(strided_points) :: points, velocities
     integer(int8), allocatable, target :: bytes(:)
-    integer(riis_status) :: code
     call points_of(xyz, 'xyz', points, code)
     if (code == RIIS_OK .and. present(velocity)) then
       call points_of(velocity, 'velocity', velocities, code)
@@ -383,8 +383,8 @@ contains
 
   !> Implements %create_from_arrays for separate arrays x, y, z.
   subroutine surface_create_from_arrays_x_y_z_int32(this, x, y, z, vertex_ids, leaflet_id, index_base, skip_zero_area, &
-      half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status, &
-      vx, vy, vz, n_threads, skirt_length, attached, skirt_lengths, offset)
+      half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status, vx, vy, vz, &
+      n_threads, skirt_length, attached, skirt_lengths, offset)
     class(riis_surface), intent(inout) :: this              !< Must be empty.
     real(c_double), intent(in), target :: x(:)              !< (n_vertices), any positive stride, never copied.
     real(c_double), intent(in), target :: y(:)              !< (n_vertices), any positive stride, never copied.
@@ -413,10 +413,10 @@ contains
     real(c_double), intent(in), contiguous, optional, target :: skirt_lengths(:) !< (n_vertices): the skirt's lengths at the
                                                             !! attached vertices. Default skirt_length.
     real(c_double), intent(in), optional :: offset          !< Half thicknesses, above -1 and below 1.
+    integer(riis_status) :: code
     type(riis_surface_arrays) :: arrays
     type(strided_points) :: points, velocities
     integer(int8), allocatable, target :: bytes(:)
-    integer(riis_status) :: code
     call points_of(x, y, z, points, code)
     if (code == RIIS_OK .and. present(vx) .and. present(vy) .and. present(vz)) then
       call points_of(vx, vy, vz, velocities, code, 'v')
@@ -437,8 +437,8 @@ contains
 
   !> Implements %create_from_arrays for integer(int64) and separate arrays x, y, z.
   subroutine surface_create_from_arrays_x_y_z_int64(this, x, y, z, vertex_ids, leaflet_id, index_base, skip_zero_area, &
-      half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status, &
-      vx, vy, vz, n_threads, skirt_length, attached, skirt_lengths, offset)
+      half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status, vx, vy, vz, &
+      n_threads, skirt_length, attached, skirt_lengths, offset)
     class(riis_surface), intent(inout) :: this              !< Must be empty.
     real(c_double), intent(in), target :: x(:)              !< (n_vertices), any positive stride, never copied.
     real(c_double), intent(in), target :: y(:)              !< (n_vertices), any positive stride, never copied.
@@ -467,10 +467,10 @@ contains
     real(c_double), intent(in), contiguous, optional, target :: skirt_lengths(:) !< (n_vertices): the skirt's lengths at the
                                                             !! attached vertices. Default skirt_length.
     real(c_double), intent(in), optional :: offset          !< Half thicknesses, above -1 and below 1.
+    integer(riis_status) :: code
     type(riis_surface_arrays) :: arrays
     type(strided_points) :: points, velocities
     integer(int8), allocatable, target :: bytes(:)
-    integer(riis_status) :: code
     call points_of(x, y, z, points, code)
     if (code == RIIS_OK .and. present(vx) .and. present(vy) .and. present(vz)) then
       call points_of(vx, vy, vz, velocities, code, 'v')
@@ -491,8 +491,8 @@ contains
 
   !> Replaces the surface as %update does, from arrays as in %create_from_arrays.
   subroutine surface_update_from_arrays_xyz_int32(this, xyz, vertex_ids, leaflet_id, index_base, skip_zero_area, &
-      half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status, &
-      velocity, n_threads, skirt_length, attached, skirt_lengths, offset)
+      half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status, velocity, &
+      n_threads, skirt_length, attached, skirt_lengths, offset)
     class(riis_surface), intent(inout) :: this              !< Must be created.
     real(c_double), intent(in), target :: xyz(:, :)         !< (3, n_vertices), any positive stride, never copied.
     integer(int32), intent(in), contiguous, target :: vertex_ids(:, :) !< (3 or 4, n_faces), counted from index_base.
@@ -519,10 +519,10 @@ contains
     real(c_double), intent(in), contiguous, optional, target :: skirt_lengths(:) !< (n_vertices): the skirt's lengths at the
                                                             !! attached vertices. Default skirt_length.
     real(c_double), intent(in), optional :: offset          !< Half thicknesses, above -1 and below 1.
+    integer(riis_status) :: code
     type(riis_surface_arrays) :: arrays
     type(strided_points) :: points, velocities
     integer(int8), allocatable, target :: bytes(:)
-    integer(riis_status) :: code
     call points_of(xyz, 'xyz', points, code)
     if (code == RIIS_OK .and. present(velocity)) then
       call points_of(velocity, 'velocity', velocities, code)
@@ -541,8 +541,8 @@ contains
 
   !> Implements %update_from_arrays for integer(int64).
   subroutine surface_update_from_arrays_xyz_int64(this, xyz, vertex_ids, leaflet_id, index_base, skip_zero_area, &
-      half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status, &
-      velocity, n_threads, skirt_length, attached, skirt_lengths, offset)
+      half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status, velocity, &
+      n_threads, skirt_length, attached, skirt_lengths, offset)
     class(riis_surface), intent(inout) :: this              !< Must be created.
     real(c_double), intent(in), target :: xyz(:, :)         !< (3, n_vertices), any positive stride, never copied.
     integer(int64), intent(in), contiguous, target :: vertex_ids(:, :) !< (3 or 4, n_faces), counted from index_base.
@@ -569,10 +569,10 @@ contains
     real(c_double), intent(in), contiguous, optional, target :: skirt_lengths(:) !< (n_vertices): the skirt's lengths at the
                                                             !! attached vertices. Default skirt_length.
     real(c_double), intent(in), optional :: offset          !< Half thicknesses, above -1 and below 1.
+    integer(riis_status) :: code
     type(riis_surface_arrays) :: arrays
     type(strided_points) :: points, velocities
     integer(int8), allocatable, target :: bytes(:)
-    integer(riis_status) :: code
     call points_of(xyz, 'xyz', points, code)
     if (code == RIIS_OK .and. present(velocity)) then
       call points_of(velocity, 'velocity', velocities, code)
@@ -591,8 +591,8 @@ contains
 
   !> Implements %update_from_arrays for separate arrays x, y, z.
   subroutine surface_update_from_arrays_x_y_z_int32(this, x, y, z, vertex_ids, leaflet_id, index_base, skip_zero_area, &
-      half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status, &
-      vx, vy, vz, n_threads, skirt_length, attached, skirt_lengths, offset)
+      half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status, vx, vy, vz, &
+      n_threads, skirt_length, attached, skirt_lengths, offset)
     class(riis_surface), intent(inout) :: this              !< Must be created.
     real(c_double), intent(in), target :: x(:)              !< (n_vertices), any positive stride, never copied.
     real(c_double), intent(in), target :: y(:)              !< (n_vertices), any positive stride, never copied.
@@ -621,10 +621,10 @@ contains
     real(c_double), intent(in), contiguous, optional, target :: skirt_lengths(:) !< (n_vertices): the skirt's lengths at the
                                                             !! attached vertices. Default skirt_length.
     real(c_double), intent(in), optional :: offset          !< Half thicknesses, above -1 and below 1.
+    integer(riis_status) :: code
     type(riis_surface_arrays) :: arrays
     type(strided_points) :: points, velocities
     integer(int8), allocatable, target :: bytes(:)
-    integer(riis_status) :: code
     call points_of(x, y, z, points, code)
     if (code == RIIS_OK .and. present(vx) .and. present(vy) .and. present(vz)) then
       call points_of(vx, vy, vz, velocities, code, 'v')
@@ -645,8 +645,8 @@ contains
 
   !> Implements %update_from_arrays for integer(int64) and separate arrays x, y, z.
   subroutine surface_update_from_arrays_x_y_z_int64(this, x, y, z, vertex_ids, leaflet_id, index_base, skip_zero_area, &
-      half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status, &
-      vx, vy, vz, n_threads, skirt_length, attached, skirt_lengths, offset)
+      half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status, vx, vy, vz, &
+      n_threads, skirt_length, attached, skirt_lengths, offset)
     class(riis_surface), intent(inout) :: this              !< Must be created.
     real(c_double), intent(in), target :: x(:)              !< (n_vertices), any positive stride, never copied.
     real(c_double), intent(in), target :: y(:)              !< (n_vertices), any positive stride, never copied.
@@ -675,10 +675,10 @@ contains
     real(c_double), intent(in), contiguous, optional, target :: skirt_lengths(:) !< (n_vertices): the skirt's lengths at the
                                                             !! attached vertices. Default skirt_length.
     real(c_double), intent(in), optional :: offset          !< Half thicknesses, above -1 and below 1.
+    integer(riis_status) :: code
     type(riis_surface_arrays) :: arrays
     type(strided_points) :: points, velocities
     integer(int8), allocatable, target :: bytes(:)
-    integer(riis_status) :: code
     call points_of(x, y, z, points, code)
     if (code == RIIS_OK .and. present(vx) .and. present(vy) .and. present(vz)) then
       call points_of(vx, vy, vz, velocities, code, 'v')
@@ -751,8 +751,8 @@ contains
 
   !> Makes a surface from the frames around a time, with the velocity of every vertex. The options are those of %create.
   !! Errors: RIIS_INVALID_ARGUMENT for a time or an option out of range, RIIS_INVALID_SURFACE for a face without area.
-  subroutine surface_create_from_keyframes(this, keyframes, time, dt, skip_zero_area, half_thickness, tolerance, scale, &
-      rotation_axis, rotation_angle, translation, flip_normals, n_threads, status, offset)
+  subroutine surface_create_from_keyframes(this, keyframes, time, dt, skip_zero_area, half_thickness, tolerance, &
+      scale, rotation_axis, rotation_angle, translation, flip_normals, n_threads, status, offset)
     class(riis_surface), intent(inout) :: this              !< Must be empty.
     class(riis_keyframes), intent(in) :: keyframes          !< Must be created; read during the call only.
     real(c_double), intent(in) :: time                      !< Magnitude at most 1e30.
@@ -769,8 +769,8 @@ contains
     logical, intent(in), optional :: flip_normals           !< .true. reverses every triangle.
     integer(int32), intent(in), optional :: n_threads       !< 0 to 1024.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    integer(riis_status) :: code
     real(c_double), intent(in), optional :: offset          !< Half thicknesses, above -1 and below 1.
+    integer(riis_status) :: code
     type(riis_surface_options) :: options
     real(c_double) :: step
     step = 0
@@ -786,8 +786,8 @@ contains
   end subroutine surface_create_from_keyframes
 
   !> Replaces the surface as %update does, by the surface at another time, as in %create_from_keyframes.
-  subroutine surface_update_from_keyframes(this, keyframes, time, dt, skip_zero_area, half_thickness, tolerance, scale, &
-      rotation_axis, rotation_angle, translation, flip_normals, n_threads, status, offset)
+  subroutine surface_update_from_keyframes(this, keyframes, time, dt, skip_zero_area, half_thickness, tolerance, &
+      scale, rotation_axis, rotation_angle, translation, flip_normals, n_threads, status, offset)
     class(riis_surface), intent(inout) :: this              !< Must be created.
     class(riis_keyframes), intent(in) :: keyframes          !< Must be created; read during the call only.
     real(c_double), intent(in) :: time                      !< Magnitude at most 1e30.
@@ -804,8 +804,8 @@ contains
     logical, intent(in), optional :: flip_normals           !< .true. reverses every triangle.
     integer(int32), intent(in), optional :: n_threads       !< 0 to 1024.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    integer(riis_status) :: code
     real(c_double), intent(in), optional :: offset          !< Half thicknesses, above -1 and below 1.
+    integer(riis_status) :: code
     type(riis_surface_options) :: options
     real(c_double) :: step
     step = 0
@@ -906,8 +906,8 @@ contains
     real(c_double), pointer, intent(inout) :: rate(:, :)    !< (3, n_vertices): the derivative of each vertex by the parameter, in
                                                             !! mesh units divided by the parameter's unit.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    integer(riis_status) :: code
     real(c_double), intent(out), optional :: area_rate      !< The derivative of the surface's area.
+    integer(riis_status) :: code
     type(riis_direction) :: made
     made = riis_direction(0, c_null_ptr, 0)
     code = check_created(this%handle, 'the surface')
@@ -939,6 +939,7 @@ contains
     if (c_associated(made%patch_id)) call c_f_pointer(made%patch_id, attachment%patch_id, [made%n_edges])
     call finish(code, status)
   end subroutine surface_get_attachment
+
   !> Finds the closest point of the surface to one point. Errors: RIIS_INVALID_ARGUMENT for a point that is not finite.
   subroutine surface_closest_point(this, point, closest, status)
     class(riis_surface), intent(in) :: this                 !< Must be created.
@@ -959,10 +960,10 @@ contains
 
   !> Finds the closest points of the surface to many points, in parallel. It writes the arrays that are present. For sections of
   !! them that are not contiguous, the compiler makes copies in both directions. No array may overlap another or the coordinates,
-  !! which are never copied. Errors: RIIS_INVALID_ARGUMENT naming the first bad point, or for barycentric or side if distances are
-  !! by sampling or minimisation. Nothing is then written.
-  subroutine surface_closest_points_xyz_logical(this, xyz, distance_limit, far_distance, n_threads, &
-      distance, point, barycentric, normal, triangle_id, leaflet_id, side, status, point_mask, point_id)
+  !! which are never copied. Errors: RIIS_INVALID_ARGUMENT naming the first bad point. Barycentric and side have the same error if
+  !! distances are measured by sampling or minimisation. Nothing is then written.
+  subroutine surface_closest_points_xyz_logical(this, xyz, distance_limit, far_distance, n_threads, distance, point, &
+      barycentric, normal, triangle_id, leaflet_id, side, status, point_mask, point_id)
     class(riis_surface), intent(in) :: this                 !< Must be created.
     real(c_double), intent(in), target :: xyz(:, :)         !< (3, n_points), finite, any positive stride.
     real(c_double), intent(in), optional :: distance_limit  !< >= 0. Farther points get far_distance, ids -1, side 0 and zeros.
@@ -985,9 +986,9 @@ contains
                                                             !! these points are read, and only their entries are written. Only a
                                                             !! section that is not contiguous is copied. Default: all points. Not
                                                             !! with point_mask.
+    integer(riis_status) :: code
     integer(int8), allocatable :: bytes(:)
     type(strided_points) :: points
-    integer(riis_status) :: code
     call points_of(xyz, 'xyz', points, code)
     call get_mask(point_mask, bytes, code)
     call closest_points(this, points, distance_limit, far_distance, n_threads, distance, point, barycentric, normal, &
@@ -996,8 +997,8 @@ contains
   end subroutine surface_closest_points_xyz_logical
 
   !> Implements %closest_points for a mask of bytes. Only a section that is not contiguous is copied.
-  subroutine surface_closest_points_xyz_int8(this, xyz, distance_limit, far_distance, n_threads, &
-      distance, point, barycentric, normal, triangle_id, leaflet_id, side, status, point_mask)
+  subroutine surface_closest_points_xyz_int8(this, xyz, distance_limit, far_distance, n_threads, distance, point, &
+      barycentric, normal, triangle_id, leaflet_id, side, status, point_mask)
     class(riis_surface), intent(in) :: this                 !< Must be created.
     real(c_double), intent(in), target :: xyz(:, :)         !< (3, n_points), finite, any positive stride.
     real(c_double), intent(in), optional :: distance_limit  !< >= 0. Farther points get far_distance, ids -1, side 0 and zeros.
@@ -1015,8 +1016,8 @@ contains
                                                             !! surface or level with its rim.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(int8), intent(in), contiguous :: point_mask(:)  !< (n_points): points with 0 get no result, but must be finite.
-    type(strided_points) :: points
     integer(riis_status) :: code
+    type(strided_points) :: points
     call points_of(xyz, 'xyz', points, code)
     call closest_points(this, points, distance_limit, far_distance, n_threads, distance, point, barycentric, normal, &
       triangle_id, leaflet_id, side, code, point_mask)
@@ -1024,8 +1025,8 @@ contains
   end subroutine surface_closest_points_xyz_int8
 
   !> Implements %closest_points for separate arrays x, y, z.
-  subroutine surface_closest_points_x_y_z_logical(this, x, y, z, distance_limit, far_distance, n_threads, &
-      distance, point, barycentric, normal, triangle_id, leaflet_id, side, status, point_mask, point_id)
+  subroutine surface_closest_points_x_y_z_logical(this, x, y, z, distance_limit, far_distance, n_threads, distance, &
+      point, barycentric, normal, triangle_id, leaflet_id, side, status, point_mask, point_id)
     class(riis_surface), intent(in) :: this                 !< Must be created.
     real(c_double), intent(in), target :: x(:)              !< (n_points), finite, any positive stride.
     real(c_double), intent(in), target :: y(:)              !< (n_points), finite, any positive stride.
@@ -1050,9 +1051,9 @@ contains
                                                             !! these points are read, and only their entries are written. Only a
                                                             !! section that is not contiguous is copied. Default: all points. Not
                                                             !! with point_mask.
+    integer(riis_status) :: code
     integer(int8), allocatable :: bytes(:)
     type(strided_points) :: points
-    integer(riis_status) :: code
     call points_of(x, y, z, points, code)
     call get_mask(point_mask, bytes, code)
     call closest_points(this, points, distance_limit, far_distance, n_threads, distance, point, barycentric, normal, &
@@ -1061,8 +1062,8 @@ contains
   end subroutine surface_closest_points_x_y_z_logical
 
   !> Implements %closest_points for separate arrays x, y, z and a mask of bytes.
-  subroutine surface_closest_points_x_y_z_int8(this, x, y, z, distance_limit, far_distance, n_threads, &
-      distance, point, barycentric, normal, triangle_id, leaflet_id, side, status, point_mask)
+  subroutine surface_closest_points_x_y_z_int8(this, x, y, z, distance_limit, far_distance, n_threads, distance, &
+      point, barycentric, normal, triangle_id, leaflet_id, side, status, point_mask)
     class(riis_surface), intent(in) :: this                 !< Must be created.
     real(c_double), intent(in), target :: x(:)              !< (n_points), finite, any positive stride.
     real(c_double), intent(in), target :: y(:)              !< (n_points), finite, any positive stride.
@@ -1082,8 +1083,8 @@ contains
                                                             !! surface or level with its rim.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(int8), intent(in), contiguous :: point_mask(:)  !< (n_points): points with 0 get no result, but must be finite.
-    type(strided_points) :: points
     integer(riis_status) :: code
+    type(strided_points) :: points
     call points_of(x, y, z, points, code)
     call closest_points(this, points, distance_limit, far_distance, n_threads, distance, point, barycentric, normal, &
       triangle_id, leaflet_id, side, code, point_mask)

@@ -169,15 +169,14 @@ contains
     code = check_fits(degree, 'degree')
     if (code == RIIS_OK) code = check_fits(reshape(curve_id, [size(curve_id, kind=int64)]), 'curve_id')
     if (code == RIIS_OK .and. present(leaflet_id)) code = check_fits(leaflet_id, 'leaflet_id')
-    if (code /= RIIS_OK) then
-      call finish(code, status)
-    else if (present(leaflet_id)) then
+    if (code == RIIS_OK .and. present(leaflet_id)) then
       call this%from_patches_int32(int(degree, int32), control, int(curve_id, int32), reversed, int(leaflet_id, int32), &
-        index_base, status)
-    else
+        index_base, code)
+    else if (code == RIIS_OK) then
       call this%from_patches_int32(int(degree, int32), control, int(curve_id, int32), reversed, index_base=index_base, &
-        status=status)
+        status=code)
     end if
+    call finish(code, status)
   end subroutine valve_from_patches_int64
 
   ! Checks that each array has as many entries as the library will read.
@@ -395,7 +394,9 @@ contains
     integer(int32), intent(in) :: number                    !< From 1 to %n_parameters().
     type(riis_parameter_info), intent(inout) :: info        !< Gets copies of the texts and values.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    call valve_parameter_int64(this, int(number, int64), info, status)
+    integer(riis_status) :: code
+    call valve_parameter_int64(this, int(number, int64), info, code)
+    call finish(code, status)
   end subroutine valve_parameter_int32
 
   !> Does the same as for integer(int32).

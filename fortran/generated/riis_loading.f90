@@ -1,4 +1,5 @@
 ! SPDX-License-Identifier: Apache-2.0
+! Generated from fortran/templates/riis_loading.fypp by fortran/expand_templates.sh: edit that template, not this file.
 !> The forces of the leaflets at nodes of tissue: riis_loads_* of riis.h, as a part of module riis.
 module riis_loading
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -38,9 +39,9 @@ contains
                                                             !! other ranks. Default 1.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    integer(riis_status) :: code
     type(riis_loads) :: loads
     type(riis_points) :: nodes
-    integer(riis_status) :: code
     call describe(xyz, radius, edges, sums, edge_leaflet_id, weight, n_threads, loads, nodes, code)
     if (code == RIIS_OK) code = c_loads_add_sums(loads, nodes, weight, sums)
     call finish(code, status)
@@ -49,8 +50,8 @@ contains
   !> Adds the forces of the leaflets at nodes of tissue. For each leaflet, the sum of the forces is leaflet_force, and their
   !! moment is leaflet_moment. Errors: as for riis_loads_add_sums; RIIS_INVALID_ARGUMENT also for a leaflet with fewer than three
   !! nodes within the radius, and for a leaflet whose nodes lie nearly on a line.
-  subroutine add_forces(xyz, radius, edges, leaflet_force, leaflet_moment, sums, node_force, about, edge_leaflet_id, weight, &
-      n_threads, status)
+  subroutine add_forces(xyz, radius, edges, leaflet_force, leaflet_moment, sums, node_force, about, edge_leaflet_id, &
+      weight, n_threads, status)
     real(c_double), intent(in), target :: xyz(:, :)         !< (3, n_nodes), as for riis_loads_add_sums.
     real(c_double), intent(in) :: radius                    !< As for riis_loads_add_sums.
     real(c_double), intent(in), contiguous, target :: edges(:, :, :) !< (3, 2, n_edges), as for riis_loads_add_sums.
@@ -65,9 +66,9 @@ contains
     real(c_double), intent(in), contiguous, optional :: weight(:) !< (n_nodes), as for riis_loads_add_sums.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    integer(riis_status) :: code
     type(riis_loads) :: loads
     type(riis_points) :: nodes
-    integer(riis_status) :: code
     call describe(xyz, radius, edges, sums, edge_leaflet_id, weight, n_threads, loads, nodes, code)
     call check_columns(leaflet_force, 3, size(sums, 2, int64), 'leaflet_force', code)
     call check_columns(leaflet_moment, 3, size(sums, 2, int64), 'leaflet_moment', code)

@@ -1,4 +1,5 @@
 ! SPDX-License-Identifier: Apache-2.0
+! Generated from fortran/templates/riis_placing.fypp by fortran/expand_templates.sh: edit that template, not this file.
 !> The sizes and the placement of a valve from a patient's landmarks: riis_place of riis.h, as a part of module riis.
 module riis_placing
   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_loc, c_sizeof
@@ -25,7 +26,7 @@ contains
   !! RIIS_INVALID_PARAMETER for a valve from patches and for sizes that do not fit together.
   subroutine place(valve, xyz, role, scale, placement, leaflet_id, flow, noise, held, residual, standard_error, &
       size_state, places, status)
-    class(riis_valve), intent(inout) :: valve               !< Must be created; a kind of valve. Unchanged on an error.
+    class(riis_valve), intent(inout) :: valve               !< Must be created from a kind's name. Unchanged on an error.
     real(c_double), intent(in), target :: xyz(:, :)         !< (3, n_landmarks), in mesh units.
     integer(int32), intent(in), contiguous, target :: role(:) !< (n_landmarks): RIIS_LANDMARK_*.
     real(c_double), intent(in) :: scale                     !< Mesh units in a centimetre: 10 for millimetres, 0.01 for metres.
@@ -42,12 +43,12 @@ contains
     real(c_double), intent(inout), contiguous, optional, target :: places(:, :) !< (3, n_landmarks): the landmarks' places on the
                                                             !! valve, mesh units: the sources of a warp to the landmarks.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    integer(riis_status) :: code
     type(riis_landmarks) :: landmarks
     type(riis_placement_arrays) :: arrays
     type(strided_points) :: points
     character(len=:, kind=c_char), allocatable :: names
     integer(int64) :: n_parameters
-    integer(riis_status) :: code
     code = check_created(valve%c_handle(), 'the valve')
     if (code == RIIS_OK) code = riis_valve_get_n_parameters(valve%c_handle(), n_parameters)
     if (code == RIIS_OK) code = riis_landmarks_init(landmarks, c_sizeof(landmarks))
@@ -56,7 +57,8 @@ contains
     if (code == RIIS_OK) code = check_size(size(role, kind=int64), points%n, 'role', 'one for each landmark')
     if (present(leaflet_id) .and. code == RIIS_OK) &
       code = check_size(size(leaflet_id, kind=int64), 2 * points%n, 'leaflet_id', 'two for each landmark')
-    if (present(flow) .and. code == RIIS_OK) code = check_size(size(flow, kind=int64), 3_int64, 'flow', 'x, y, z')
+    if (present(flow) .and. code == RIIS_OK) &
+      code = check_size(size(flow, kind=int64), 3_int64, 'flow', 'x, y, z')
     if (present(residual) .and. code == RIIS_OK) &
       code = check_size(size(residual, kind=int64), points%n, 'residual', 'one for each landmark')
     if (present(standard_error) .and. code == RIIS_OK) &
@@ -65,12 +67,12 @@ contains
       code = check_size(size(size_state, kind=int64), n_parameters, 'size_state', 'one for each parameter')
     if (present(places) .and. code == RIIS_OK) &
       code = check_size(size(places, kind=int64), 3 * points%n, 'places', 'three for each landmark')
+    landmarks%n_landmarks = points%n
+    landmarks%x = points%x
+    landmarks%y = points%y
+    landmarks%z = points%z
+    landmarks%stride = points%stride
     if (code == RIIS_OK) then
-      landmarks%n_landmarks = points%n
-      landmarks%x = points%x
-      landmarks%y = points%y
-      landmarks%z = points%z
-      landmarks%stride = points%stride
       if (points%n > 0) landmarks%role = c_loc(role)
       if (present(leaflet_id) .and. points%n > 0) landmarks%leaflet_id = c_loc(leaflet_id)
       landmarks%scale = scale
