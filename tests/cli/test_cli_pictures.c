@@ -71,6 +71,17 @@ TEST(test_pictures) {
   assert_true(scratch_is_same("3.png", "5.png"));
 }
 
+/* Most pictures of this test are small, because drawing takes most of its time. */
+#define SMALL_PICTURE "--picture-size", "800x400"
+
+static riis_vtk_picture_options small_picture(void) {
+  riis_vtk_picture_options options;
+  expect_fine(riis_vtk_picture_options_init(&options, sizeof options));
+  options.width = 800;
+  options.height = 400;
+  return options;
+}
+
 /* Returns the title as a caption has it, with the orifice and the half thickness. The surface is in centimetres. */
 static const char *with_sizes(const char *title, const riis_surface *surface) {
   static char text[256];
@@ -89,10 +100,11 @@ static void expect_title(const char *title, const char *valve_name, const char *
                          const char *value) {
   riis_valve *valve = NULL;
   riis_surface *surface = NULL;
-  riis_vtk_picture_options options;
+  riis_vtk_picture_options options = small_picture();
   static const char *const names[3] = {"right", "left", "non-coronary"}, *const names_of_two[2] = {"cusp 0", "cusp 1"};
   const int is_bicuspid = strcmp(kind, "bicuspid") == 0;
-  RUN_FINE("surface", "--valve", valve_name, "--picture", scratch_path("by_program.png"), setting, value);
+  RUN_FINE("surface", "--valve", valve_name, "--picture", scratch_path("by_program.png"), SMALL_PICTURE, setting,
+           value);
   expect_fine(riis_valve_create(kind, &valve));
   /* The title contains the value that the valve in the picture has. */
   const char *const number = strchr(value, '=') + 1;
@@ -100,7 +112,6 @@ static void expect_title(const char *title, const char *valve_name, const char *
   snprintf(name, sizeof name, "%.*s", (int)(number - 1 - value), value);
   expect_fine(riis_valve_set_scalar(valve, name, strtod(number, NULL)));
   expect_fine(riis_surface_create(valve, NULL, &surface));
-  expect_fine(riis_vtk_picture_options_init(&options, sizeof options));
   options.title = with_sizes(title, surface);
   options.leaflet_names = is_bicuspid ? names_of_two : names;
   options.n_leaflet_names = is_bicuspid ? 2 : 3;
@@ -118,11 +129,10 @@ static void draw_by_c(const riis_surface_options *placement, const char *unit, i
   riis_orifice orifice;
   riis_surface_info info;
   char title[256];
-  riis_vtk_picture_options options;
+  riis_vtk_picture_options options = small_picture();
   expect_fine(riis_valve_create("mitral", &valve));
   expect_fine(riis_valve_set_scalar(valve, "opening", 0.5));
   expect_fine(riis_surface_create(valve, placement, &surface));
-  expect_fine(riis_vtk_picture_options_init(&options, sizeof options));
   expect_fine(riis_surface_get_orifice(surface, NULL, &orifice, sizeof orifice));
   expect_fine(riis_surface_get_info(surface, &info, sizeof info));
   const double scale = unit ? placement->scale : 1;
@@ -152,7 +162,7 @@ TEST(test_valve_views) {
   for (int i = 0; i < 5; ++i) {
     static const char *const scales[5] = {"10", "0.01", "1", "3", "1"}, *const units[5] = {"mm", "m", "cm", NULL, "cm"};
     RUN_FINE("surface", "--valve", "mitral", "--opening", "0.5", "--rotate", "1,-2,0.5,70", "--scale", scales[i],
-             "--picture", scratch_path("by_program.png"), "--view", names[i]);
+             "--picture", scratch_path("by_program.png"), SMALL_PICTURE, "--view", names[i]);
     placement.scale = strtod(scales[i], NULL);
     draw_by_c(&placement, units[i], RIIS_VTK_VIEW_VALVE_SIDE + i);
     assert_true(scratch_is_same("by_program.png", "by_c.png"));
@@ -175,7 +185,7 @@ TEST(test_unit) {
   placement.scale = 10;
   placement.half_thickness = 1;
   RUN_FINE("surface", "--valve", "mitral", "--opening", "0.5", "--unit", "mm", "--picture",
-           scratch_path("by_program.png"));
+           scratch_path("by_program.png"), SMALL_PICTURE);
   draw_by_c(&placement, "mm", RIIS_VTK_VIEW_OBLIQUE);
   assert_true(scratch_is_same("by_program.png", "by_c.png"));
 }

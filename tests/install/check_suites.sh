@@ -36,7 +36,7 @@ for failing in '' lint test sanitize fuzz; do
   rm -f "$scratch/said"
   status=0
   FAILING=$failing "$scratch/.ci/run" || status=$?
-  diff <(printf '%s\n' lint 'test --all' sanitize 'fuzz 30') "$scratch/said" || problem ".ci/run does not run every part"
+  diff <(printf '%s\n' lint 'test --all' sanitize 'fuzz 15') "$scratch/said" || problem ".ci/run does not run every part"
   [[ ($failing && $status != 0) || (! $failing && $status == 0) ]] || problem ".ci/run ends with $status where '$failing' fails"
 done
 rm -rf "$scratch"
