@@ -261,15 +261,15 @@ TEST(test_foam) {
   RUN_REFUSED(2,
               "box/7: OpenFOAM's K is divided by the density: write --density RHO, and R in kg/(m s) as --resistance",
               "mark", box, "--cells", "--resistance", "2", "--output", time);
-  RUN_REFUSED(2, "--k-unit has no effect on the fields of OpenFOAM, whose K has the unit 1/s", "mark", box, "--cells",
-              "--resistance", "2", "--density", "1060", "--k-unit", "1/s", "--output", time);
-  RUN_REFUSED(2, "--density has no effect: only the fields of an OpenFOAM case have K divided by the density", "mark",
+  RUN_REFUSED(2, "--k-unit has no effect on the fields of OpenFOAM, because their K has the unit 1/s", "mark", box,
+              "--cells", "--resistance", "2", "--density", "1060", "--k-unit", "1/s", "--output", time);
+  RUN_REFUSED(2, "--density has no effect: K is divided by the density only in the fields of an OpenFOAM case", "mark",
               box, "--cells", "--resistance", "2", "--density", "1060", "--output", scratch_path("out.vtu"));
   RUN_REFUSED(2, "box/7 takes fields of cells: write --cells", "mark", box, "--output", time);
   RUN_REFUSED(2, "--cells: --picture shows marks of nodes", "mark", box, "--cells", "--picture", "a.png");
   RUN_REFUSED(2, "--cells: --steps marks nodes, not centres", "mark", box, "--cells", "--steps", "3");
-  RUN_REFUSED(1, "box/7: is a time of a case, but the mesh was not read from this case", "mark", scratch_path("in.vtu"),
-              "--half-thickness", "0.3", "--cells", "--output", time);
+  RUN_REFUSED(1, "box/7: is a time folder of a case, but the mesh was not read from this case", "mark",
+              scratch_path("in.vtu"), "--half-thickness", "0.3", "--cells", "--output", time);
   RUN_REFUSED(2, "cell 0 is a vtkTriangle; centres are those of linear volume cells and polyhedra", "mark",
               scratch_path("skin.vtk"), "--cells");
 }

@@ -151,7 +151,7 @@ riis from-area --solve bump_0.closed finds the bump that makes a gap of a given 
 that are narrower than two half thicknesses. With --offset O, it closes gaps narrower than 2 (1 - O) half thicknesses. A line on
 stderr warns of such a gap.
 )"},
-    {"diseases", "sick valves by the names of diagnoses",
+    {"diseases", "diseased valves by the names of diagnoses",
      R"(
 --valve takes these names in all commands, and in a case. Each name is a kind of valve with parameters, and riis params --valve
 NAME prints them. --params and --set change these parameters, and riis place takes the sizes from landmarks.
@@ -256,7 +256,7 @@ the wall become the boundaries inlet, outlet, outlet_2 and so on, and the rest b
 points near them.
 The command stops, and says what to do, if WALL has a fault or is not within --skirt of the valve, if leaflets go through each
 other, if an edge leaks at one of 11 openings, or if the closed valve does not seal. If an edge leaks, riis patient first makes
-another mesh with shorter edges. FOLDER has the file UNFINISHED.txt until all steps are done. A sick valve that never closes
+another mesh with shorter edges. FOLDER has the file UNFINISHED.txt until all steps are done. A diseased valve that never closes
 need not seal.
 --replace removes what riis patient wrote to FOLDER before, and also what a solver computed in the case there. A line on stdout
 says so. While a solver runs there, nothing is removed.

@@ -75,7 +75,7 @@ std::optional<double> distance_along(const Wall &wall, Vec3 point, Vec3 directio
 
 Gap gap_of(const Attachment &attachment, const Wall &wall, int n_threads) {
   const std::int64_t n_edges = attachment.n_edges();
-  if (n_edges == 0) fail(RIIS_INVALID_ARGUMENT, "surface has no attachment, from which a gap could be measured");
+  if (n_edges == 0) fail(RIIS_INVALID_ARGUMENT, "surface has no attachment, so there is no gap to measure");
   std::vector<Start> starts;
   starts.reserve(static_cast<std::size_t>(2 * n_edges));
   for (std::int64_t i = 0; i < 2 * n_edges; ++i) {

@@ -44,8 +44,8 @@ ValveKind make_kind() {
   }, opening, true, check_values, make_patches, check_states};
   kind.housing = RIIS_LEAFLET_HOUSING;
   kind.absent = {
-    {"stj", "its housing has one radius, and it has no commissures at a sinotubular junction"},
-    {"skirt_length", "it has a ring that closes the gap to the wall; ring_height sets the ring"},
+    {"stj", "its housing has only one radius, and no sinotubular junction"},
+    {"skirt_length", "its ring closes the gap to the wall; ring_height sets the height of the ring"},
     {"effective_height", "only cusps have an effective height; hinge_height and closed_angle determine the height "
                          "of rigid leaflets"},
   };
