@@ -116,7 +116,7 @@ void finish_surface_in_place(const Command &command, MarkOptions &options, bool 
 
 void check_distance(const Command &command, const MarkOptions &options) {
   if (command.has("--distance-tolerance") && options.surface_options.measure == RIIS_MEASURE_TRIANGLES)
-    refuse_usage("--distance-tolerance has no effect with --distance triangles: see --tolerance");
+    refuse_usage("--distance-tolerance has no effect with --distance triangles, whose error --tolerance sets");
 }
 
 // Refuses options for the looks of pictures if there is neither a picture nor a movie. Also refuses options for looks that a
@@ -150,7 +150,7 @@ bool has_output(const MarkOptions &options) {
 void check_folder_name(const std::string &folder) {
   const auto is_blank = [](unsigned char c) { return c <= ' ' || c == 127; };
   if (std::any_of(folder.begin(), folder.end(), is_blank))
-    refuse_usage("FOLDER: '" + folder + "' has a blank, and svMultiPhysics cannot read such a path");
+    refuse_usage("FOLDER: '" + folder + "' has a blank, but svMultiPhysics cannot read a path with blanks");
 }
 
 // The sizes of a kind of valve are in centimetres, so a valve's scale determines the unit of the mesh.

@@ -640,7 +640,7 @@ void declare_place(Command command, PlaceOptions &options) {
       ->required();
   command.text("--output", "OUT.json", "Write the placed valve, a file for --valve of the other commands; - is stdout",
                options.output);
-  command.text("--foam", "OUT", "Write the placed valve as OpenFOAM reads it, in metres", options.foam_output);
+  command.text("--foam", "OUT", "Write the placed valve for OpenFOAM, in metres", options.foam_output);
   command
       .parsed("--skirt", "L", "The longest skirt that OpenFOAM accepts, in the mesh's unit (default 6 mm)",
               options.skirt, parse_positive_finite)

@@ -168,7 +168,7 @@ Warp unfolded_warp(const Placed &placed, riis_valve *valve, double noise, Reader
 std::string cure_of_folds(const Placed &placed, const riis_valve *valve, Reader reader) {
   const std::string smoothed = option_text(reader, "warp", "smoothed"), look = "look for a landmark in the wrong place";
   if (!(placed.noise > 0))
-    return "; the landmarks' noise is 0: if the file states their noise, " + smoothed + " bends less";
+    return "; the noise of the landmarks is 0: if the file states a larger noise, " + smoothed + " bends less";
   try {
     unfolded_warp(placed, create<Valve>(riis_valve_copy, valve), placed.noise, reader);
   } catch (const Refusal &) {
@@ -497,8 +497,9 @@ std::string place_report(const Placed &placed, Reader reader) {
             (placed.warp_noise > 0 ? "; smoothed by the noise of " + digits(mm * placed.warp_noise, 3) + " mm" : "") +
             "\n";
   else if (placed.kind != "bileaflet" && at.worst > 3 * std::max(placed.noise, 1e-6 * at.scale))
-    text += "The valve misses the landmarks. " + option_text(reader, "warp", "exact") + " takes it to them, " +
-            option_text(reader, "warp", "smoothed") + " as near as their noise.\n";
+    text += "The valve misses the landmarks. " + option_text(reader, "warp", "exact") +
+            " takes the valve exactly to them, and " + option_text(reader, "warp", "smoothed") +
+            " takes it to within about their noise.\n";
   if (at.n_as_annulus > 0)
     text += std::string(at.n_as_annulus == 1 ? "The trigone lies" : "The trigones lie") +
             " behind the anterior horn, where the valve has no trigones: " +

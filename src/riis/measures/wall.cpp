@@ -82,8 +82,8 @@ Gap gap_of(const Attachment &attachment, const Wall &wall, int n_threads) {
     const double *p = attachment.edges.data() + 3 * i, *d = attachment.outwards.data() + 3 * i;
     starts.push_back({{p[0], p[1], p[2]}, {d[0], d[1], d[2]}});
     if (starts.back().direction == Vec3{0, 0, 0})
-      fail(RIIS_INVALID_ARGUMENT, "surface has an attachment that encloses no area, or that reaches its axis at (",
-           p[0], ", ", p[1], ", ", p[2], "): nothing tells which way is outwards");
+      fail(RIIS_INVALID_ARGUMENT, "the attachment of surface encloses no area, or reaches its axis at (", p[0], ", ",
+           p[1], ", ", p[2], "), so its outward direction is not known");
   }
   const std::vector<std::optional<double>> found = distances_along(wall, starts, n_threads);
   Gap gap{{}, {0, 0, 0, {0, 0, 0}, 2 * n_edges, 0}};

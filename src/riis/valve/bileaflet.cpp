@@ -38,7 +38,7 @@ ValveKind make_kind() {
     {"gap", length, "width of the slit between the closed leaflets", 1, {0}, 0, longest},
     {"closed_angle", degree, "angle of the closed leaflets from the orifice plane", 1, {30}, 0, 80},
     {"open_angle", degree, "angle of the open leaflets from the orifice plane", 1, {85}, 0, 90},
-    {"ring_height", length, "height of the housing's wall, which the orifice plane halves; 0 means no wall",
+    {"ring_height", length, "height of the housing's wall, half of it above the orifice plane; 0 means no wall",
      1, {0}, 0, longest},
     opening_spec("from 0 (closed) to 1 (open); the leaflets turn from closed_angle to open_angle", 0),
   }, opening, true, check_values, make_patches, check_states};
