@@ -257,8 +257,8 @@ module riis_c
     real(c_double) :: seconds_scene          !< wall time for groups of triangles, sampling and minimisation, in the
                                              !! same call. Embree's tree is not included, because the first query that
                                              !! needs the tree builds it
-    real(c_double) :: error_bound            !< an upper bound of the error of a distance: of the difference between the
-                                             !! distance to the triangles and the distance to the smooth valve. It is at
+    real(c_double) :: error_bound            !< an upper bound of the error of a distance, which is the difference
+                                             !! between the distances to the triangles and to the smooth valve. It is at
                                              !! most tolerance * half_thickness. 0 for a surface from arrays
     integer(c_int64_t) :: largest_leaflet_id !< of the triangles
     real(c_double) :: offset                 !< of the band, in half thicknesses
@@ -469,7 +469,7 @@ module riis_c
 
   !> Counts and times of the last marking.
   type, bind(c) :: riis_mark_stats
-    integer(c_int64_t) :: n_nodes        !< of the mesh, masked out or not
+    integer(c_int64_t) :: n_nodes        !< the number of nodes of the mesh, masked out or not
     integer(c_int64_t) :: n_marked       !< the length of RIIS_LIST_MARKED
     integer(c_int64_t) :: n_within_limit !< nodes within the distance limit, marked or not
     integer(c_int64_t) :: n_queries      !< number of closest-point queries, of nodes and of parts of the mesh
@@ -600,9 +600,9 @@ module riis_c
 
   !> The orifice of a surface: the part of an outline that the triangles do not cover, seen along an axis. The axis has
   !! the direction of the vector area that the edges of the outline enclose. For a valve, the axis points towards the
-  !! valve's +z. For arrays and keyframes, it points to the side of the normals. A bileaflet valve has its z axis as
-  !! axis. Skirts are left out. If leaflets from arrays do not touch at the commissures, straight lines join their ends.
-  !! Lengths are in mesh units (docs/theory/measures.md, "Outline").
+  !! valve's +z. For arrays and keyframes, it points to the side of the normals. For a bileaflet valve, the axis is the
+  !! valve's z axis. Skirts are left out. If leaflets from arrays do not touch at the commissures, straight lines join
+  !! their ends. Lengths are in mesh units (docs/theory/measures.md, "Outline").
   type, bind(c) :: riis_orifice
     real(c_double) :: area           !< the area of the orifice. If there is no outline, all fields except axis and
                                      !! rim_reach are 0

@@ -710,8 +710,8 @@ subroutine riisf_mesh_create_copy_64(n_nodes, x, y, z, stride, real_bits, mesh, 
   mesh = handle_of(c_handle)
 end subroutine riisf_mesh_create_copy_64
 
-!> Does the same as riisf_mesh_update, but copies the coordinates. Calls for the same mesh may change between borrowing and
-!! copying.
+!> Does the same as riisf_mesh_update, but copies the coordinates. A mesh with borrowed coordinates may later get copies, and the
+!! reverse.
 subroutine riisf_mesh_update_copy(mesh, n_nodes, x, y, z, stride, real_bits, status)
   use, intrinsic :: iso_c_binding, only: c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -1753,7 +1753,7 @@ subroutine riisf_surface_offset_arrays_64(n_vertices, x, y, z, stride, corners_p
 end subroutine riisf_surface_offset_arrays_64
 
 !> Replaces the surface by triangles or quads that moved, with the same options and with the velocities of the vertices. Errors:
-!! as riisf_surface_from_arrays. With n_faces 0, also RIIS_INVALID_ARGUMENT if n_vertices is not the number of the last arrays,
+!! as riisf_surface_from_arrays. With n_faces 0, also RIIS_INVALID_ARGUMENT if n_vertices differs from that of the last arrays,
 !! or if the surface was not made from arrays.
 subroutine riisf_surface_update_arrays(surface, n_vertices, x, y, z, stride, vx, vy, vz, velocity_stride, &
     corners_per_face, n_faces, vertex_ids, index_base, status)
@@ -4781,8 +4781,8 @@ end subroutine riisf_band_sums_64
 ! Loads of tissue
 ! -----------------------------------------------------------------------------------------------------------------
 
-!> Adds up sums over nodes of tissue, which riisf_loads_forces needs. Errors: RIIS_INVALID_ARGUMENT naming the field, or the
-!! edge, node or weight and its value.
+!> Computes sums over nodes of tissue for riisf_loads_forces, and adds them to an array. Errors: RIIS_INVALID_ARGUMENT naming the
+!! field, or the edge, node or weight and its value.
 subroutine riisf_loads_sums(radius, n_edges, edges, edge_leaflet_id, n_nodes, xyz, weight, n_leaflets, sums, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32
@@ -5002,8 +5002,8 @@ subroutine riisf_find_leaks(surface, mesh, marks, n_threads, leaks, n_edges, lon
                                                           !! all other fields except seconds are 0.
   real(c_double), intent(inout) :: longest                !< The length of the longest edge; 0 if none leaks.
   real(c_double), intent(inout) :: middle(3)              !< The middle of the longest edge.
-  real(c_double), intent(inout) :: half_thickness         !< The smallest half thickness that gives each edge a marked node,
-                                                          !! for these triangles.
+  real(c_double), intent(inout) :: half_thickness         !< The least half thickness with which each of these edges has a
+                                                          !! marked node, for the present triangles.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_mark_options) :: options
   type(riis_leak_list) :: list
@@ -6212,9 +6212,9 @@ end subroutine riisf_opening_angle_advance
 !! direction of flow, and if the valve is too large or too small for a heart valve at this scale. The message names the
 !! landmarks. The axis of a tricuspid or mitral_coapting valve must be at most 20 degrees from the normal of the annulus. A
 !! mitral valve must satisfy three conditions: - The posterior horn is on the posterior side of the annulus, and the trigones are
-!! on the anterior side. - The axis of the fitted valve is at most 20 degrees from the annulus' normal. - The depth of the
-!! annulus leads from the anterior horn to the posterior horn, or without a posterior horn to the farthest point of the annulus.
-!! The fitted AP_diameter differs from this depth by at most a twelfth of it, or by at most five times the noise.
+!! on the anterior side. - The axis of the fitted valve is at most 20 degrees from the annulus' normal. - The fitted AP_diameter
+!! differs from the depth of the annulus by at most a twelfth of this depth, or by at most five times the noise. The depth is
+!! measured from the anterior horn to the posterior horn, or without a posterior horn to the farthest point of the annulus.
 !! RIIS_INVALID_PARAMETER for a valve from patches, for an unknown name in `held`, and for sizes that do not fit together.
 subroutine riisf_place(valve, n_landmarks, xyz, role, leaflet_id, scale, noise, flow, held, rotation_axis, &
     rotation_angle, translation, residual, size_state, status)
@@ -6281,9 +6281,9 @@ subroutine riisf_place(valve, n_landmarks, xyz, role, leaflet_id, scale, noise, 
   translation = placement%translation
 end subroutine riisf_place
 
-!> Makes a warp from landmarks on the valve before any warp. The map is the identity until riisf_warp_set_targets gives it
-!! targets. Errors: RIIS_INVALID_ARGUMENT naming the landmark or field and its value, also if two landmarks are in one place, and
-!! if all landmarks lie on a line.
+!> Makes a warp from landmarks on the unwarped valve. The map is the identity until riisf_warp_set_targets gives it targets.
+!! Errors: RIIS_INVALID_ARGUMENT naming the landmark or field and its value, also if two landmarks are in one place, and if all
+!! landmarks lie on a line.
 subroutine riisf_warp_create(n_landmarks, xyz, noise, scale, rotation_axis, rotation_angle, translation, warp, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_loc, c_null_ptr, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64

@@ -23,8 +23,8 @@ module riis_leaking
     real(c_double), pointer :: distance(:) => null()        !< (n_edges): the least half thickness at which the edge does not
                                                             !! leak. Without an offset this is the distance of the edge's nearer
                                                             !! node.
-    real(c_double) :: half_thickness = 0                    !< The smallest half thickness that gives each edge a marked node,
-                                                            !! for these triangles.
+    real(c_double) :: half_thickness = 0                    !< The least half thickness with which each of these edges has a
+                                                            !! marked node, for the present triangles.
     integer(int64) :: longest_node_id(2) = -1               !< The nodes of the longest edge, the lower id first. Of equally long
                                                             !! edges, the first one counts.
     real(c_double) :: longest_length = 0                    !< The length of this edge.

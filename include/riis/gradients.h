@@ -23,8 +23,8 @@ extern "C" {
  * directions. A marking with RIIS_FIELD_GRADIENT gives the derivatives of distances and of K in all directions
  * (docs/theory/gradients.md). The two states are cut into the same triangles as the surface. The rate of a vertex is its
  * displacement from valve_before to valve_after, divided by dp. If the surface is midway between the two states, the error of the
- * derivative is of second order in dp, otherwise of first order. A dp of 1e-5 of the parameter's value suits most parameters. The
- * limits of RIIS_TRIANGULATION_FIXED do not hold for the two states.
+ * derivative is of second order in dp, otherwise of first order. A dp of 1e-5 of the parameter's value suits most parameters. For
+ * the two states, the call does not check the limits of RIIS_TRIANGULATION_FIXED.
  * Errors: RIIS_INVALID_ARGUMENT for a surface from arrays, and for a dp out of range. RIIS_INVALID_PARAMETER if a state has
  * another kind or other patches, and if its parameters do not fit together. RIIS_LIMIT_EXCEEDED for more than 1000 directions. */
 RIIS_API riis_status riis_surface_add_direction(riis_surface *surface, const riis_valve *valve_after,

@@ -34,7 +34,7 @@ typedef struct riis_loads {
   int32_t reserved;               /* 0 */
 } riis_loads;
 RIIS_API riis_status riis_loads_init(riis_loads *loads, int64_t struct_size); /* the defaults */
-/* Adds up sums over nodes of tissue, which riis_loads_add_forces needs.
+/* Computes sums over nodes of tissue for riis_loads_add_forces, and adds them to an array.
  *   `loads`: the call reads radius, edges and n_leaflets, but no forces.
  *   `nodes`: the nodes of a surface or a volume of tissue, in the same coordinates as the edges. Nodes farther from the edges
  *     than the radius do not count, and get no force.

@@ -22,7 +22,7 @@ typedef struct riis_marks riis_marks;
 RIIS_API riis_status riis_marks_create(riis_marks **marks);
 RIIS_API void riis_marks_destroy(riis_marks **marks); /* destroys the marks and their lists */
 
-/* How a marking searches the nodes near the surface. All searches except RIIS_SEARCH_PAPER find the same nodes
+/* How a marking searches for the nodes near the surface. All searches except RIIS_SEARCH_PAPER find the same nodes
  * (docs/theory/search.md). */
 enum {
   RIIS_SEARCH_AUTO = 0,       /* uses clusters or the exhaustive search, whichever is expected to be faster. The exhaustive search
@@ -160,9 +160,9 @@ typedef struct riis_mark_list {
                                       the distance has a kink there. The distance also has a kink at nodes with several closest
                                       points */
   const double *K_gradient;   /* (n_directions, n_nodes): the derivative of K in each direction, for constant R and half
-                                 thickness. The derivative is 0 where K is 0. NULL without a resistance. If there is an offset, n
-                                 at a node on the surface is the surface's normal. At a rim, the derivative then includes the
-                                 rotation of the normal */
+                                 thickness. The derivative is 0 where K is 0. NULL without a resistance. If there is an offset,
+                                 the unit vector n of distance_gradient is the surface's normal at nodes on the surface. At a rim,
+                                 the derivative then includes the rotation of this normal */
   const double *height;       /* (n_nodes): for a surface with an offset, the signed distance s of riis_surface_create. If the
                                  closest point p is on a rim, the height of a node x is n.(x - p) with the normal n. NULL without
                                  an offset */
@@ -191,7 +191,7 @@ RIIS_API riis_status riis_marks_get_dense(const riis_marks *marks, const riis_de
 
 /* Counts and times of the last marking. */
 typedef struct riis_mark_stats {
-  int64_t n_nodes;      /* of the mesh, masked out or not */
+  int64_t n_nodes;      /* the number of nodes of the mesh, masked out or not */
   int64_t n_marked;     /* the length of RIIS_LIST_MARKED */
   int64_t n_within_limit; /* nodes within the distance limit, marked or not */
   int64_t n_queries;    /* number of closest-point queries, of nodes and of parts of the mesh */

@@ -27,7 +27,7 @@ typedef struct riis_leaflet {
 /* Gives the number of the surface's leaflets. */
 RIIS_API riis_status riis_surface_get_n_leaflets(const riis_surface *surface, int64_t *n_leaflets);
 /* Gives the sizes of a leaflet.
- *   `leaflet`: 0 to n_leaflets - 1, ascending by leaflet_id. */
+ *   `leaflet`: the position of the leaflet in the list of leaflets, which ascends by leaflet_id; 0 to n_leaflets - 1. */
 RIIS_API riis_status riis_surface_get_leaflet(const riis_surface *surface, int64_t leaflet, riis_leaflet *sizes,
                                               int64_t struct_size);
 
@@ -43,8 +43,8 @@ enum {
 };
 /* The orifice of a surface: the part of an outline that the triangles do not cover, seen along an axis. The axis has the
  * direction of the vector area that the edges of the outline enclose. For a valve, the axis points towards the valve's +z. For
- * arrays and keyframes, it points to the side of the normals. A bileaflet valve has its z axis as axis. Skirts are left out. If
- * leaflets from arrays do not touch at the commissures, straight lines join their ends. Lengths are in mesh units
+ * arrays and keyframes, it points to the side of the normals. For a bileaflet valve, the axis is the valve's z axis. Skirts are
+ * left out. If leaflets from arrays do not touch at the commissures, straight lines join their ends. Lengths are in mesh units
  * (docs/theory/measures.md, "Outline"). */
 typedef struct riis_orifice {
   double area;           /* the area of the orifice. If there is no outline, all fields except axis and rim_reach are 0 */
@@ -67,8 +67,8 @@ typedef struct riis_orifice {
   int32_t reserved;      /* 0 */
 } riis_orifice;
 /* Measures the orifice of a surface.
- *   `resistance`: only half_thickness and rim are used, and the offset of the surface. RIIS_AUTO stands for the surface's half
- *     thickness. NULL stands for the defaults. */
+ *   `resistance`: the call uses only half_thickness and rim, and takes the offset from the surface. RIIS_AUTO stands for the
+ *     surface's half thickness. NULL stands for the defaults. */
 RIIS_API riis_status riis_surface_get_orifice(const riis_surface *surface, const riis_resistance *resistance,
                                               riis_orifice *orifice, int64_t struct_size);
 /* Measures the orifice inside a wall, such as a ring or a tube around the leaflets. Use this call if the leaflets do not reach

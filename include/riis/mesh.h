@@ -14,7 +14,8 @@ extern "C" {
 
 /* ---- Mesh: the nodes that are marked ------------------------------------------------------------------- */
 
-/* The caller's nodes. Some calls make the mesh borrow the coordinates, and others make it copy them. */
+/* The caller's nodes. riis_mesh_create and riis_mesh_update borrow the coordinates, and the calls whose names end in _copy copy
+ * them. */
 typedef struct riis_mesh riis_mesh;
 
 /* Borrows node coordinates and checks them once. The coordinates must stay in place until the mesh is updated or destroyed. With
@@ -32,8 +33,8 @@ RIIS_API riis_status riis_mesh_update(riis_mesh *mesh, int64_t n_nodes, const do
  * precision, which become doubles without rounding. The copies take 24 bytes per node.
  * Errors: as riis_mesh_create. */
 RIIS_API riis_status riis_mesh_create_copy(const riis_points *nodes, riis_mesh **mesh);
-/* Does the same as riis_mesh_update, but copies the coordinates. Calls for the same mesh may change between borrowing and
- * copying. */
+/* Does the same as riis_mesh_update, but copies the coordinates. A mesh with borrowed coordinates may later get copies, and the
+ * reverse. */
 RIIS_API riis_status riis_mesh_update_copy(riis_mesh *mesh, const riis_points *nodes);
 /* Destroys the handle. The caller's coordinates and all marks stay. */
 RIIS_API void riis_mesh_destroy(riis_mesh **mesh);
@@ -56,8 +57,8 @@ typedef struct riis_grid {
   double origin[3];      /* the first coordinate along each axis that is NULL. Default 0 */
   double spacing[3];     /* the spacing along each axis that is NULL, above 0. Default 1 */
   int64_t first;         /* the number of node (0, 0, 0), >= 0. Default 0 */
-  int64_t stride[3];     /* for each axis, the difference between the numbers of neighbouring nodes along it, >= 1. Two nodes must
-                            not have the same number. The default 0 of all three entries stands for 1, ni and ni nj */
+  int64_t stride[3];     /* for each axis, the difference between the numbers of two neighbouring nodes, >= 1. Two nodes must not
+                            have the same number. The default 0 of all three entries stands for 1, ni and ni nj */
   int64_t n_nodes;       /* the length of the caller's arrays, more than the largest number of a node and at most 2^40. The
                             default 0 stands for the shortest possible length */
   int32_t real_bits;     /* of x, y and z: 64, the default, or 32 */

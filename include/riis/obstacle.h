@@ -28,7 +28,7 @@ RIIS_API riis_status riis_resistance_arrays_init(riis_resistance_arrays *arrays,
 /* Adds K and K u_surface to the caller's arrays. One call for each valve gives the sums over all valves, and the solver's term is
  * (sum of K) u - (sum of K u_surface). Nodes may be cell centres or quadrature points. For a single valve, riis_mark_list also
  * gives K and K u_surface.
- *   `resistance`: RIIS_RIM_CUT needs RIIS_FIELD_RIM, and K_u_surface needs RIIS_FIELD_VELOCITY.
+ *   `resistance`: the marks must have RIIS_FIELD_RIM for RIIS_RIM_CUT, and RIIS_FIELD_VELOCITY for K_u_surface.
  * Errors: RIIS_INVALID_ARGUMENT if the marks are empty, and if they lack a field. */
 RIIS_API riis_status riis_marks_add_resistance(const riis_marks *marks, const riis_resistance *resistance,
                                                const riis_resistance_arrays *arrays);
@@ -72,7 +72,7 @@ typedef struct riis_reaction {
 RIIS_API riis_status riis_reaction_init(riis_reaction *reaction, int64_t struct_size);
 /* Adds the forces of the flow, and their moments, on the whole surface, on each leaflet and at each edge.
  *   `flow`: the velocities u and the volumes. Without RIIS_FIELD_VELOCITY in the marking, u_surface counts as 0.
- *   `reaction`: moments and sums of edges need RIIS_FIELD_POINT.
+ *   `reaction`: for moments and for forces at edges, the marks must have RIIS_FIELD_POINT.
  * Each result is a sum over nodes. With MPI all ranks pass the same reference point and edges, and add up their results. The
  * forces on the leaflets add up to the force on the whole surface, up to rounding. The forces at edges can be the loads in a code
  * for tissue, but do not model how a membrane carries loads to its edges. The time for a node grows as log n_edges, or as n_edges

@@ -111,20 +111,20 @@ RIIS_API riis_status riis_placement_arrays_init(riis_placement_arrays *arrays, i
  *   `held`: the names of the parameters whose values do not change, separated by blanks or commas. "" stands for no name.
  *   `arrays`: the arrays that the call writes. NULL: not wanted.
  * The result minimises the sum of squared distances between the landmarks and their places on the closed valve
- * (docs/theory/landmarks.md). The cusps of a bicuspid, coapting or quadricuspid valve get different sectors, with a sum of 360
- * degrees, if the landmarks show differences above the noise. Their commissures then also get different heights, and
- * commissure_height is the mean height. If the differences are below the noise, the sectors and the proportions of the heights do
- * not change. The rotations and leaflet angles of an aortic valve follow from the landmarks. If cusps would overlap, the call
- * lowers leaflet_power.
+ * (docs/theory/landmarks.md). If the landmarks of a bicuspid, coapting or quadricuspid valve show differences above the noise,
+ * its cusps get different sectors, with a sum of 360 degrees. Its commissures likewise get different heights, and
+ * commissure_height is then the mean height. If the differences are below the noise, the sectors and the proportions of the
+ * heights do not change. The rotations and leaflet angles of an aortic valve follow from the landmarks. If cusps would overlap,
+ * the call lowers leaflet_power.
  * Errors: RIIS_INVALID_ARGUMENT if landmarks are missing, too many, in one place, collinear or mirrored, if they do not show the
  * direction of flow, and if the valve is too large or too small for a heart valve at this scale. The message names the landmarks.
  * The axis of a tricuspid or mitral_coapting valve must be at most 20 degrees from the normal of the annulus. A mitral valve must
  * satisfy three conditions:
  * - The posterior horn is on the posterior side of the annulus, and the trigones are on the anterior side.
  * - The axis of the fitted valve is at most 20 degrees from the annulus' normal.
- * - The depth of the annulus leads from the anterior horn to the posterior horn, or without a posterior horn to the farthest
- *   point of the annulus. The fitted AP_diameter differs from this depth by at most a twelfth of it, or by at most five times the
- *   noise.
+ * - The fitted AP_diameter differs from the depth of the annulus by at most a twelfth of this depth, or by at most five times the
+ *   noise. The depth is measured from the anterior horn to the posterior horn, or without a posterior horn to the farthest point
+ *   of the annulus.
  * RIIS_INVALID_PARAMETER for a valve from patches, for an unknown name in `held`, and for sizes that do not fit together. */
 RIIS_API riis_status riis_place(riis_valve *valve, const riis_landmarks *landmarks, const char *held,
                                 const riis_placement_arrays *arrays, riis_placement *placement,
@@ -132,9 +132,9 @@ RIIS_API riis_status riis_place(riis_valve *valve, const riis_landmarks *landmar
 
 /* ---- Warp: a valve that meets a patient's landmarks, and moves with them ------------------------------- */
 
-/* A smooth map of space that takes landmarks on a valve to landmarks in a patient. The map is the sum of an affine map and one
- * term for each landmark, which grows as |r|^3 with the distance r from the landmark (docs/theory/warp.md). New targets in each
- * time step cost little time, because the matrix of the warp is factored only once. */
+/* A smooth map of space that takes landmarks on a valve to landmarks in a patient. The map is the sum of an affine map and a term
+ * |r|^3 for each landmark, where |r| is the distance from the landmark (docs/theory/warp.md). New targets in each time step cost
+ * little time, because the matrix of the warp is factored only once. */
 typedef struct riis_warp riis_warp;
 
 /* Options of riis_warp_create. */
@@ -149,7 +149,7 @@ typedef struct riis_warp_options {
 /* Fills *options with the defaults. */
 RIIS_API riis_status riis_warp_options_init(riis_warp_options *options, int64_t struct_size);
 
-/* Makes a warp from landmarks on the valve before any warp. The map is the identity until riis_warp_set_targets gives it targets.
+/* Makes a warp from landmarks on the unwarped valve. The map is the identity until riis_warp_set_targets gives it targets.
  *   `sources`: 3 to 1000 landmarks. If the landmarks lie nearly in a plane (riis_warp_info.is_planar), the map stretches lengths
  *     normal to the plane as much as lengths in the plane, and keeps normals of the plane at right angles to it.
  * Errors: RIIS_INVALID_ARGUMENT naming the landmark or field and its value, also if two landmarks are in one place, and if all

@@ -100,10 +100,10 @@ RIIS_API void riis_crossings_destroy(riis_crossings **crossings); /* destroys th
  *   `crossings`: its content is replaced.
  * The depth of a pair is the length of the shortest shift of one triangle after which the two triangles only touch
  * (docs/theory/crossings.md). Triangles that touch or lie in one plane have depth 0. Triangles of one leaflet that share a vertex
- * (equal placed coordinates) are neighbours, and do not count as a pair. The call always tests the triangles, even if the surface
- * measures distances by sampling or minimisation. Where the smooth leaflets only touch, their triangles may cross as deep as
- * twice riis_surface_info.error_bound. If a log function is set (riis_set_log), updates log warnings of deeper crossings without
- * this call.
+ * (equal coordinates after placement) are neighbours, and do not count as a pair. The call always tests the triangles, even if
+ * the surface measures distances by sampling or minimisation. Where the smooth leaflets only touch, their triangles may cross as
+ * deep as twice riis_surface_info.error_bound. If a log function is set (riis_set_log), updates of a surface send it warnings of
+ * deeper crossings, even without this call.
  * Errors: RIIS_INVALID_ARGUMENT naming the field. */
 RIIS_API riis_status riis_find_crossings(const riis_surface *surface, const riis_crossing_options *options,
                                          riis_crossings *crossings);

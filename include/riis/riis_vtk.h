@@ -6,7 +6,7 @@
  * The rules of riis.h also hold here, and riis_last_error() gives the messages. These rules come in addition:
  *
  * - VTK has global state, so call these functions from one thread at a time.
- * - VTK prints nothing: its messages become part of the message of the error.
+ * - Messages of VTK are not printed, but become part of the message of the error.
  * - A file is refused if it has another format, if its end is missing, and if it declares more points, cells, values or bytes
  *   than it holds. VTK's own readers can still crash on a .vtu file with damaged bytes. Read files that you do not trust in a
  *   separate process.
@@ -145,10 +145,10 @@ RIIS_API riis_status riis_vtk_mesh_get_median_edge(const riis_vtk_mesh *mesh, do
 
 /* Keeps only the cells with certain values in a cell array, and the nodes of these cells. For example, the call can keep the
  * fluid and remove the wall. Nodes and cells keep their order and their data. As in riis_vtk_mesh_extract, the arrays
- * riis_node_id and riis_cell_id have the ids in the whole mesh. They keep these ids if riis_vtk_mesh_extract later makes a part
- * of this mesh.
+ * riis_node_id and riis_cell_id have the ids in the whole mesh. If riis_vtk_mesh_extract later makes a part of this mesh, the two
+ * arrays still have the ids in the whole mesh.
  *   `where`: NAME=VALUES, such as "region=1,2". NAME is a cell array of single numbers. For gmsh's physical groups, NAME is
- *     gmsh:physical, and VALUES may be names of groups. A cell in several groups has the values of all of them.
+ *     gmsh:physical, and VALUES may be names of groups. A cell that is in several groups has the values of all these groups.
  *   `n_chosen`: the number of chosen cells, without surface cells if the mesh has volume cells. With NULL the call fails if no
  *     cell is chosen.
  * Errors: RIIS_INVALID_ARGUMENT if the mesh lacks the array or the named group. After an error the mesh is unchanged. */
@@ -166,8 +166,8 @@ RIIS_API riis_status riis_vtk_mesh_find_regions(riis_vtk_mesh *mesh, const char 
  * order count as straight. If a mesh has several pieces, call the function for each piece.
  *   `xyz` (3, n_points), finite.
  *   `distance`: >= 0, finite, in the unit of xyz. With 0, the call finds the points that lie in no cell.
- *   `is_outside` (n_points): before the call, 1 for each point to test, and 0 for the others. The call changes the 1 of each
- *     point that is not outside to 0.
+ *   `is_outside` (n_points): before the call, 1 for each point to test, and 0 for the others. For each point that is not outside,
+ *     the call changes the 1 to 0.
  * Errors: RIIS_INVALID_ARGUMENT naming the argument and its value; is_outside is then unchanged. */
 RIIS_API riis_status riis_vtk_mesh_find_outside(const riis_vtk_mesh *mesh, int64_t n_points, const double *xyz,
                                                 double distance, uint8_t *is_outside);
@@ -226,7 +226,7 @@ RIIS_API riis_status riis_vtk_pieces_read_mesh(const riis_vtk_pieces *pieces, in
  *   `path`: ends in .pvtu. */
 RIIS_API riis_status riis_vtk_pieces_write(const riis_vtk_pieces *pieces, const char *path);
 
-/* Which pieces of the mesh have a node of a piece. */
+/* Whether other pieces of the mesh may also have a node of a piece. */
 enum {
   RIIS_VTK_NODE_INSIDE = 0, /* no other piece has the node, except as a ghost */
   RIIS_VTK_NODE_SHARED = 1, /* other pieces may also have the node, because it is on a face of only one cell or on no volume

@@ -45,7 +45,8 @@ typedef struct riis_leak_list {
   const double *length;       /* (n_edges) */
   const double *distance;     /* (n_edges): the least half thickness at which the edge does not leak. Without an offset this is
                                  the distance of the edge's nearer node */
-  double half_thickness;      /* the smallest half thickness that gives each edge a marked node, for these triangles */
+  double half_thickness;      /* the least half thickness with which each of these edges has a marked node, for the present
+                                 triangles */
   int64_t longest_node_id[2]; /* the nodes of the longest edge, the lower id first. Of equally long edges, the first one counts */
   double longest_length;      /* the length of this edge */
   double longest_middle[3];   /* the middle of this edge */

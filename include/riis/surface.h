@@ -134,8 +134,9 @@ typedef struct riis_surface_arrays {
   const uint8_t *attached;   /* (n_vertices): a number above 0 marks a vertex of the attachment. The attachment consists of the
                                 open edges whose two vertices are attached. NULL: if there is a skirt, the call chooses the
                                 attachment */
-  const double *skirt_lengths; /* (n_vertices): the skirt's length at each attached vertex, at most skirt_length. Shorter lengths
-                                  than the least permitted skirt_length are raised to it. NULL: skirt_length everywhere */
+  const double *skirt_lengths; /* (n_vertices): the skirt's length at each attached vertex, at most skirt_length. A length below
+                                  the least permitted skirt_length is raised to this least length. NULL: skirt_length
+                                  everywhere */
 } riis_surface_arrays;
 /* Fills *arrays with the defaults. */
 RIIS_API riis_status riis_surface_arrays_init(riis_surface_arrays *arrays, int64_t struct_size);
@@ -163,7 +164,7 @@ RIIS_API riis_status riis_surface_update(riis_surface *surface, const riis_valve
  *   `arrays`: with n_faces 0, only the vertices move, and the faces and the skirt stay. All of vertex_ids, leaflet_id, attached
  *     and skirt_lengths must then be NULL, and skirt_length must be 0.
  *   `options`: as in riis_surface_update.
- * Errors: as riis_surface_create_from_arrays. With n_faces 0, also RIIS_INVALID_ARGUMENT if n_vertices is not the number of the
+ * Errors: as riis_surface_create_from_arrays. With n_faces 0, also RIIS_INVALID_ARGUMENT if n_vertices differs from that of the
  * last arrays, or if the surface was not made from arrays. */
 RIIS_API riis_status riis_surface_update_from_arrays(riis_surface *surface, const riis_surface_arrays *arrays,
                                                      const riis_surface_options *options);
@@ -181,9 +182,9 @@ typedef struct riis_surface_info {
   double seconds_triangles;  /* wall time for checks and triangles, in the last call that made or updated the surface */
   double seconds_scene;      /* wall time for groups of triangles, sampling and minimisation, in the same call. Embree's tree is
                                 not included, because the first query that needs the tree builds it */
-  double error_bound;        /* an upper bound of the error of a distance: of the difference between the distance to the triangles
-                                and the distance to the smooth valve. It is at most tolerance * half_thickness. 0 for a surface
-                                from arrays */
+  double error_bound;        /* an upper bound of the error of a distance, which is the difference between the distances to the
+                                triangles and to the smooth valve. It is at most tolerance * half_thickness. 0 for a surface from
+                                arrays */
   int64_t largest_leaflet_id; /* of the triangles */
   double offset;             /* of the band, in half thicknesses */
   double contact_depth;      /* if triangles of leaflets cross at most this deep, the leaflets only touch
@@ -260,8 +261,8 @@ RIIS_API riis_status riis_surface_update_moving(riis_surface *surface, const rii
                                                 const riis_surface_options *options,
                                                 const riis_surface_options *options_before);
 
-/* Interpolation between keys in time. A time very near a key is rounded to this key: if the difference is at most 2^-49 of the
- * largest of time, key and period. A key plus whole periods also counts as a key. */
+/* Interpolation between keys in time. A time is rounded to a key if it differs from the key by at most 2^-49 of the largest of
+ * time, key and period. A key plus whole periods also counts as a key. */
 enum {
   RIIS_INTERPOLATION_LINEAR = 0, /* the rate jumps at keys; the rate at a key is the value after the jump */
   RIIS_INTERPOLATION_CUBIC = 1   /* the interpolation is monotone between keys, with a continuous rate (Fritsch, Butland 1984) */
