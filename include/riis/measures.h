@@ -91,9 +91,9 @@ typedef struct riis_area_search {
   const riis_surface_options *surface; /* options of the valve's surface. NULL, the default, stands for defaults */
   const riis_resistance *resistance;   /* as in riis_surface_get_orifice. NULL, the default, stands for defaults */
   double from, to;    /* the range to search, with `from` below `to`. The default NaN stands for these ranges: 0 to 1 for the
-                         opening, 0.1 to 10 times the present scale, and 0.5 to 2 times the present value of a parameter. A
-                         parameter whose range is 0 to 1 is searched from 0 to 1. If any other parameter is 0 at present, `from`
-                         and `to` must be set */
+                         opening, 0.1 to 10 times the present scale, and 0.5 to 2 times the present value of a parameter. If the
+                         present value is 0, a parameter with a range from 0 to at most 1 is searched over its whole range. For
+                         other parameters that are 0 at present, `from` and `to` must be set */
   double tolerance;   /* the tolerance of each area, as a fraction of it, 1e-12 to 1e-2. Default 1e-8 */
   int32_t n_samples;  /* the number of values at which the area is sampled first, 2 to 100,001. Default 33 */
   int32_t area;       /* RIIS_AREA_*, default RIIS_AREA_GEOMETRIC */
