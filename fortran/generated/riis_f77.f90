@@ -82,7 +82,8 @@ subroutine riisf_valve_copy(valve, copy, status)
 end subroutine riisf_valve_copy
 
 !> Sets a parameter by its name. This call checks only the range of the values; riisf_surface_create checks whether all
-!! parameters fit together. Errors: RIIS_INVALID_PARAMETER naming the parameter and the value.
+!! parameters fit together. Errors: RIIS_INVALID_PARAMETER for a bad name or value; the message names the parameter and the
+!! value.
 subroutine riisf_valve_set(valve, name, n_values, values, status)
   use, intrinsic :: iso_c_binding, only: c_char, c_double
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -566,8 +567,8 @@ end subroutine riisf_surface_destroy
 ! -----------------------------------------------------------------------------------------------------------------
 
 !> Borrows node coordinates and checks them once. The coordinates must stay in place until the mesh is updated or destroyed. With
-!! MPI, processes without nodes must also make a mesh. Errors: RIIS_INVALID_MESH naming the node and the value.
-!! RIIS_LIMIT_EXCEEDED for too many nodes.
+!! MPI, processes without nodes must also make a mesh. Errors: RIIS_INVALID_MESH for a bad coordinate; the message names the node
+!! and the value. RIIS_LIMIT_EXCEEDED for too many nodes.
 subroutine riisf_mesh_create(n_nodes, x, y, z, stride, mesh, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_null_ptr, c_ptr
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -767,8 +768,8 @@ end subroutine riisf_mesh_update_copy_64
 
 !> Makes a mesh from the axes of a rectilinear grid, and stores nothing for each node. Node (i, j, k) is at X(i), Y(j), Z(k). Its
 !! number is first_num + (i - 1) stride_i + (j - 1) stride_j + (k - 1) stride_k. An array K(0:NI+1, 0:NJ+1, 0:NK+1) has the
-!! strides 1, NI+2 and (NI+2)(NJ+2), its first node is 1 plus their sum, and n_nodes is its length. Errors: RIIS_INVALID_MESH
-!! naming the axis, the index and the value. RIIS_LIMIT_EXCEEDED if a node has a number of 2^40 or more.
+!! strides 1, NI+2 and (NI+2)(NJ+2), its first node is 1 plus their sum, and n_nodes is its length. Errors: RIIS_INVALID_MESH for
+!! a bad axis; the message names the axis, the index and the value. RIIS_LIMIT_EXCEEDED if a node has a number of 2^40 or more.
 subroutine riisf_mesh_create_grid(ni, nj, nk, x, y, z, real_bits, first_num, stride_i, stride_j, stride_k, n_nodes, &
     mesh, status)
   use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr, c_sizeof
@@ -1004,7 +1005,7 @@ end subroutine riisf_version
 ! -----------------------------------------------------------------------------------------------------------------
 
 !> Gives the mesh an adjacency, the edges along which the neighbour search walks, and checks it once. Errors: RIIS_INVALID_MESH
-!! naming the row and its value.
+!! for a bad row; the message names the row and its value.
 subroutine riisf_mesh_set_adjacency(mesh, n_rows, offsets, columns, index_base, n_all, status)
   use, intrinsic :: iso_c_binding, only: c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -1094,7 +1095,7 @@ subroutine riisf_mesh_clear_adjacency(mesh, status)
 end subroutine riisf_mesh_clear_adjacency
 
 !> Makes an adjacency of nodes from cells. Two nodes are neighbours if an edge of a cell joins them. Errors: RIIS_INVALID_MESH
-!! naming the cell and its value.
+!! for a bad cell; the message names the cell and its value.
 subroutine riisf_adjacency_from_cells(n_nodes, nodes_per_cell, n_cells, cells, index_base, n_threads, adjacency, status)
   use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -1160,7 +1161,7 @@ subroutine riisf_adjacency_from_cells_64(n_nodes, nodes_per_cell, n_cells, cells
 end subroutine riisf_adjacency_from_cells_64
 
 !> Makes an adjacency from cells of several shapes. If offsets begins with 1, the nodes of cell i are node_ids(offsets(i)) to
-!! node_ids(offsets(i + 1) - 1). Errors: RIIS_INVALID_MESH naming the cell and its value.
+!! node_ids(offsets(i + 1) - 1). Errors: RIIS_INVALID_MESH for a bad cell; the message names the cell and its value.
 subroutine riisf_adjacency_from_mixed(n_nodes, n_cells, node_ids, offsets, index_base, n_threads, adjacency, status)
   use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -1228,8 +1229,8 @@ subroutine riisf_adjacency_from_mixed_64(n_nodes, n_cells, node_ids, offsets, in
   adjacency = handle_of(c_handle)
 end subroutine riisf_adjacency_from_mixed_64
 
-!> Makes an adjacency of cells from faces. Two cells are neighbours if they have a common face. Errors: RIIS_INVALID_MESH naming
-!! the face, and the value of owner or neighbor if it is not a cell.
+!> Makes an adjacency of cells from faces. Two cells are neighbours if they have a common face. Errors: RIIS_INVALID_MESH if an
+!! owner or neighbor is not a cell; the message names the face and the value.
 subroutine riisf_adjacency_from_faces(n_cells, n_faces, face_cells, index_base, n_threads, adjacency, status)
   use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -1346,9 +1347,9 @@ end subroutine riisf_adjacency_destroy
 !! attachment encloses (docs/theory/skirt.md). The skirt's vertices and triangles come after the caller's vertices and triangles.
 !! An open edge belongs to only one triangle. Without `attached`, the attachment is the closed line of open edges that encloses
 !! the largest area. The call refuses the skirt if this area is less than 0.8 of the area inside the leaflets' outline
-!! (RIIS_OUTLINE_BOUNDARY). Errors: RIIS_LIMIT_EXCEEDED for too many triangles. RIIS_INVALID_SURFACE naming the bad face or
-!! vertex and its value, or giving the reason why no attachment was found. RIIS_INVALID_ARGUMENT if a length of the skirt is out
-!! of range.
+!! (RIIS_OUTLINE_BOUNDARY). Errors: RIIS_LIMIT_EXCEEDED for too many triangles. RIIS_INVALID_SURFACE for a bad face or vertex,
+!! and if no attachment is found. The message names the face or vertex and its value, or says why there is no attachment.
+!! RIIS_INVALID_ARGUMENT if a length of the skirt is out of range.
 subroutine riisf_surface_from_arrays(n_vertices, x, y, z, stride, corners_per_face, n_faces, vertex_ids, index_base, &
     half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, surface, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_null_ptr, c_ptr, c_sizeof
@@ -1473,8 +1474,8 @@ subroutine riisf_surface_from_arrays_64(n_vertices, x, y, z, stride, corners_per
 end subroutine riisf_surface_from_arrays_64
 
 !> Makes a surface as riisf_surface_from_arrays does, with a skirt. Errors: RIIS_LIMIT_EXCEEDED for too many triangles.
-!! RIIS_INVALID_SURFACE naming the bad face or vertex and its value, or giving the reason why no attachment was found.
-!! RIIS_INVALID_ARGUMENT if a length of the skirt is out of range.
+!! RIIS_INVALID_SURFACE for a bad face or vertex, and if no attachment is found. The message names the face or vertex and its
+!! value, or says why there is no attachment. RIIS_INVALID_ARGUMENT if a length of the skirt is out of range.
 subroutine riisf_surface_with_skirt(n_vertices, x, y, z, stride, corners_per_face, n_faces, vertex_ids, index_base, &
     attached, skirt_length, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, surface, &
     status)
@@ -1856,8 +1857,8 @@ subroutine riisf_surface_update_arrays_64(surface, n_vertices, x, y, z, stride, 
   status = riis_surface_update_from_arrays(c_handle_of(surface), arrays)
 end subroutine riisf_surface_update_arrays_64
 
-!> Makes keyframes from copies of arrays and frames. Errors: RIIS_INVALID_SURFACE naming the frame, vertex or face.
-!! RIIS_LIMIT_EXCEEDED for too many frames, vertices or faces.
+!> Makes keyframes from copies of arrays and frames. Errors: RIIS_INVALID_SURFACE for a bad frame, vertex or face; the message
+!! names it. RIIS_LIMIT_EXCEEDED for too many frames, vertices or faces.
 subroutine riisf_keyframes_create(n_vertices, n_keys, time, xyz, period, interpolation, corners_per_face, n_faces, &
     vertex_ids, index_base, keyframes, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_null_ptr, c_ptr, c_sizeof
@@ -2431,8 +2432,8 @@ subroutine riisf_surface_direction_64(surface, direction_num, length, n, rate, a
   area_rate = direction%area_rate
 end subroutine riisf_surface_direction_64
 
-!> Finds the closest points of many points, in parallel. Errors: RIIS_INVALID_ARGUMENT naming the first bad point; nothing is
-!! then written.
+!> Finds the closest points of many points, in parallel. Errors: RIIS_INVALID_ARGUMENT for a bad point; the message names the
+!! first bad point, and nothing is written.
 subroutine riisf_closest_points(surface, n_points, x, y, z, stride, distance_limit, n_threads, distance, point, &
     normal, triangle_id, leaflet_id, side, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -2531,7 +2532,7 @@ subroutine riisf_closest_points_64(surface, n_points, x, y, z, stride, distance_
 end subroutine riisf_closest_points_64
 
 !> Works like riisf_closest_points, but for a list of points. Only these points are read, and only their entries are written.
-!! Errors: RIIS_INVALID_ARGUMENT naming the first bad point; nothing is then written.
+!! Errors: RIIS_INVALID_ARGUMENT for a bad point; the message names the first bad point, and nothing is written.
 subroutine riisf_closest_points_listed(surface, n_points, x, y, z, stride, n_listed, point_num, distance_limit, &
     n_threads, distance, point, normal, triangle_id, leaflet_id, side, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_loc, c_ptr, c_sizeof
@@ -2834,7 +2835,7 @@ subroutine riisf_within_limit_64(marks, length, n, node_num, distance, status)
   distance(:n) = c_distance
 end subroutine riisf_within_limit_64
 
-!> Writes every node's distance. Errors: RIIS_INVALID_ARGUMENT naming the field.
+!> Writes every node's distance. Errors: RIIS_INVALID_ARGUMENT for a bad field; the message names the field.
 subroutine riisf_dense_distance(marks, n_nodes, far_distance, distance, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -2858,7 +2859,7 @@ subroutine riisf_dense_distance(marks, n_nodes, far_distance, distance, status)
   status = riis_marks_get_dense(c_handle_of(marks), arrays)
 end subroutine riisf_dense_distance
 
-!> Writes every node's closest triangle. Errors: RIIS_INVALID_ARGUMENT naming the field.
+!> Writes every node's closest triangle. Errors: RIIS_INVALID_ARGUMENT for a bad field; the message names the field.
 subroutine riisf_dense_triangle(marks, n_nodes, triangle_id, status)
   use, intrinsic :: iso_c_binding, only: c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -2878,7 +2879,7 @@ subroutine riisf_dense_triangle(marks, n_nodes, triangle_id, status)
   status = riis_marks_get_dense(c_handle_of(marks), arrays)
 end subroutine riisf_dense_triangle
 
-!> Writes every node's closest leaflet. Errors: RIIS_INVALID_ARGUMENT naming the field.
+!> Writes every node's closest leaflet. Errors: RIIS_INVALID_ARGUMENT for a bad field; the message names the field.
 subroutine riisf_dense_leaflet(marks, n_nodes, leaflet_id, status)
   use, intrinsic :: iso_c_binding, only: c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -2897,7 +2898,7 @@ subroutine riisf_dense_leaflet(marks, n_nodes, leaflet_id, status)
   status = riis_marks_get_dense(c_handle_of(marks), arrays)
 end subroutine riisf_dense_leaflet
 
-!> Writes every node's mark. Errors: RIIS_INVALID_ARGUMENT naming the field.
+!> Writes every node's mark. Errors: RIIS_INVALID_ARGUMENT for a bad field; the message names the field.
 subroutine riisf_dense_mark(marks, n_nodes, mark, status)
   use, intrinsic :: iso_c_binding, only: c_loc, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int8, int32, int64
@@ -4781,8 +4782,8 @@ end subroutine riisf_band_sums_64
 ! Loads of tissue
 ! -----------------------------------------------------------------------------------------------------------------
 
-!> Computes sums over nodes of tissue for riisf_loads_forces, and adds them to an array. Errors: RIIS_INVALID_ARGUMENT naming the
-!! field, or the edge, node or weight and its value.
+!> Computes sums over nodes of tissue for riisf_loads_forces, and adds them to an array. Errors: RIIS_INVALID_ARGUMENT for a bad
+!! field, edge, node or weight; the message names it and its value.
 subroutine riisf_loads_sums(radius, n_edges, edges, edge_leaflet_id, n_nodes, xyz, weight, n_leaflets, sums, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32
@@ -5269,7 +5270,8 @@ end subroutine riisf_find_passage_64
 ! Crossings
 ! -----------------------------------------------------------------------------------------------------------------
 
-!> Finds every pair of the surface's triangles that go through each other. Errors: RIIS_INVALID_ARGUMENT naming the field.
+!> Finds every pair of the surface's triangles that go through each other. Errors: RIIS_INVALID_ARGUMENT for a bad field; the
+!! message names the field.
 subroutine riisf_find_crossings(surface, depth, n_threads, crossings, n_pairs, length, deepest, point, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -5595,9 +5597,9 @@ subroutine riisf_surface_gap(surface, wall, least, mean, most, missed, status)
   missed = int(gap%n_without_wall, int32)
 end subroutine riisf_surface_gap
 
-!> Gives a valve a skirt that just reaches a wall. An earlier skirt of the valve is replaced. Errors: RIIS_INVALID_ARGUMENT
-!! naming the first point from which the wall is not met, or is farther away than `longest`. RIIS_INVALID_PARAMETER for a
-!! bileaflet valve, and for an attachment that encloses no area.
+!> Gives a valve a skirt that just reaches a wall. An earlier skirt of the valve is replaced. Errors: RIIS_INVALID_ARGUMENT if a
+!! skirt from some point does not meet the wall, or would be longer than `longest`; the message names the first such point.
+!! RIIS_INVALID_PARAMETER for a bileaflet valve, and for an attachment that encloses no area.
 subroutine riisf_valve_skirt_to_wall(valve, wall, longest, half_thickness, tolerance, scale, rotation_axis, &
     rotation_angle, translation, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -5635,8 +5637,8 @@ end subroutine riisf_valve_skirt_to_wall
 
 !> Gives the ideal leak of a closed surface: a pressure drop causes the volume flow drop * (eps / R) * area. The area is that of
 !! the surface without a bileaflet housing. If there is an offset o, it is the area of the surface after a shift by o eps along
-!! its normals. The leak in a solver differs from the ideal leak (docs/solvers.md). Errors: RIIS_INVALID_ARGUMENT naming the
-!! field or argument and its value.
+!! its normals. The leak in a solver differs from the ideal leak (docs/solvers.md). Errors: RIIS_INVALID_ARGUMENT for a bad field
+!! or argument; the message names it and its value.
 subroutine riisf_surface_leak(surface, R, half_thickness, drop, flow, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int64
@@ -5714,10 +5716,10 @@ subroutine riisf_valve_swept_volume(valve, opening_from, opening_to, scale, leaf
 end subroutine riisf_valve_swept_volume
 
 !> Finds the openings, or the sizes, at which the orifice of a valve has given areas (docs/theory/measures.md, 'From an area to a
-!! valve'). Errors: RIIS_INVALID_ARGUMENT naming the area. If no opening or size has the area, the message names the range of
-!! areas. RIIS_INVALID_PARAMETER for an unknown name, for a parameter with three values, for a parameter that does not change the
-!! area, and for a valve with one state or no orifice. If a surface cannot be made, the message also names the opening or size.
-!! On an error nothing is written.
+!! valve'). Errors: RIIS_INVALID_ARGUMENT for a bad area; the message names the area. If no opening or size has the area, the
+!! message names the range of areas. RIIS_INVALID_PARAMETER for an unknown name, for a parameter with three values, for a
+!! parameter that does not change the area, and for a valve with one state or no orifice. If a surface cannot be made, the
+!! message also names the opening or size. On an error nothing is written.
 subroutine riisf_find_by_area(valve, name, n_areas, areas, half_thickness, tolerance, scale, rotation_axis, &
     rotation_angle, translation, n_threads, area_kind, values, reached, least, most, n_turns, status)
   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_loc, c_ptr, c_sizeof
@@ -6006,7 +6008,8 @@ end subroutine riisf_find_first_passage_64
 ! a copy of the state. The rate is the derivative of the opening by time.
 ! -----------------------------------------------------------------------------------------------------------------
 
-!> Gives the opening of a table at a time. Errors: RIIS_INVALID_ARGUMENT naming the field, the key and its value.
+!> Gives the opening of a table at a time. Errors: RIIS_INVALID_ARGUMENT for a bad field or key; the message names it and its
+!! value.
 subroutine riisf_opening_from_table(n_keys, key_time, key_opening, period, interpolation, time, opening, rate, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32
@@ -6037,7 +6040,8 @@ subroutine riisf_opening_from_table(n_keys, key_time, key_opening, period, inter
   status = riis_opening_from_table(table, time, opening, rate)
 end subroutine riisf_opening_from_table
 
-!> Gives the opening that two ramps give at a time. Errors: RIIS_INVALID_ARGUMENT naming the field and its value.
+!> Gives the opening that two ramps give at a time. Errors: RIIS_INVALID_ARGUMENT for a bad field; the message names the field
+!! and its value.
 subroutine riisf_opening_from_times(opening_start, opening_duration, closing_start, closing_duration, closed, open, &
     period, time, opening, rate, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -6090,7 +6094,7 @@ subroutine riisf_opening_switch_init(state, phase, status)
 end subroutine riisf_opening_switch_init
 
 !> Advances a switch to a time. The phase changes only at the end of a step, so the error of the opening is of first order in the
-!! length of the step. Errors: RIIS_INVALID_ARGUMENT naming the field or argument and its value.
+!! length of the step. Errors: RIIS_INVALID_ARGUMENT for a bad field or argument; the message names it and its value.
 subroutine riisf_opening_switch_advance(opening_duration, closing_duration, open_above, close_below, filter_time, &
     dwell_time, time, pressure_difference, flow, state, phase, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -6156,8 +6160,8 @@ end subroutine riisf_opening_angle_init
 
 !> Advances the angle law to a time. During a step, the law takes the pressure difference and the flow as linear in time, so the
 !! error of the angle is of second order in the length of the step. During the first step the law takes them as constant, because
-!! no earlier values are known. Errors: RIIS_INVALID_ARGUMENT naming the field or argument and its value. RIIS_LIMIT_EXCEEDED if
-!! the integration of the step needs more than a million smaller steps.
+!! no earlier values are known. Errors: RIIS_INVALID_ARGUMENT for a bad field or argument; the message names it and its value.
+!! RIIS_LIMIT_EXCEEDED if the integration of the step needs more than a million smaller steps.
 subroutine riisf_opening_angle_advance(pressure_gain, flow_gain, friction, vortex_gain, angle_min, angle_max, time, &
     pressure_difference, flow, state, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -6282,8 +6286,8 @@ subroutine riisf_place(valve, n_landmarks, xyz, role, leaflet_id, scale, noise, 
 end subroutine riisf_place
 
 !> Makes a warp from landmarks on the unwarped valve. The map is the identity until riisf_warp_set_targets gives it targets.
-!! Errors: RIIS_INVALID_ARGUMENT naming the landmark or field and its value, also if two landmarks are in one place, and if all
-!! landmarks lie on a line.
+!! Errors: RIIS_INVALID_ARGUMENT for a bad landmark or field, if two landmarks are in one place, and if all landmarks lie on a
+!! line. The message names the landmark or field and its value.
 subroutine riisf_warp_create(n_landmarks, xyz, noise, scale, rotation_axis, rotation_angle, translation, warp, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_loc, c_null_ptr, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -6332,9 +6336,9 @@ subroutine riisf_warp_create(n_landmarks, xyz, noise, scale, rotation_axis, rota
 end subroutine riisf_warp_create
 
 !> Makes the warp take the landmarks to the targets. Earlier targets have no influence on the map, not even on its last bits.
-!! Errors: RIIS_INVALID_ARGUMENT naming the point. RIIS_INVALID_PARAMETER for a warp that folds. For this test, the call computes
-!! the determinant of the map's derivative half way between each landmark and its nearest landmark. The warp folds if a
-!! determinant is 0 or less. A larger noise in the options smooths the map, and may prevent folds.
+!! Errors: RIIS_INVALID_ARGUMENT for a bad point; the message names the point. RIIS_INVALID_PARAMETER for a warp that folds. For
+!! this test, the call computes the determinant of the map's derivative half way between each landmark and its nearest landmark.
+!! The warp folds if a determinant is 0 or less. A larger noise in the options smooths the map, and may prevent folds.
 subroutine riisf_warp_set_targets(warp, n_landmarks, xyz, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64

@@ -40,7 +40,7 @@ typedef struct riis_opening_table {
 RIIS_API riis_status riis_opening_table_init(riis_opening_table *table, int64_t struct_size); /* the defaults */
 /* Gives the opening of a table at a time. Each of `opening` and `rate` may be NULL.
  *   `time`: magnitude at most 1e30.
- * Errors: RIIS_INVALID_ARGUMENT naming the field, the key and its value. */
+ * Errors: RIIS_INVALID_ARGUMENT for a bad field or key; the message names it and its value. */
 RIIS_API riis_status riis_opening_from_table(const riis_opening_table *table, double time, double *opening,
                                              double *rate);
 
@@ -61,7 +61,7 @@ typedef struct riis_opening_times {
 RIIS_API riis_status riis_opening_times_init(riis_opening_times *times, int64_t struct_size); /* the defaults */
 /* Gives the opening that two ramps give at a time. Each of `opening` and `rate` may be NULL.
  *   `time`: magnitude at most 1e30.
- * Errors: RIIS_INVALID_ARGUMENT naming the field and its value. */
+ * Errors: RIIS_INVALID_ARGUMENT for a bad field; the message names the field and its value. */
 RIIS_API riis_status riis_opening_from_times(const riis_opening_times *times, double time, double *opening,
                                              double *rate);
 
@@ -102,7 +102,7 @@ RIIS_API riis_status riis_opening_switch_state_init(riis_opening_switch_state *s
  * length of the step.
  *   `time`: at least before->time, magnitude at most 1e30.
  *   `pressure_difference`, `flow`: at that time, magnitude at most 1e30.
- * Errors: RIIS_INVALID_ARGUMENT naming the field or argument and its value; *now does not change. */
+ * Errors: RIIS_INVALID_ARGUMENT for a bad field or argument; the message names it and its value. *now does not change. */
 RIIS_API riis_status riis_opening_switch_advance(const riis_opening_switch *law,
                                                  const riis_opening_switch_state *before, double time,
                                                  double pressure_difference, double flow,
@@ -141,8 +141,8 @@ RIIS_API riis_status riis_opening_angle_state_init(riis_opening_angle_state *sta
  * no earlier values are known.
  *   `time`: at least before->time, magnitude at most 1e30.
  *   `pressure_difference`, `flow`: at that time, magnitude at most 1e30.
- * Errors: RIIS_INVALID_ARGUMENT naming the field or argument and its value. RIIS_LIMIT_EXCEEDED if the integration of the step
- * needs more than a million smaller steps. *now does not change. */
+ * Errors: RIIS_INVALID_ARGUMENT for a bad field or argument; the message names it and its value. RIIS_LIMIT_EXCEEDED if the
+ * integration of the step needs more than a million smaller steps. *now does not change. */
 RIIS_API riis_status riis_opening_angle_advance(const riis_opening_angle *law,
                                                 const riis_opening_angle_state *before, double time,
                                                 double pressure_difference, double flow,

@@ -43,7 +43,7 @@ RIIS_API riis_status riis_loads_init(riis_loads *loads, int64_t struct_size); /*
  * A bileaflet valve has no attachment, and a surface from arrays has one only with `attached` or a skirt. For a surface without
  * an attachment, pass the edges at which the leaflets are sewn or hinged. With MPI each rank passes its own nodes, and all ranks
  * then add up their sums.
- * Errors: RIIS_INVALID_ARGUMENT naming the field, or the edge, node or weight and its value. */
+ * Errors: RIIS_INVALID_ARGUMENT for a bad field, edge, node or weight; the message names it and its value. */
 RIIS_API riis_status riis_loads_add_sums(const riis_loads *loads, const riis_points *nodes, const double *weight, double *sums);
 /* Adds the forces of the leaflets at nodes of tissue. Up to rounding, the forces of a leaflet have the sum leaflet_force and the
  * moment leaflet_moment.

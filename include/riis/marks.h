@@ -186,7 +186,7 @@ typedef struct riis_dense_arrays {
 } riis_dense_arrays;
 RIIS_API riis_status riis_dense_arrays_init(riis_dense_arrays *arrays, int64_t struct_size); /* the defaults */
 /* Writes the marks to every entry of the caller's arrays.
- * Errors: RIIS_INVALID_ARGUMENT naming the field. */
+ * Errors: RIIS_INVALID_ARGUMENT for a bad field; the message names the field. */
 RIIS_API riis_status riis_marks_get_dense(const riis_marks *marks, const riis_dense_arrays *arrays);
 
 /* Counts and times of the last marking. */

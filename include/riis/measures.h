@@ -128,10 +128,10 @@ typedef struct riis_area_range {
  * gives the size nearest to the present size. With RIIS_TRIANGULATION_ADAPTED the area jumps by up to 1e-4 of the largest area
  * wherever the triangles change. If a wanted area lies within such a jump, the call gives the end of the jump with the nearer
  * area. The search may miss an area that occurs only between two neighbouring samples.
- * Errors: RIIS_INVALID_ARGUMENT naming the area. If no opening or size has the area, the message names the range of areas.
- * RIIS_INVALID_PARAMETER for an unknown name, for a parameter with three values, for a parameter that does not change the area,
- * and for a valve with one state or no orifice. If a surface cannot be made, the message also names the opening or size. On an
- * error nothing is written. */
+ * Errors: RIIS_INVALID_ARGUMENT for a bad area; the message names the area. If no opening or size has the area, the message names
+ * the range of areas. RIIS_INVALID_PARAMETER for an unknown name, for a parameter with three values, for a parameter that does
+ * not change the area, and for a valve with one state or no orifice. If a surface cannot be made, the message also names the
+ * opening or size. On an error nothing is written. */
 RIIS_API riis_status riis_find_by_area(const riis_valve *valve, const char *name, int64_t n_areas,
                                        const double *areas, const riis_area_search *search, double *values,
                                        double *reached, riis_area_range *range, int64_t struct_size);
@@ -162,7 +162,7 @@ RIIS_API riis_status riis_surface_get_coaptation(const riis_surface *surface, do
  *   `resistance`: only R, 1e-60 to 1e60, and half_thickness are used. RIIS_AUTO stands for the surface's half thickness.
  *   `drop`: upstream pressure minus downstream pressure, magnitude at most 1e30.
  *   `flow`: the volume flow, in the unit of drop * area * eps / R. In SI units this is m^3/s.
- * Errors: RIIS_INVALID_ARGUMENT naming the field or argument and its value. */
+ * Errors: RIIS_INVALID_ARGUMENT for a bad field or argument; the message names it and its value. */
 RIIS_API riis_status riis_surface_get_leak(const riis_surface *surface, const riis_resistance *resistance,
                                            double drop, double *flow);
 

@@ -21,7 +21,8 @@ typedef struct riis_mesh riis_mesh;
 /* Borrows node coordinates and checks them once. The coordinates must stay in place until the mesh is updated or destroyed. With
  * MPI, processes without nodes must also make a mesh.
  *   `n_nodes`: 0 to 2^40; with 0 the pointers may be NULL.
- * Errors: RIIS_INVALID_MESH naming the node and the value. RIIS_LIMIT_EXCEEDED for too many nodes. */
+ * Errors: RIIS_INVALID_MESH for a bad coordinate; the message names the node and the value. RIIS_LIMIT_EXCEEDED for too many
+ * nodes. */
 RIIS_API riis_status riis_mesh_create(int64_t n_nodes, const double *x, const double *y, const double *z,
                                       int64_t stride, riis_mesh **mesh);
 /* Tells the mesh that coordinates have changed or are now in other arrays, and checks them again. Call this function after every
@@ -70,8 +71,8 @@ RIIS_API riis_status riis_grid_init(riis_grid *grid, int64_t struct_size); /* th
  * riis_adjacency_create_from_grid. Axes are not periodic. Markings of the mesh refuse RIIS_SEARCH_NEIGHBOR and RIIS_SEARCH_PAPER.
  * If the grid has more than 10^8 nodes, they also refuse sampling and minimisation.
  *   `grid`: the axes, which are copied. For all other calls, n_nodes of the grid is the number of nodes of the mesh.
- * Errors: RIIS_INVALID_MESH naming the axis, the index and the value. RIIS_LIMIT_EXCEEDED if a node has a number of 2^40 or
- * more. */
+ * Errors: RIIS_INVALID_MESH for a bad axis; the message names the axis, the index and the value. RIIS_LIMIT_EXCEEDED if a node
+ * has a number of 2^40 or more. */
 RIIS_API riis_status riis_mesh_create_grid(const riis_grid *grid, riis_mesh **mesh);
 /* Gives a mesh other axes. A mesh of points becomes a grid; riis_mesh_update makes it a mesh of points again.
  * Errors: as riis_mesh_create_grid. After an error the mesh keeps its nodes. */
@@ -96,7 +97,7 @@ RIIS_API riis_status riis_csr_init(riis_csr *csr, int64_t struct_size); /* the d
 /* Gives the mesh an adjacency, the edges along which the neighbour search walks, and checks it once.
  *   `csr`: the mesh borrows the arrays of the struct. These arrays must stay in place, unchanged, until the mesh is destroyed or
  *     gets another adjacency. NULL removes the adjacency. A call of riis_mesh_update with another n_nodes also removes it.
- * Errors: RIIS_INVALID_MESH naming the row and its value. */
+ * Errors: RIIS_INVALID_MESH for a bad row; the message names the row and its value. */
 RIIS_API riis_status riis_mesh_set_adjacency(riis_mesh *mesh, const riis_csr *csr);
 
 /* ---- Adjacency from cells, faces, or a structured grid ------------------------------------------------- */
@@ -122,7 +123,7 @@ typedef struct riis_mesh_cells {
 } riis_mesh_cells;
 RIIS_API riis_status riis_mesh_cells_init(riis_mesh_cells *cells, int64_t struct_size); /* the defaults */
 /* Makes an adjacency of nodes from cells. Two nodes are neighbours if an edge of a cell joins them.
- * Errors: RIIS_INVALID_MESH naming the cell and its value. */
+ * Errors: RIIS_INVALID_MESH for a bad cell; the message names the cell and its value. */
 RIIS_API riis_status riis_adjacency_create_from_cells(const riis_mesh_cells *cells, riis_adjacency **adjacency);
 
 /* Faces between cells, for codes that mark cell centres. */
@@ -141,7 +142,7 @@ typedef struct riis_mesh_faces {
 } riis_mesh_faces;
 RIIS_API riis_status riis_mesh_faces_init(riis_mesh_faces *faces, int64_t struct_size); /* the defaults */
 /* Makes an adjacency of cells from faces. Two cells are neighbours if they have a common face.
- * Errors: RIIS_INVALID_MESH naming the face, and the value of owner or neighbor if it is not a cell. */
+ * Errors: RIIS_INVALID_MESH if an owner or neighbor is not a cell; the message names the face and the value. */
 RIIS_API riis_status riis_adjacency_create_from_faces(const riis_mesh_faces *faces, riis_adjacency **adjacency);
 
 /* Makes the adjacency of a structured grid. Two nodes are neighbours if they differ by 1 in exactly one of i, j, k.

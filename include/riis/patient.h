@@ -15,7 +15,8 @@ extern "C" {
 
 /* ---- Landmarks: a valve's sizes and placement from points that a person marks in an image ----------------- */
 
-/* The anatomical place of a landmark. Landmarks are marked on the closed valve. */
+/* The anatomical place of a landmark. Landmarks are marked on the closed valve. The comment of each value names the kinds of
+ * valves, the place, and the number of such landmarks. */
 enum {
   RIIS_LANDMARK_COMMISSURE = 0,     /* cusps: the top of the attachment between two cusps; as many as there are cusps. tricuspid:
                                        the annulus between two leaflets; exactly 3 */
@@ -152,21 +153,22 @@ RIIS_API riis_status riis_warp_options_init(riis_warp_options *options, int64_t 
 /* Makes a warp from landmarks on the unwarped valve. The map is the identity until riis_warp_set_targets gives it targets.
  *   `sources`: 3 to 1000 landmarks. If the landmarks lie nearly in a plane (riis_warp_info.is_planar), the map stretches lengths
  *     normal to the plane as much as lengths in the plane, and keeps normals of the plane at right angles to it.
- * Errors: RIIS_INVALID_ARGUMENT naming the landmark or field and its value, also if two landmarks are in one place, and if all
- * landmarks lie on a line. */
+ * Errors: RIIS_INVALID_ARGUMENT for a bad landmark or field, if two landmarks are in one place, and if all landmarks lie on a
+ * line. The message names the landmark or field and its value. */
 RIIS_API riis_status riis_warp_create(const riis_points *sources, const riis_warp_options *options, riis_warp **warp);
 /* Destroys the warp. Valves with this warp keep their copies. */
 RIIS_API void riis_warp_destroy(riis_warp **warp);
 /* Makes the warp take the landmarks to the targets. Earlier targets have no influence on the map, not even on its last bits.
  *   `targets`: one point for each source, in the order of the sources.
- * Errors: RIIS_INVALID_ARGUMENT naming the point. RIIS_INVALID_PARAMETER for a warp that folds. For this test, the call computes
- * the determinant of the map's derivative half way between each landmark and its nearest landmark. The warp folds if a
- * determinant is 0 or less. A larger noise in the options smooths the map, and may prevent folds. */
+ * Errors: RIIS_INVALID_ARGUMENT for a bad point; the message names the point. RIIS_INVALID_PARAMETER for a warp that folds. For
+ * this test, the call computes the determinant of the map's derivative half way between each landmark and its nearest landmark.
+ * The warp folds if a determinant is 0 or less. A larger noise in the options smooths the map, and may prevent folds. */
 RIIS_API riis_status riis_warp_set_targets(riis_warp *warp, const riis_points *targets);
 /* Makes the warp take the landmarks to their places at a given time. The places are interpolated between the frames of a table.
  *   `frames`: the table: its n_vertices is the number of landmarks. The call reads the arrays of the table only while it runs.
  *   `time`: magnitude at most 1e30.
- * Errors: as riis_warp_set_targets. RIIS_INVALID_ARGUMENT naming the field, key or landmark and its value. */
+ * Errors: as riis_warp_set_targets. RIIS_INVALID_ARGUMENT also for a bad field, key or landmark; the message names it and its
+ * value. */
 RIIS_API riis_status riis_warp_set_targets_at(riis_warp *warp, const riis_keyframe_arrays *frames, double time);
 
 /* A warp's quality, in the units of its landmarks. */
@@ -188,7 +190,7 @@ RIIS_API riis_status riis_warp_get_info(const riis_warp *warp, riis_warp_info *i
 /* Maps points, such as points on the chords of a mitral valve.
  *   `points`: the points, in the coordinates of the landmarks.
  *   `mapped` (3, n_points); may be the array of the points.
- * Errors: RIIS_INVALID_ARGUMENT naming the point. */
+ * Errors: RIIS_INVALID_ARGUMENT for a bad point; the message names the point. */
 RIIS_API riis_status riis_warp_map(const riis_warp *warp, const riis_points *points, double *mapped);
 
 /* Warps a valve by one or two maps, which the valve copies. The maps move the valve's curves at every opening, before the
@@ -234,8 +236,8 @@ RIIS_API riis_status riis_surface_get_gap(const riis_surface *surface, const rii
  * At each point of the closed valve's attachment, the skirt is as long as the gap, but at least 0.01 of the attachment's mean
  * distance from the axis. These lengths do not change while the valve opens. The parameter "skirt_length" becomes the largest of
  * the lengths, before placement. If the caller later sets "skirt_length", the skirt has this length at all points.
- * Errors: RIIS_INVALID_ARGUMENT naming the first point from which the wall is not met, or is farther away than `longest`.
- * RIIS_INVALID_PARAMETER for a bileaflet valve, and for an attachment that encloses no area. */
+ * Errors: RIIS_INVALID_ARGUMENT if a skirt from some point does not meet the wall, or would be longer than `longest`; the message
+ * names the first such point. RIIS_INVALID_PARAMETER for a bileaflet valve, and for an attachment that encloses no area. */
 RIIS_API riis_status riis_valve_set_skirt_to_wall(riis_valve *valve, const riis_surface *wall, double longest,
                                                   const riis_surface_options *options);
 

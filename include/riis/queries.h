@@ -30,7 +30,7 @@ typedef struct riis_closest {
 /* Finds the closest point of the surface, at any distance from it, in double precision. The result is the same as from a loop
  * over all triangles. Distances below 1e-154 underflow to 0.
  *   `point`: 3 finite coordinates, magnitude at most 1e60.
- * Errors: RIIS_INVALID_ARGUMENT naming the coordinate. */
+ * Errors: RIIS_INVALID_ARGUMENT for a bad coordinate; the message names the coordinate. */
 RIIS_API riis_status riis_closest_point(const riis_surface *surface, const double *point, riis_closest *closest,
                                         int64_t struct_size);
 
@@ -72,7 +72,7 @@ RIIS_API riis_status riis_closest_arrays_init(riis_closest_arrays *arrays, int64
 
 /* Finds the closest points of many points, in parallel.
  *   `arrays`: the arrays that the call writes. They must not overlap each other or the coordinates.
- * Errors: RIIS_INVALID_ARGUMENT naming the first bad point; nothing is then written. */
+ * Errors: RIIS_INVALID_ARGUMENT for a bad point; the message names the first bad point, and nothing is written. */
 RIIS_API riis_status riis_closest_points(const riis_surface *surface, const riis_points *points,
                                          const riis_closest_options *options,
                                          const riis_closest_arrays *arrays);
@@ -104,7 +104,7 @@ RIIS_API void riis_crossings_destroy(riis_crossings **crossings); /* destroys th
  * the surface measures distances by sampling or minimisation. Where the smooth leaflets only touch, their triangles may cross as
  * deep as twice riis_surface_info.error_bound. If a log function is set (riis_set_log), updates of a surface send it warnings of
  * deeper crossings, even without this call.
- * Errors: RIIS_INVALID_ARGUMENT naming the field. */
+ * Errors: RIIS_INVALID_ARGUMENT for a bad field; the message names the field. */
 RIIS_API riis_status riis_find_crossings(const riis_surface *surface, const riis_crossing_options *options,
                                          riis_crossings *crossings);
 

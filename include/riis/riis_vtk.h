@@ -38,7 +38,8 @@ typedef struct riis_vtk_mesh riis_vtk_mesh;
  *     may also be a folder of OpenFOAM: a case, a time folder of a case, or a polyMesh.
  * HDF5 and VTK's reader of Exodus can crash on damaged files. If you do not trust an .xdmf or Exodus file, read it in a separate
  * process. The program riis does so.
- * Errors: RIIS_FILE_ERROR naming the file, if it is missing, unreadable or truncated, has another format, or has no points. */
+ * Errors: RIIS_FILE_ERROR if the file is missing, unreadable or truncated, has another format, or has no points. The message
+ * names the file. */
 RIIS_API riis_status riis_vtk_mesh_read(const char *path, riis_vtk_mesh **mesh);
 /* Gives notes about the file in one line, such as "its points have single precision", or "" if there are none. The text is valid
  * until the mesh is destroyed. */
@@ -168,7 +169,8 @@ RIIS_API riis_status riis_vtk_mesh_find_regions(riis_vtk_mesh *mesh, const char 
  *   `distance`: >= 0, finite, in the unit of xyz. With 0, the call finds the points that lie in no cell.
  *   `is_outside` (n_points): before the call, 1 for each point to test, and 0 for the others. For each point that is not outside,
  *     the call changes the 1 to 0.
- * Errors: RIIS_INVALID_ARGUMENT naming the argument and its value; is_outside is then unchanged. */
+ * Errors: RIIS_INVALID_ARGUMENT for a bad argument; the message names the argument and its value, and is_outside does not
+ * change. */
 RIIS_API riis_status riis_vtk_mesh_find_outside(const riis_vtk_mesh *mesh, int64_t n_points, const double *xyz,
                                                 double distance, uint8_t *is_outside);
 
@@ -177,7 +179,7 @@ RIIS_API riis_status riis_vtk_mesh_find_outside(const riis_vtk_mesh *mesh, int64
  * (Int64). The new mesh borrows nothing.
  *   `n_ids`: >= 0.
  *   `node_ids` (n_ids), 0 to n_nodes - 1, in any order.
- * Errors: RIIS_INVALID_ARGUMENT naming the bad id and its position in node_ids. */
+ * Errors: RIIS_INVALID_ARGUMENT for a bad id; the message names the id and its position in node_ids. */
 RIIS_API riis_status riis_vtk_mesh_extract(const riis_vtk_mesh *mesh, int64_t n_ids, const int64_t *node_ids,
                                            riis_vtk_mesh **part);
 /* Gives the size of the file that riis_vtk_mesh_write would write, in bytes, without a few kilobytes of text. */
@@ -199,8 +201,8 @@ RIIS_API riis_status riis_vtk_mesh_write(const riis_vtk_mesh *mesh, const char *
 typedef struct riis_vtk_pieces riis_vtk_pieces;
 /* Reads a list of pieces from a file, but not the pieces themselves.
  *   `path`: ends in .pvtu. Names of pieces are absolute, or relative to the folder of the .pvtu file.
- * Errors: as riis_vtk_mesh_read. RIIS_FILE_ERROR naming the piece if it is missing, is listed twice or is not a .vtu file.
- * RIIS_FILE_ERROR also if the list is empty. */
+ * Errors: as riis_vtk_mesh_read. RIIS_FILE_ERROR also if the list is empty, and if a piece is missing, is listed twice or is not
+ * a .vtu file. The message names the piece. */
 RIIS_API riis_status riis_vtk_pieces_read(const char *path, riis_vtk_pieces **pieces);
 /* Makes a list of pieces for riis_vtk_pieces_write. The pieces have the same arrays as `mesh`. The list borrows nothing.
  *   `n_files`: 1 to 1,000,000.
@@ -264,8 +266,8 @@ typedef struct riis_vtk_surface riis_vtk_surface;
  * If the file has the point array riis_attached, with one number for each point, it becomes riis_surface_arrays.attached. Quads
  * that become triangles are cut from their first corner to their third. If this line runs outside a concave quad, the cut goes
  * from the second corner to the fourth.
- * Errors: RIIS_FILE_ERROR naming the file, the bad cell and its value. If the array of leaflet ids is missing, the message names
- * the arrays that exist. */
+ * Errors: RIIS_FILE_ERROR for a bad file; the message names the file, the bad cell and its value. If the array of leaflet ids is
+ * missing, the message names the arrays that exist. */
 RIIS_API riis_status riis_vtk_surface_read(const char *path, const char *leaflets, riis_vtk_surface **surface);
 /* Makes a surface of the mesh's boundary, such as the wall around the blood. Each face of the boundary belongs to only one volume
  * cell, and its normal points outwards. Faces of cells of higher order get straight edges. The surface borrows nothing from the
@@ -315,20 +317,20 @@ RIIS_API riis_status riis_vtk_surface_write(const riis_surface *surface, const c
  *   the same position in the first file become one vertex, so they must also share one position in every other file. If leaflets
  *   touch at corners in the first file and separate later, use .vtp files, which have numbered points.
  * - Times ascend strictly, and coordinates are finite, as in riis_keyframe_arrays.
- * Errors: RIIS_FILE_ERROR naming the file and the difference, with its value. */
+ * Errors: RIIS_FILE_ERROR if a file does not fit the first file; the message names the file and the difference. */
 typedef struct riis_vtk_motion riis_vtk_motion;
 
 /* Reads a motion from a ParaView collection. Each DataSet has a timestep and the path of a file, which is absolute or relative to
  * the folder of the .pvd file. Other attributes of a DataSet are ignored. Two DataSets with the same timestep, such as two parts,
  * are refused.
- * Errors: RIIS_FILE_ERROR naming the .pvd file and the DataSet, also if there is no DataSet. */
+ * Errors: RIIS_FILE_ERROR for a bad DataSet, and if there is no DataSet. The message names the .pvd file and the DataSet. */
 RIIS_API riis_status riis_vtk_motion_read_pvd(const char *path, const char *leaflets,
                                               riis_vtk_motion **motion);
 /* Reads a motion from a list of files.
  *   `n_files`: 1 to 1,000,000.
  *   `paths` (n_files).
  *   `times` (n_files).
- * Errors: RIIS_INVALID_ARGUMENT naming the bad entry of paths or times. */
+ * Errors: RIIS_INVALID_ARGUMENT for a bad entry of paths or times; the message names the entry. */
 RIIS_API riis_status riis_vtk_motion_read_files(int64_t n_files, const char *const *paths,
                                                 const double *times, const char *leaflets,
                                                 riis_vtk_motion **motion);
@@ -338,7 +340,7 @@ RIIS_API riis_status riis_vtk_motion_read_files(int64_t n_files, const char *con
  *     displacement_10. Frames are in the order of the numbers, which may have gaps.
  *   `n_times`: the number of arrays of displacements, or 0.
  *   `times` (n_times): the times of the frames. NULL, with n_times 0: the times are those of the field array TimeValue.
- * Errors: RIIS_INVALID_ARGUMENT naming a bad entry of times, or if n_times is not the number of arrays. */
+ * Errors: RIIS_INVALID_ARGUMENT if n_times is not the number of arrays, and for a bad entry of times, which the message names. */
 RIIS_API riis_status riis_vtk_motion_read_displacements(const char *path, const char *prefix, int64_t n_times,
                                                         const double *times, const char *leaflets,
                                                         riis_vtk_motion **motion);
@@ -352,7 +354,7 @@ RIIS_API riis_status riis_vtk_motion_read_frames(const char *path, double time_s
                                                  riis_vtk_motion **motion);
 /* Adds the faces of another motion with the same times. Each motion becomes one leaflet, as in riis_vtk_surface_append.
  * riis_vtk_motion_get_files then gives the files of both motions. `other` does not change.
- * Errors: RIIS_INVALID_ARGUMENT naming the first frame whose time differs. */
+ * Errors: RIIS_INVALID_ARGUMENT if the times differ; the message names the first frame whose time differs. */
 RIIS_API riis_status riis_vtk_motion_append(riis_vtk_motion *motion, const riis_vtk_motion *other);
 /* Gives the paths of the files that were read: one file for each frame, or the one file with displacements.
  *   `paths` (n_files): the paths, valid until the motion is destroyed. Relative paths in a .pvd file get its folder in front. */

@@ -37,7 +37,7 @@ enum {
 
 /* What happens to triangles of zero area in the caller's arrays. */
 enum {
-  RIIS_ZERO_AREA_REFUSE = 0, /* refuse the surface: RIIS_INVALID_SURFACE naming the first such triangle */
+  RIIS_ZERO_AREA_REFUSE = 0, /* refuse the surface: RIIS_INVALID_SURFACE, and the message names the first such triangle */
   RIIS_ZERO_AREA_SKIP = 1    /* skip and count such triangles, and log a warning; other triangles keep their ids */
 };
 
@@ -149,8 +149,9 @@ RIIS_API riis_status riis_surface_arrays_init(riis_surface_arrays *arrays, int64
  * An open edge belongs to only one triangle. Without `attached`, the attachment is the closed line of open edges that encloses
  * the largest area. The call refuses the skirt if this area is less than 0.8 of the area inside the leaflets' outline
  * (RIIS_OUTLINE_BOUNDARY).
- * Errors: RIIS_LIMIT_EXCEEDED for too many triangles. RIIS_INVALID_SURFACE naming the bad face or vertex and its value, or giving
- * the reason why no attachment was found. RIIS_INVALID_ARGUMENT if a length of the skirt is out of range. */
+ * Errors: RIIS_LIMIT_EXCEEDED for too many triangles. RIIS_INVALID_SURFACE for a bad face or vertex, and if no attachment is
+ * found. The message names the face or vertex and its value, or says why there is no attachment. RIIS_INVALID_ARGUMENT if a
+ * length of the skirt is out of range. */
 RIIS_API riis_status riis_surface_create_from_arrays(const riis_surface_arrays *arrays,
                                                      const riis_surface_options *options,
                                                      riis_surface **surface);
@@ -287,7 +288,8 @@ RIIS_API riis_status riis_keyframe_arrays_init(riis_keyframe_arrays *frames, int
 /* Makes keyframes from copies of arrays and frames.
  *   `arrays`: as for riis_surface_create_from_arrays, except that vertices and velocities are ignored, and may be NULL. If the
  *     attachment of a skirt is not given, it is found in the first frame.
- * Errors: RIIS_INVALID_SURFACE naming the frame, vertex or face. RIIS_LIMIT_EXCEEDED for too many frames, vertices or faces. */
+ * Errors: RIIS_INVALID_SURFACE for a bad frame, vertex or face; the message names it. RIIS_LIMIT_EXCEEDED for too many frames,
+ * vertices or faces. */
 RIIS_API riis_status riis_keyframes_create(const riis_surface_arrays *arrays,
                                            const riis_keyframe_arrays *frames, riis_keyframes **keyframes);
 /* Destroys the keyframes. Surfaces made from them stay. */

@@ -47,7 +47,7 @@ RIIS_API void riis_valve_destroy(riis_valve **valve);
  * - "skirt_length" gives any valve except "bileaflet" a skirt. The skirt is a strip that leads outwards from the attachment and
  *   closes the gap to the wall (docs/theory/skirt.md). The length is 0 (the default), or 1e-4 to 10 times
  *   the mean distance of the attachment from the axis of the attachment. The skirt_length of an open state is ignored.
- * Errors: RIIS_INVALID_PARAMETER naming the parameter and the value. */
+ * Errors: RIIS_INVALID_PARAMETER for a bad name or value; the message names the parameter and the value. */
 RIIS_API riis_status riis_valve_set(riis_valve *valve, const char *name, int64_t n_values,
                                     const double *values);
 /* Sets a parameter that has one value. Arguments and errors are as in riis_valve_set. */
@@ -115,7 +115,8 @@ RIIS_API riis_status riis_patches_init(riis_patches *patches, int64_t struct_siz
 /* Makes a valve from copies of the patches. The valve's parameters are "opening" and "skirt_length". If the valve has a skirt,
  * the skirt continues each side v = 0 that belongs to only one patch. The patch_id of a triangle is the number of its patch,
  * counted from 0.
- * Errors: RIIS_INVALID_PARAMETER naming the curve or patch and its value, such as sides that do not meet. */
+ * Errors: RIIS_INVALID_PARAMETER for a bad curve or patch, for example if its sides do not meet. The message names the curve or
+ * patch and its value. */
 RIIS_API riis_status riis_valve_create_from_patches(const riis_patches *patches, riis_valve **valve);
 
 /* The description of a parameter. The texts are static. */
