@@ -98,7 +98,7 @@ subroutine riisf_valve_set(valve, name, n_values, values, status)
                                                           !! sets only that parameter.
   integer(int32), intent(in) :: n_values                  !< 3 for translation (x, y, z), and for rotation, t0_* and t3_*
                                                           !! (right, left, non-coronary cusp); 1 for other parameters.
-  real(c_double), intent(in) :: values(*)                 !< (n_values), within the parameter's range.
+  real(c_double), intent(in) :: values(*)                 !< (n_values): the values, within the parameter's range.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   character(len=len_trim(name) + 1, kind=c_char) :: c_name
   call end_for_c(name, c_name)
@@ -121,7 +121,7 @@ subroutine riisf_valve_get(valve, name, n_values, values, status)
                                                           !! sets only that parameter.
   integer(int32), intent(in) :: n_values                  !< 3 for translation (x, y, z), and for rotation, t0_* and t3_*
                                                           !! (right, left, non-coronary cusp); 1 for other parameters.
-  real(c_double), intent(inout) :: values(*)              !< (n_values), within the parameter's range.
+  real(c_double), intent(inout) :: values(*)              !< (n_values): the values, within the parameter's range.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   character(len=len_trim(name) + 1, kind=c_char) :: c_name
   call end_for_c(name, c_name)
@@ -1340,16 +1340,16 @@ end subroutine riisf_adjacency_destroy
 ! Triangles without area are refused.
 ! -----------------------------------------------------------------------------------------------------------------
 
-!> Makes a surface from arrays, with the caller's winding. The id of a triangle is the number of its face. The halves of quad q
-!! have the ids 2 q and 2 q + 1. The id of a skipped triangle is not used again. A triangle has zero area if its longest edge is
-!! shorter than 1e-60, or if its height over its longest edge is at most 1e-12 of this edge. A skirt leads outwards from the axis
-!! of the attachment. This axis passes through the centroid of the attachment, in the direction of the vector area that the
-!! attachment encloses (docs/theory/skirt.md). The skirt's vertices and triangles come after the caller's vertices and triangles.
-!! An open edge belongs to only one triangle. Without `attached`, the attachment is the closed line of open edges that encloses
-!! the largest area. The call refuses the skirt if this area is less than 0.8 of the area inside the leaflets' outline
-!! (RIIS_OUTLINE_BOUNDARY). Errors: RIIS_LIMIT_EXCEEDED for too many triangles. RIIS_INVALID_SURFACE for a bad face or vertex,
-!! and if no attachment is found. The message names the face or vertex and its value, or says why there is no attachment.
-!! RIIS_INVALID_ARGUMENT if a length of the skirt is out of range.
+!> Makes a surface from arrays, and keeps the winding of the caller's faces. The id of a triangle is the number of its face. The
+!! halves of quad q have the ids 2 q and 2 q + 1. The id of a skipped triangle is not used again. A triangle has zero area if its
+!! longest edge is shorter than 1e-60, or if its height over its longest edge is at most 1e-12 of this edge. A skirt leads
+!! outwards from the axis of the attachment. This axis passes through the centroid of the attachment, in the direction of the
+!! vector area that the attachment encloses (docs/theory/skirt.md). The skirt's vertices and triangles come after the caller's
+!! vertices and triangles. An open edge belongs to only one triangle. Without `attached`, the attachment is the closed line of
+!! open edges that encloses the largest area. The call refuses the skirt if this area is less than 0.8 of the area inside the
+!! leaflets' outline (RIIS_OUTLINE_BOUNDARY). Errors: RIIS_LIMIT_EXCEEDED for too many triangles. RIIS_INVALID_SURFACE for a bad
+!! face or vertex, and if no attachment is found. The message names the face or vertex and its value, or says why there is no
+!! attachment. RIIS_INVALID_ARGUMENT if a length of the skirt is out of range.
 subroutine riisf_surface_from_arrays(n_vertices, x, y, z, stride, corners_per_face, n_faces, vertex_ids, index_base, &
     half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, surface, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_null_ptr, c_ptr, c_sizeof
@@ -1974,7 +1974,7 @@ subroutine riisf_surface_from_keyframes(keyframes, time, dt, half_thickness, tol
       riis_surface_options_init
   implicit none
   integer(int64), intent(in) :: keyframes                 !< From riisf_keyframes_create, for example.
-  real(c_double), intent(in) :: time                      !< Finite, magnitude at most 1e30.
+  real(c_double), intent(in) :: time                      !< The time, finite and at most 1e30 in magnitude.
   real(c_double), intent(in) :: dt                        !< The velocity is the mean from time - dt to time. With dt 0, the
                                                           !! velocity is the time derivative of the interpolation.
   real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
@@ -2018,7 +2018,7 @@ subroutine riisf_surface_offset_keyframes(keyframes, time, dt, half_thickness, t
       riis_surface_options_init
   implicit none
   integer(int64), intent(in) :: keyframes                 !< From riisf_keyframes_create, for example.
-  real(c_double), intent(in) :: time                      !< Finite, magnitude at most 1e30.
+  real(c_double), intent(in) :: time                      !< The time, finite and at most 1e30 in magnitude.
   real(c_double), intent(in) :: dt                        !< The velocity is the mean from time - dt to time. With dt 0, the
                                                           !! velocity is the time derivative of the interpolation.
   real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
@@ -2065,7 +2065,7 @@ subroutine riisf_surface_update_keyframes(surface, keyframes, time, dt, status)
   implicit none
   integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
   integer(int64), intent(in) :: keyframes                 !< From riisf_keyframes_create, for example.
-  real(c_double), intent(in) :: time                      !< Finite, magnitude at most 1e30.
+  real(c_double), intent(in) :: time                      !< The time, finite and at most 1e30 in magnitude.
   real(c_double), intent(in) :: dt                        !< The velocity is the mean from time - dt to time. With dt 0, the
                                                           !! velocity is the time derivative of the interpolation.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -4063,8 +4063,8 @@ subroutine riisf_add_leaflet_reaction(marks, R, half_thickness, rim, n_nodes, ve
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
-  real(c_double), intent(in) :: about(3)                  !< The reference point of moment and leaflet_moment; magnitude at
-                                                          !! most 1e60. Usually 0.
+  real(c_double), intent(in) :: about(3)                  !< The reference point of moment and leaflet_moment; each coordinate
+                                                          !! at most 1e60 in magnitude. Usually 0.
   integer(int32), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
   real(c_double), intent(inout) :: force(3)               !< (3): force on the whole surface, in the unit of weight K velocity,
                                                           !! which is N in SI units.
@@ -4118,8 +4118,8 @@ subroutine riisf_add_leaflet_reaction_64(marks, R, half_thickness, rim, n_nodes,
   integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
-  real(c_double), intent(in) :: about(3)                  !< The reference point of moment and leaflet_moment; magnitude at
-                                                          !! most 1e60. Usually 0.
+  real(c_double), intent(in) :: about(3)                  !< The reference point of moment and leaflet_moment; each coordinate
+                                                          !! at most 1e60 in magnitude. Usually 0.
   integer(int32), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
   real(c_double), intent(inout) :: force(3)               !< (3): force on the whole surface, in the unit of weight K velocity,
                                                           !! which is N in SI units.
@@ -4178,8 +4178,8 @@ subroutine riisf_add_leaflet_reaction_components(marks, R, half_thickness, rim, 
   real(c_double), intent(in) :: vy(*)                     !< (n_nodes), the y component.
   real(c_double), intent(in) :: vz(*)                     !< (n_nodes), the z component.
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
-  real(c_double), intent(in) :: about(3)                  !< The reference point of moment and leaflet_moment; magnitude at
-                                                          !! most 1e60. Usually 0.
+  real(c_double), intent(in) :: about(3)                  !< The reference point of moment and leaflet_moment; each coordinate
+                                                          !! at most 1e60 in magnitude. Usually 0.
   integer(int32), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
   real(c_double), intent(inout) :: force(3)               !< (3): force on the whole surface, in the unit of weight K velocity,
                                                           !! which is N in SI units.
@@ -4235,8 +4235,8 @@ subroutine riisf_add_leaflet_reaction_components_64(marks, R, half_thickness, ri
   real(c_double), intent(in) :: vy(*)                     !< (n_nodes), the y component.
   real(c_double), intent(in) :: vz(*)                     !< (n_nodes), the z component.
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
-  real(c_double), intent(in) :: about(3)                  !< The reference point of moment and leaflet_moment; magnitude at
-                                                          !! most 1e60. Usually 0.
+  real(c_double), intent(in) :: about(3)                  !< The reference point of moment and leaflet_moment; each coordinate
+                                                          !! at most 1e60 in magnitude. Usually 0.
   integer(int32), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
   real(c_double), intent(inout) :: force(3)               !< (3): force on the whole surface, in the unit of weight K velocity,
                                                           !! which is N in SI units.
@@ -4802,7 +4802,7 @@ subroutine riisf_loads_sums(radius, n_edges, edges, edge_leaflet_id, n_nodes, xy
                                                           !! leaflets.
   integer(int32), intent(in) :: n_nodes                   !< 0 to 2^40.
   real(c_double), intent(in) :: xyz(3, *)                 !< (3, n_nodes): the points, in mesh units.
-  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), 0 to 1e60: the area or volume around a node, 0 for
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes): the area or volume around each node, 0 to 1e60; 0 for
                                                           !! nodes of other ranks.
   integer(int32), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
   real(c_double), intent(inout) :: sums(11, *)            !< (11, n_leaflets): the array to which the sums are added.
@@ -4844,7 +4844,7 @@ subroutine riisf_loads_sums_64(radius, n_edges, edges, edge_leaflet_id, n_nodes,
                                                           !! leaflets.
   integer(int64), intent(in) :: n_nodes                   !< 0 to 2^40.
   real(c_double), intent(in) :: xyz(3, *)                 !< (3, n_nodes): the points, in mesh units.
-  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), 0 to 1e60: the area or volume around a node, 0 for
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes): the area or volume around each node, 0 to 1e60; 0 for
                                                           !! nodes of other ranks.
   integer(int64), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
   real(c_double), intent(inout) :: sums(11, *)            !< (11, n_leaflets): the array to which the sums are added.
@@ -4893,8 +4893,8 @@ subroutine riisf_loads_forces(radius, n_edges, edges, edge_leaflet_id, n_nodes, 
   real(c_double), intent(in) :: xyz(3, *)                 !< (3, n_nodes): the points, in mesh units.
   real(c_double), intent(in) :: weight(*)                 !< As in riisf_loads_sums.
   integer(int32), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
-  real(c_double), intent(in) :: about(3)                  !< The reference point of leaflet_moment; magnitude at most 1e60.
-                                                          !! Usually 0.
+  real(c_double), intent(in) :: about(3)                  !< The reference point of leaflet_moment; each coordinate at most
+                                                          !! 1e60 in magnitude. Usually 0.
   real(c_double), intent(in) :: leaflet_force(3, *)       !< (3, n_leaflets): from riisf_add_leaflet_reaction, the sum over all
                                                           !! ranks.
   real(c_double), intent(in) :: leaflet_moment(3, *)      !< (3, n_leaflets): from riisf_add_leaflet_reaction, the sum over all
@@ -4946,8 +4946,8 @@ subroutine riisf_loads_forces_64(radius, n_edges, edges, edge_leaflet_id, n_node
   real(c_double), intent(in) :: xyz(3, *)                 !< (3, n_nodes): the points, in mesh units.
   real(c_double), intent(in) :: weight(*)                 !< As in riisf_loads_sums.
   integer(int64), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
-  real(c_double), intent(in) :: about(3)                  !< The reference point of leaflet_moment; magnitude at most 1e60.
-                                                          !! Usually 0.
+  real(c_double), intent(in) :: about(3)                  !< The reference point of leaflet_moment; each coordinate at most
+                                                          !! 1e60 in magnitude. Usually 0.
   real(c_double), intent(in) :: leaflet_force(3, *)       !< (3, n_leaflets): from riisf_add_leaflet_reaction, the sum over all
                                                           !! ranks.
   real(c_double), intent(in) :: leaflet_moment(3, *)      !< (3, n_leaflets): from riisf_add_leaflet_reaction, the sum over all
@@ -5280,8 +5280,8 @@ subroutine riisf_find_crossings(surface, depth, n_threads, crossings, n_pairs, l
       riis_crossings_create, riis_crossings_destroy, riis_crossings_get_list, riis_find_crossings, riis_status
   implicit none
   integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
-  real(c_double), intent(in) :: depth                     !< Half thicknesses, 0 to 1, usually 1e-6. Pairs at most this deep
-                                                          !! only touch.
+  real(c_double), intent(in) :: depth                     !< The depth up to which pairs only touch, in half thicknesses, 0 to
+                                                          !! 1. Usually 1e-6.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int64), intent(inout) :: crossings              !< 0, which creates them, or from an earlier call.
   integer(int64), intent(inout) :: n_pairs                !< The number of pairs. If it is 0, the ids in this struct are -1,
@@ -5648,8 +5648,8 @@ subroutine riisf_surface_leak(surface, R, half_thickness, drop, flow, status)
   integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
   real(c_double), intent(in) :: R                         !< 1e-60 to 1e60, mass / (length time): kg/(m s).
   real(c_double), intent(in) :: half_thickness            !< eps of the resistance; RIIS_AUTO: the surface's.
-  real(c_double), intent(in) :: drop                      !< Upstream pressure minus downstream pressure, magnitude at most
-                                                          !! 1e30.
+  real(c_double), intent(in) :: drop                      !< Upstream pressure minus downstream pressure, at most 1e30 in
+                                                          !! magnitude.
   real(c_double), intent(inout) :: flow                   !< The volume flow, in the unit of drop * area * eps / R. In SI units
                                                           !! this is m^3/s.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -5733,7 +5733,7 @@ subroutine riisf_find_by_area(valve, name, n_areas, areas, half_thickness, toler
   character(len=*), intent(in) :: name                    !< 'opening', 'scale' (of the placement), or the name of a parameter
                                                           !! for which riisf_valve_get gives one value.
   integer(int32), intent(in) :: n_areas                   !< 0 to 1,000,000.
-  real(c_double), intent(in) :: areas(*)                  !< (n_areas), 0 to 1e120, mesh units squared.
+  real(c_double), intent(in) :: areas(*)                  !< (n_areas): the wanted areas, 0 to 1e120, in mesh units squared.
   real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
                                                           !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
   real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
@@ -5794,7 +5794,7 @@ subroutine riisf_find_by_area_64(valve, name, n_areas, areas, half_thickness, to
   character(len=*), intent(in) :: name                    !< 'opening', 'scale' (of the placement), or the name of a parameter
                                                           !! for which riisf_valve_get gives one value.
   integer(int64), intent(in) :: n_areas                   !< 0 to 1,000,000.
-  real(c_double), intent(in) :: areas(*)                  !< (n_areas), 0 to 1e120, mesh units squared.
+  real(c_double), intent(in) :: areas(*)                  !< (n_areas): the wanted areas, 0 to 1e120, in mesh units squared.
   real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
                                                           !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
   real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
@@ -6110,8 +6110,8 @@ subroutine riisf_opening_switch_advance(opening_duration, closing_duration, open
                                                           !! >= 0. 0: no filter.
   real(c_double), intent(in) :: dwell_time                !< The shortest time between two changes of phase, >= 0. Usually 0.
   real(c_double), intent(in) :: time                      !< At least state(1).
-  real(c_double), intent(in) :: pressure_difference       !< At that time, magnitude at most 1e30.
-  real(c_double), intent(in) :: flow                      !< At that time, magnitude at most 1e30.
+  real(c_double), intent(in) :: pressure_difference       !< The values at this time, at most 1e30 in magnitude.
+  real(c_double), intent(in) :: flow                      !< The values at this time, at most 1e30 in magnitude.
   real(c_double), intent(inout) :: state(7)               !< Time, opening, rate, progress, filtered pressure difference,
                                                           !! filtered flow, time of the last change of phase (NaN: none yet).
                                                           !! Written on success.
@@ -6177,8 +6177,8 @@ subroutine riisf_opening_angle_advance(pressure_gain, flow_gain, friction, vorte
   real(c_double), intent(in) :: angle_max                 !< The angle of the open valve in degrees, above angle_min, at most
                                                           !! 90. Usually 75.
   real(c_double), intent(in) :: time                      !< At least state(1).
-  real(c_double), intent(in) :: pressure_difference       !< At that time, magnitude at most 1e30.
-  real(c_double), intent(in) :: flow                      !< At that time, magnitude at most 1e30.
+  real(c_double), intent(in) :: pressure_difference       !< The values at this time, at most 1e30 in magnitude.
+  real(c_double), intent(in) :: flow                      !< The values at this time, at most 1e30 in magnitude.
   real(c_double), intent(inout) :: state(7)               !< Time, opening, rate, angle in degrees, its rate, pressure
                                                           !! difference, flow (NaN: none yet). Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.

@@ -100,8 +100,8 @@ typedef struct riis_opening_switch_state {
 RIIS_API riis_status riis_opening_switch_state_init(riis_opening_switch_state *state, int64_t struct_size);
 /* Advances a switch to a time. The phase changes only at the end of a step, so the error of the opening is of first order in the
  * length of the step.
- *   `time`: at least before->time, magnitude at most 1e30.
- *   `pressure_difference`, `flow`: at that time, magnitude at most 1e30.
+ *   `time`: the end of the step; at least before->time, and at most 1e30 in magnitude.
+ *   `pressure_difference`, `flow`: the values at this time, at most 1e30 in magnitude.
  * Errors: RIIS_INVALID_ARGUMENT for a bad field or argument; the message names it and its value. *now does not change. */
 RIIS_API riis_status riis_opening_switch_advance(const riis_opening_switch *law,
                                                  const riis_opening_switch_state *before, double time,
@@ -139,8 +139,8 @@ RIIS_API riis_status riis_opening_angle_state_init(riis_opening_angle_state *sta
 /* Advances the angle law to a time. During a step, the law takes the pressure difference and the flow as linear in time, so the
  * error of the angle is of second order in the length of the step. During the first step the law takes them as constant, because
  * no earlier values are known.
- *   `time`: at least before->time, magnitude at most 1e30.
- *   `pressure_difference`, `flow`: at that time, magnitude at most 1e30.
+ *   `time`: the end of the step; at least before->time, and at most 1e30 in magnitude.
+ *   `pressure_difference`, `flow`: the values at this time, at most 1e30 in magnitude.
  * Errors: RIIS_INVALID_ARGUMENT for a bad field or argument; the message names it and its value. RIIS_LIMIT_EXCEEDED if the
  * integration of the step needs more than a million smaller steps. *now does not change. */
 RIIS_API riis_status riis_opening_angle_advance(const riis_opening_angle *law,

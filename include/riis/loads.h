@@ -18,7 +18,8 @@ typedef struct riis_loads {
   int64_t struct_size;            /* set by the init function */
   double radius;                  /* mesh units, 1e-50 to 1e50. The force of a leaflet acts at the nodes that are nearer to the
                                      leaflet's edges than the radius. Default NaN, which is refused */
-  double about[3];                /* the reference point of leaflet_moment; magnitude at most 1e60. Default 0 */
+  double about[3];                /* the reference point of leaflet_moment; each coordinate at most 1e60 in magnitude. Default
+                                     0 */
   int64_t n_leaflets;             /* the number of columns of sums, leaflet_force and leaflet_moment; 1 to 2^31. Default 0 */
   const double *leaflet_force;    /* (3, n_leaflets): riis_reaction.leaflet_force, added up over all ranks. riis_loads_add_sums
                                      does not read this array */
@@ -38,7 +39,7 @@ RIIS_API riis_status riis_loads_init(riis_loads *loads, int64_t struct_size); /*
  *   `loads`: the call reads radius, edges and n_leaflets, but no forces.
  *   `nodes`: the nodes of a surface or a volume of tissue, in the same coordinates as the edges. Nodes farther from the edges
  *     than the radius do not count, and get no force.
- *   `weight` (n_points), 0 to 1e60: the area or volume around a node, 0 for nodes of other ranks. NULL: 1 for each node.
+ *   `weight` (n_points): the area or volume around each node, 0 to 1e60; 0 for nodes of other ranks. NULL: 1 for each node.
  *   `sums` (11, n_leaflets): the array to which the sums are added.
  * A bileaflet valve has no attachment, and a surface from arrays has one only with `attached` or a skirt. For a surface without
  * an attachment, pass the edges at which the leaflets are sewn or hinged. With MPI each rank passes its own nodes, and all ranks

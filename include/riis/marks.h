@@ -185,7 +185,7 @@ typedef struct riis_dense_arrays {
   int32_t *leaflet_id;  /* (n_nodes): the leaflet of this triangle, -1 for others */
 } riis_dense_arrays;
 RIIS_API riis_status riis_dense_arrays_init(riis_dense_arrays *arrays, int64_t struct_size); /* the defaults */
-/* Writes the marks to every entry of the caller's arrays.
+/* Writes the marks of all nodes to the caller's arrays.
  * Errors: RIIS_INVALID_ARGUMENT for a bad field; the message names the field. */
 RIIS_API riis_status riis_marks_get_dense(const riis_marks *marks, const riis_dense_arrays *arrays);
 

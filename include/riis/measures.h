@@ -118,7 +118,7 @@ typedef struct riis_area_range {
  *   `valve`: the valve. If the call searches for openings, it ignores the valve's own opening.
  *   `name`: "opening", "scale" (of the placement), or the name of a parameter for which riis_valve_get gives one value.
  *   `n_areas`: 0 to 1,000,000. With 0 areas only *range is written, and areas may be NULL.
- *   `areas` (n_areas), 0 to 1e120, mesh units squared.
+ *   `areas` (n_areas): the wanted areas, 0 to 1e120, in mesh units squared.
  *   `search`: NULL stands for the defaults.
  *   `values` (n_areas): the openings or sizes. NULL: not wanted.
  *   `reached` (n_areas): the areas at these values. NULL: not wanted.
@@ -160,7 +160,7 @@ RIIS_API riis_status riis_surface_get_coaptation(const riis_surface *surface, do
  * the surface without a bileaflet housing. If there is an offset o, it is the area of the surface after a shift by o eps along
  * its normals. The leak in a solver differs from the ideal leak (docs/solvers.md).
  *   `resistance`: only R, 1e-60 to 1e60, and half_thickness are used. RIIS_AUTO stands for the surface's half thickness.
- *   `drop`: upstream pressure minus downstream pressure, magnitude at most 1e30.
+ *   `drop`: upstream pressure minus downstream pressure, at most 1e30 in magnitude.
  *   `flow`: the volume flow, in the unit of drop * area * eps / R. In SI units this is m^3/s.
  * Errors: RIIS_INVALID_ARGUMENT for a bad field or argument; the message names it and its value. */
 RIIS_API riis_status riis_surface_get_leak(const riis_surface *surface, const riis_resistance *resistance,

@@ -51,8 +51,8 @@ RIIS_API riis_status riis_mesh_prepare(riis_mesh *mesh, int32_t n_threads);
 typedef struct riis_grid {
   int64_t struct_size;   /* set by the init function */
   int64_t ni, nj, nk;    /* nodes along each axis, each >= 1 */
-  const void *x;         /* (ni), finite and strictly ascending, of at most 1e60 in magnitude. NULL, the default, stands for
-                            origin[0] + i spacing[0] */
+  const void *x;         /* (ni): the coordinates along the first axis, finite, strictly ascending, and at most 1e60 in magnitude.
+                            NULL, the default, stands for origin[0] + i spacing[0] */
   const void *y;         /* (nj), likewise */
   const void *z;         /* (nk), likewise */
   double origin[3];      /* the first coordinate along each axis that is NULL. Default 0 */
@@ -116,7 +116,7 @@ typedef struct riis_mesh_cells {
   const void *node_ids;    /* the nodes of cell after cell; NULL only without cells */
   const void *offsets;     /* (n_cells + 1), ascending from 0 or from index_base: the position in node_ids at which each cell
                               begins, and the end of the last cell. NULL: all cells have nodes_per_cell nodes */
-  int32_t nodes_per_cell;  /* 4, 5, 6 or 8, the same for all cells; not used with offsets. Default 4 */
+  int32_t nodes_per_cell;  /* the number of nodes of each cell: 4, 5, 6 or 8. Not used with offsets. Default 4 */
   int32_t id_bits;         /* of node_ids and offsets */
   int32_t index_base;      /* of node_ids */
   int32_t n_threads;       /* default 0 */
@@ -133,8 +133,8 @@ typedef struct riis_mesh_faces {
   int64_t n_faces;         /* >= 0 */
   const void *owner;       /* face i joins the cells owner[i * stride] and neighbor[i * stride] */
   const void *neighbor;    /* the second cell; for a face at the boundary, which joins no cells, index_base - 1 (-1 or 0) */
-  int64_t stride;          /* the distance from one face's entry to the next face's, 1 to 1024. Default 1; face_cells(2, n_faces)
-                              has 2 */
+  int64_t stride;          /* the distance between the entries of two successive faces, 1 to 1024. Default 1; face_cells(2,
+                              n_faces) has 2 */
   int32_t id_bits;         /* of owner and neighbor */
   int32_t index_base;      /* of owner and neighbor */
   int32_t n_threads;       /* default 0 */

@@ -48,7 +48,7 @@ RIIS_API riis_status riis_flow_arrays_init(riis_flow_arrays *flow, int64_t struc
  * velocity, even with an offset. */
 typedef struct riis_reaction {
   int64_t struct_size;      /* set by the init function */
-  double about[3];          /* the reference point of moment and leaflet_moment; magnitude at most 1e60.
+  double about[3];          /* the reference point of moment and leaflet_moment; each coordinate at most 1e60 in magnitude.
                                Default 0 */
   double *force;            /* (3): force on the whole surface, in the unit of weight K velocity, which is N in SI units */
   double *moment;           /* (3): moment on the whole surface */

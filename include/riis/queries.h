@@ -29,7 +29,7 @@ typedef struct riis_closest {
 } riis_closest;
 /* Finds the closest point of the surface, at any distance from it, in double precision. The result is the same as from a loop
  * over all triangles. Distances below 1e-154 underflow to 0.
- *   `point`: 3 finite coordinates, magnitude at most 1e60.
+ *   `point`: 3 finite coordinates, each at most 1e60 in magnitude.
  * Errors: RIIS_INVALID_ARGUMENT for a bad coordinate; the message names the coordinate. */
 RIIS_API riis_status riis_closest_point(const riis_surface *surface, const double *point, riis_closest *closest,
                                         int64_t struct_size);
@@ -82,7 +82,7 @@ RIIS_API riis_status riis_closest_points(const riis_surface *surface, const riis
 /* Options of riis_find_crossings. */
 typedef struct riis_crossing_options {
   int64_t struct_size; /* set by the init function */
-  double depth;        /* half thicknesses, 0 to 1, default 1e-6. Pairs at most this deep only touch */
+  double depth;        /* the depth up to which pairs only touch, in half thicknesses, 0 to 1. Default 1e-6 */
   int32_t n_threads;   /* default 0 */
   int32_t reserved;    /* 0 */
 } riis_crossing_options;

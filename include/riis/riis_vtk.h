@@ -91,7 +91,8 @@ RIIS_API riis_status riis_vtk_mesh_get_volume_cells(const riis_vtk_mesh *mesh, i
  *   `offsets` (n_cells + 1): cell i has the nodes node_ids[offsets[i]] to node_ids[offsets[i + 1] - 1]; NULL if not wanted.
  *   `types` (n_cells): VTK's numbers for the types of the cells, such as 10 for a tetrahedron; NULL if not wanted.
  *   `n_node_ids`: the last offset, or 0 if node_ids is NULL.
- *   `node_ids` (n_node_ids), from 0, in VTK's order; NULL if not wanted. Each point of a polyhedron is listed once.
+ *   `node_ids` (n_node_ids): the ids of the cells' nodes, from 0, in VTK's order; NULL if not wanted. Each point of a polyhedron
+ *     is listed once.
  * Errors: RIIS_INVALID_ARGUMENT for a wrong n_cells or n_node_ids, and for a mesh of centres. */
 RIIS_API riis_status riis_vtk_mesh_copy_cells(const riis_vtk_mesh *mesh, int64_t n_cells, int64_t *offsets,
                                               uint8_t *types, int64_t n_node_ids, int64_t *node_ids);
@@ -127,7 +128,7 @@ RIIS_API riis_status riis_vtk_mesh_set_fields(riis_vtk_mesh *mesh, const riis_ma
 /* Sets a point array to the caller's numbers, such as a resistance. An array of the same name is replaced.
  *   `name`: the name may have the same characters as the prefix of riis_vtk_mesh_set_marks.
  *   `n_nodes`: the mesh's number of nodes.
- *   `n_components`: 1 to 9 for each node.
+ *   `n_components`: the number of components for each node, 1 to 9.
  *   `values` (n_components, n_nodes). */
 RIIS_API riis_status riis_vtk_mesh_set_point_array(riis_vtk_mesh *mesh, const char *name, int64_t n_nodes,
                                                    int64_t n_components, const double *values);
@@ -166,7 +167,7 @@ RIIS_API riis_status riis_vtk_mesh_find_regions(riis_vtk_mesh *mesh, const char 
 /* Tells which points lie outside the mesh and farther from all volume cells than a given distance. The edges of cells of higher
  * order count as straight. If a mesh has several pieces, call the function for each piece.
  *   `xyz` (3, n_points), finite.
- *   `distance`: >= 0, finite, in the unit of xyz. With 0, the call finds the points that lie in no cell.
+ *   `distance`: the given distance, in the unit of xyz; finite and >= 0. With 0, the call finds the points that lie in no cell.
  *   `is_outside` (n_points): before the call, 1 for each point to test, and 0 for the others. For each point that is not outside,
  *     the call changes the 1 to 0.
  * Errors: RIIS_INVALID_ARGUMENT for a bad argument; the message names the argument and its value, and is_outside does not
@@ -178,7 +179,7 @@ RIIS_API riis_status riis_vtk_mesh_find_outside(const riis_vtk_mesh *mesh, int64
  * their data. Two new arrays give the ids in the whole mesh: the point array riis_node_id and the cell array riis_cell_id
  * (Int64). The new mesh borrows nothing.
  *   `n_ids`: >= 0.
- *   `node_ids` (n_ids), 0 to n_nodes - 1, in any order.
+ *   `node_ids` (n_ids): the ids of the given nodes, 0 to n_nodes - 1, in any order.
  * Errors: RIIS_INVALID_ARGUMENT for a bad id; the message names the id and its position in node_ids. */
 RIIS_API riis_status riis_vtk_mesh_extract(const riis_vtk_mesh *mesh, int64_t n_ids, const int64_t *node_ids,
                                            riis_vtk_mesh **part);
@@ -214,7 +215,7 @@ RIIS_API riis_status riis_vtk_pieces_create(const riis_vtk_mesh *mesh, int64_t n
 RIIS_API riis_status riis_vtk_pieces_set_files(riis_vtk_pieces *pieces, int64_t n_files, const char *const *files);
 /* Destroys the list. */
 RIIS_API void riis_vtk_pieces_destroy(riis_vtk_pieces **pieces);
-/* Gives the files of the pieces.
+/* Gives the paths of the pieces.
  *   `paths` (n_files): the paths of the pieces, which include the folder of the .pvtu file. They are valid until the list is
  *     destroyed. */
 RIIS_API riis_status riis_vtk_pieces_get_files(const riis_vtk_pieces *pieces, int64_t *n_files,

@@ -18,7 +18,7 @@ extern "C" {
  * triangles builds it. Several threads may send this first query at once. */
 typedef struct riis_surface riis_surface;
 
-/* The leaflets of the parametric valves, as leaflet_id reports them. */
+/* The values of leaflet_id for the leaflets of the parametric valves. */
 enum {
   RIIS_LEAFLET_RIGHT = 0,       /* aortic: the right coronary cusp, "right" in names of parameters; other kinds: the cusp on the x
                                    axis. The other cusps follow counter-clockwise, seen from +z */
@@ -112,7 +112,7 @@ RIIS_API riis_status riis_surface_options_init(riis_surface_options *options, in
 RIIS_API riis_status riis_surface_create(const riis_valve *valve, const riis_surface_options *options,
                                          riis_surface **surface);
 
-/* The caller's own surface, triangles or quads. */
+/* The caller's own surface of triangles or quads. */
 typedef struct riis_surface_arrays {
   int64_t struct_size;       /* set by the init function */
   int64_t n_vertices;        /* 1 to 2^31 - 1 */
@@ -141,14 +141,14 @@ typedef struct riis_surface_arrays {
 /* Fills *arrays with the defaults. */
 RIIS_API riis_status riis_surface_arrays_init(riis_surface_arrays *arrays, int64_t struct_size);
 
-/* Makes a surface from arrays, with the caller's winding. The id of a triangle is the number of its face. The halves of quad q
- * have the ids 2 q and 2 q + 1. The id of a skipped triangle is not used again. A triangle has zero area if its longest edge is
- * shorter than 1e-60, or if its height over its longest edge is at most 1e-12 of this edge. A skirt leads outwards from the axis
- * of the attachment. This axis passes through the centroid of the attachment, in the direction of the vector area that the
- * attachment encloses (docs/theory/skirt.md). The skirt's vertices and triangles come after the caller's vertices and triangles.
- * An open edge belongs to only one triangle. Without `attached`, the attachment is the closed line of open edges that encloses
- * the largest area. The call refuses the skirt if this area is less than 0.8 of the area inside the leaflets' outline
- * (RIIS_OUTLINE_BOUNDARY).
+/* Makes a surface from arrays, and keeps the winding of the caller's faces. The id of a triangle is the number of its face. The
+ * halves of quad q have the ids 2 q and 2 q + 1. The id of a skipped triangle is not used again. A triangle has zero area if its
+ * longest edge is shorter than 1e-60, or if its height over its longest edge is at most 1e-12 of this edge. A skirt leads
+ * outwards from the axis of the attachment. This axis passes through the centroid of the attachment, in the direction of the
+ * vector area that the attachment encloses (docs/theory/skirt.md). The skirt's vertices and triangles come after the caller's
+ * vertices and triangles. An open edge belongs to only one triangle. Without `attached`, the attachment is the closed line of
+ * open edges that encloses the largest area. The call refuses the skirt if this area is less than 0.8 of the area inside the
+ * leaflets' outline (RIIS_OUTLINE_BOUNDARY).
  * Errors: RIIS_LIMIT_EXCEEDED for too many triangles. RIIS_INVALID_SURFACE for a bad face or vertex, and if no attachment is
  * found. The message names the face or vertex and its value, or says why there is no attachment. RIIS_INVALID_ARGUMENT if a
  * length of the skirt is out of range. */
@@ -295,7 +295,7 @@ RIIS_API riis_status riis_keyframes_create(const riis_surface_arrays *arrays,
 /* Destroys the keyframes. Surfaces made from them stay. */
 RIIS_API void riis_keyframes_destroy(riis_keyframes **keyframes);
 /* Makes a surface from the frames around a time, with velocities.
- *   `time`: finite, magnitude at most 1e30.
+ *   `time`: the time, finite and at most 1e30 in magnitude.
  *   `dt`: the velocity is the mean from time - dt to time. With dt 0, the velocity is the time derivative of the interpolation.
  * Errors: as riis_surface_create_from_arrays. */
 RIIS_API riis_status riis_surface_create_from_keyframes(const riis_keyframes *keyframes, double time, double dt,

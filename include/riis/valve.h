@@ -38,7 +38,7 @@ RIIS_API void riis_valve_destroy(riis_valve **valve);
  *     of this name, the name sets only that parameter.
  *   `n_values`: 3 for translation (x, y, z), and for rotation, t0_* and t3_* (right, left, non-coronary cusp); 1 for other
  *     parameters.
- *   `values` (n_values), within the parameter's range.
+ *   `values` (n_values): the values, within the parameter's range.
  * Two parameters change the whole valve:
  * - "opening", 0 to 1, moves the valve from its closed to its open state. The other parameters describe both states. The default
  *   opening is 1 (open) for "mitral", and 0 for other kinds. An "aortic" valve at opening 0 has the paper's closed state, which
