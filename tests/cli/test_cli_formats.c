@@ -310,7 +310,7 @@ TEST(test_foam_flow) {
   RUN_FINE(FLOW("half.png"));
   assert_false(scratch_is_same("list.png", "half.png"));
   RUN_REFUSED(1, "box/8: there is no such time of the case; written are ", "mark", scratch_path("box/8"));
-  RUN_REFUSED(2, "is no array of the mesh; for a field of OpenFOAM, name a time in place of the case: ", "mark",
+  RUN_REFUSED(2, "is not an array of the mesh; for a field of OpenFOAM, name a time in place of the case: ", "mark",
               scratch_path("box"), "--valve", "aortic", "--half-thickness", "0.3", "--picture", scratch_path("no.png"),
               "--picture-velocity", "U");
   write_velocity("volScalarField", "uniform 3");
@@ -319,7 +319,7 @@ TEST(test_foam_flow) {
   RUN_REFUSED(1, "box/9/U: has 2 values, and the mesh has 1728 cells", FLOW("no.png"));
   write_velocity("volVectorField", "$start");
   RUN_REFUSED(1, "internalField begins with \"$start\", not uniform or nonuniform", FLOW("no.png"));
-  RUN_REFUSED(2, "--picture-velocity is \"U\", which is no array of the mesh", "mark", scratch_path("in.vtu"),
+  RUN_REFUSED(2, "--picture-velocity is \"U\", which is not an array of the mesh", "mark", scratch_path("in.vtu"),
               "--valve", "aortic", "--half-thickness", "0.3", "--picture", scratch_path("no.png"), "--picture-velocity",
               "U");
   free(list);

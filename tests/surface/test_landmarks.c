@@ -1189,7 +1189,8 @@ TEST(test_refused_sectors_and_saddles) {
   REFUSED("mitral_coapting", left, "has the anterior_horn 0 times|or both commissures", p.n = 12);
   REFUSED("mitral_coapting", left, "landmarks.flow is 0 0 0|anterior horn and both commissures",
           (p.n = 15, p.flow[2] = 0));
-  REFUSED("mitral_coapting", left, "landmarks.flow contradicts the commissures, by which it points to the atrium",
+  REFUSED("mitral_coapting", left,
+          "landmarks.flow contradicts the commissures, which show that this direction leads to the atrium",
           p.flow[2] = 1);
   REFUSED("mitral_coapting", left, "landmark 0 (trigone) has a role", p.role[0] = RIIS_LANDMARK_TRIGONE);
 #undef REFUSED

@@ -312,7 +312,7 @@ PatientOptions finish_patient(const Command &command, PatientOptions options) {
   if (options.noise && options.noise->number < 0) refuse_usage("--noise: " + options.noise->text + " is below 0");
   if (options.hold && options.solver != "openfoam")
     refuse_usage("--hold needs --solver openfoam: only the case for OpenFOAM can hold a valve at an opening");
-  if (options.hold && *options.hold >= 1) refuse_usage("--hold: 1 is not below 1: write --hold 0.999");
+  if (options.hold && *options.hold >= 1) refuse_usage("--hold: the opening 1 is not below 1: write --hold 0.999");
   if (options.heart_rate && options.solver == "none")
     refuse_usage("--heart-rate needs --solver: only the case of a solver has a heart rate");
   if (options.heart_rate && (*options.heart_rate < 40 || *options.heart_rate > 180))

@@ -240,8 +240,7 @@ void declare_marking(Command &command, MarkOptions &options) {
       "--resistance", "R", "Write riis_K at each node: R/eps times the delta function, with R in kg/(m s)",
       options.given_resistance, amount_of(a_resistance));
   command
-      .parsed("--k-unit", "UNIT",
-              "Unit of riis_K (default by the mesh's unit: in kg, m and s; in g, cm and s; or in g, mm and s)",
+      .parsed("--k-unit", "UNIT", "Unit of riis_K (default kg/(m3 s), g/(cm3 s) or g/(mm3 s), by the mesh's unit)",
               options.chosen_K_unit, [](const std::string &text, const std::string &) { return text; })
       ->needs(resistance);
   command
@@ -610,7 +609,7 @@ void declare_export(Command command, ExportOptions &options) {
     command.option(name)->excludes(command.option("--cycle"));
   command.parsed("--largest-edge", "L", "Cut triangles until no edge is longer than this in any frame",
                  options.largest_edge, parse_positive_finite);
-  command.text("--name", "NAME", "Name of the valve in the solver and in its files (default from FOLDER)",
+  command.text("--name", "NAME", "Name of the valve in the solver and in its files (default the name of FOLDER)",
                options.name);
   command
       .text("--starts", "closed|open",
@@ -652,8 +651,8 @@ void declare_place(Command command, PlaceOptions &options) {
   command.text("--mesh", "MESH", "Refuse landmarks that are far from this mesh", options.mesh);
   declare_cells_where(command, options);
   command.option("--cells-where")->needs(command.option("--mesh"));
-  declare_unit_of(command, "--unit", "Unit of the mesh (default that of the landmarks)", options.unit);
-  command.text("--axes", "LPS|RAS", "Axes of the mesh (default those of the landmarks)", options.axes)
+  declare_unit_of(command, "--unit", "Unit of the mesh (default the unit of the landmarks)", options.unit);
+  command.text("--axes", "LPS|RAS", "Axes of the mesh (default the axes of the landmarks)", options.axes)
       ->check(CLI::IsMember(std::vector<std::string>{"LPS", "RAS"}));
   command.choice("--warp", "Warp the valve to the landmarks: none (default), exact, or smoothed by their noise",
                  warp_names, options.warp_choice);
@@ -665,7 +664,7 @@ void declare_place(Command command, PlaceOptions &options) {
   command.value("--flow", "X,Y,Z", "Direction of flow through the valve, in the mesh's axes",
                 [&options](const std::string &text) { options.flow = parse_list(text, "--flow", 3, "X,Y,Z"); });
   command.group("Valve");
-  command.text("--valve", "KIND", "aortic, coapting, mitral, trileaflet or bileaflet (default that of the file)",
+  command.text("--valve", "KIND", "Kind of valve, such as aortic or mitral (default the kind in the file)",
                options.valve);
   command.text("--params", "FILE.json", "Parameters of the valve before it is fitted to the landmarks", options.params);
   declare_settings(command, "Set one parameter, in cm, and keep it during the fit; may be repeated", options);
@@ -719,7 +718,8 @@ void declare_patient(Command command, PatientOptions &options) {
       ->allow_extra_args(false);
   command.group("Valve");
   command.text("--valve", "KIND|DISEASE",
-               "Kind of valve, such as coapting or mitral, or a disease (default from the landmarks)", options.valve);
+               "Kind of valve, such as coapting or mitral, or a disease (default the kind in the file of landmarks)",
+               options.valve);
   command.text("--params", "FILE.json", "Parameters of the valve before it is fitted to the landmarks", options.params);
   declare_settings(command, "Set one parameter, in cm, and keep it during the fit; may be repeated", options);
   command.parsed("--skirt", "L", "The longest acceptable skirt from the valve to the wall (default 6 mm)",

@@ -162,8 +162,9 @@ Vec3 atrial_side(const Landmarks &landmarks, Vec3 normal, Vec3 forward) {
   const Vec3 by_commissures = side > 0 ? normal : -normal;
   if (landmarks.has_flow() && dot(found, by_commissures) < 0)
     fail(RIIS_INVALID_ARGUMENT,
-         "landmarks.flow contradicts the commissures, by which it points to the atrium. Seen along the flow with the "
-         "anterior horn above, the posteromedial commissure must be on the right. The flow is reversed, or the "
+         "landmarks.flow contradicts the commissures, which show that this direction leads to the atrium. Seen along "
+         "the flow with the anterior horn above, the posteromedial commissure must be on the right. The flow is "
+         "reversed, or the "
          "landmarks or their names are mirrored");
   return by_commissures;
 }

@@ -234,7 +234,7 @@ void set_unit(riis_vtk_mesh *mesh, const std::string &name, const std::string &u
   if (unit.empty() || unit.size() > longest || !std::all_of(unit.begin(), unit.end(), is_printed))
     refuse_argument("unit is \"", unit.substr(0, longest), "\"; it must be 1 to ", longest, " printed characters");
   vtkAbstractArray *const array = mesh->node_data()->GetAbstractArray(name.c_str());
-  if (!array) refuse_argument("name is \"", name.substr(0, longest), "\", which is no point array of the mesh");
+  if (!array) refuse_argument("name is \"", name.substr(0, longest), "\", which is not a point array of the mesh");
   array->GetInformation()->Set(vtkDataArray::UNITS_LABEL(), unit.c_str());
 }
 
