@@ -164,8 +164,7 @@ Vec3 atrial_side(const Landmarks &landmarks, Vec3 normal, Vec3 forward) {
     fail(RIIS_INVALID_ARGUMENT,
          "landmarks.flow contradicts the commissures, which show that this direction leads to the atrium. Seen along "
          "the flow with the anterior horn above, the posteromedial commissure must be on the right. The flow is "
-         "reversed, or the "
-         "landmarks or their names are mirrored");
+         "reversed, or the landmarks or their names are mirrored");
   return by_commissures;
 }
 
