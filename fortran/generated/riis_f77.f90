@@ -4293,8 +4293,8 @@ subroutine riisf_add_edge_reaction(marks, R, half_thickness, rim, n_nodes, veloc
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
   integer(int32), intent(in) :: n_edges                   !< At least 1.
   real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge, for example
-                                                          !! riis_attachment.edges; magnitude at most 1e60. An edge may have
-                                                          !! length 0.
+                                                          !! riis_attachment.edges; coordinates at most 1e60 in magnitude. An
+                                                          !! edge may have length 0.
   integer(int32), intent(in) :: edge_leaflet_id(*)        !< (n_edges): a node's force goes to the nearest edge of its leaflet.
                                                           !! If the first entry is -1, the other entries are not read, and each
                                                           !! edge serves all leaflets.
@@ -4350,8 +4350,8 @@ subroutine riisf_add_edge_reaction_64(marks, R, half_thickness, rim, n_nodes, ve
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
   integer(int64), intent(in) :: n_edges                   !< At least 1.
   real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge, for example
-                                                          !! riis_attachment.edges; magnitude at most 1e60. An edge may have
-                                                          !! length 0.
+                                                          !! riis_attachment.edges; coordinates at most 1e60 in magnitude. An
+                                                          !! edge may have length 0.
   integer(int32), intent(in) :: edge_leaflet_id(*)        !< (n_edges): a node's force goes to the nearest edge of its leaflet.
                                                           !! If the first entry is -1, the other entries are not read, and each
                                                           !! edge serves all leaflets.
@@ -4412,8 +4412,8 @@ subroutine riisf_add_edge_reaction_components(marks, R, half_thickness, rim, n_n
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
   integer(int32), intent(in) :: n_edges                   !< At least 1.
   real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge, for example
-                                                          !! riis_attachment.edges; magnitude at most 1e60. An edge may have
-                                                          !! length 0.
+                                                          !! riis_attachment.edges; coordinates at most 1e60 in magnitude. An
+                                                          !! edge may have length 0.
   integer(int32), intent(in) :: edge_leaflet_id(*)        !< (n_edges): a node's force goes to the nearest edge of its leaflet.
                                                           !! If the first entry is -1, the other entries are not read, and each
                                                           !! edge serves all leaflets.
@@ -4471,8 +4471,8 @@ subroutine riisf_add_edge_reaction_components_64(marks, R, half_thickness, rim, 
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
   integer(int64), intent(in) :: n_edges                   !< At least 1.
   real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge, for example
-                                                          !! riis_attachment.edges; magnitude at most 1e60. An edge may have
-                                                          !! length 0.
+                                                          !! riis_attachment.edges; coordinates at most 1e60 in magnitude. An
+                                                          !! edge may have length 0.
   integer(int32), intent(in) :: edge_leaflet_id(*)        !< (n_edges): a node's force goes to the nearest edge of its leaflet.
                                                           !! If the first entry is -1, the other entries are not read, and each
                                                           !! edge serves all leaflets.
@@ -4795,8 +4795,8 @@ subroutine riisf_loads_sums(radius, n_edges, edges, edge_leaflet_id, n_nodes, xy
                                                           !! nodes that are nearer to the leaflet's edges than the radius.
   integer(int32), intent(in) :: n_edges                   !< At least 1.
   real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge, for example
-                                                          !! riis_attachment.edges; magnitude at most 1e60. An edge may have
-                                                          !! length 0.
+                                                          !! riis_attachment.edges; coordinates at most 1e60 in magnitude. An
+                                                          !! edge may have length 0.
   integer(int32), intent(in) :: edge_leaflet_id(*)        !< (n_edges): the leaflet that the edge holds. If the first entry is
                                                           !! -1, the other entries are not read, and each edge holds all
                                                           !! leaflets.
@@ -4837,8 +4837,8 @@ subroutine riisf_loads_sums_64(radius, n_edges, edges, edge_leaflet_id, n_nodes,
                                                           !! nodes that are nearer to the leaflet's edges than the radius.
   integer(int64), intent(in) :: n_edges                   !< At least 1.
   real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge, for example
-                                                          !! riis_attachment.edges; magnitude at most 1e60. An edge may have
-                                                          !! length 0.
+                                                          !! riis_attachment.edges; coordinates at most 1e60 in magnitude. An
+                                                          !! edge may have length 0.
   integer(int32), intent(in) :: edge_leaflet_id(*)        !< (n_edges): the leaflet that the edge holds. If the first entry is
                                                           !! -1, the other entries are not read, and each edge holds all
                                                           !! leaflets.
@@ -4884,8 +4884,8 @@ subroutine riisf_loads_forces(radius, n_edges, edges, edge_leaflet_id, n_nodes, 
                                                           !! nodes that are nearer to the leaflet's edges than the radius.
   integer(int32), intent(in) :: n_edges                   !< At least 1.
   real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge, for example
-                                                          !! riis_attachment.edges; magnitude at most 1e60. An edge may have
-                                                          !! length 0.
+                                                          !! riis_attachment.edges; coordinates at most 1e60 in magnitude. An
+                                                          !! edge may have length 0.
   integer(int32), intent(in) :: edge_leaflet_id(*)        !< (n_edges): the leaflet that the edge holds. If the first entry is
                                                           !! -1, the other entries are not read, and each edge holds all
                                                           !! leaflets.
@@ -4937,8 +4937,8 @@ subroutine riisf_loads_forces_64(radius, n_edges, edges, edge_leaflet_id, n_node
                                                           !! nodes that are nearer to the leaflet's edges than the radius.
   integer(int64), intent(in) :: n_edges                   !< At least 1.
   real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge, for example
-                                                          !! riis_attachment.edges; magnitude at most 1e60. An edge may have
-                                                          !! length 0.
+                                                          !! riis_attachment.edges; coordinates at most 1e60 in magnitude. An
+                                                          !! edge may have length 0.
   integer(int32), intent(in) :: edge_leaflet_id(*)        !< (n_edges): the leaflet that the edge holds. If the first entry is
                                                           !! -1, the other entries are not read, and each edge holds all
                                                           !! leaflets.

@@ -26,8 +26,8 @@ typedef struct riis_loads {
   const double *leaflet_moment;   /* (3, n_leaflets): riis_reaction.leaflet_moment, added up over all ranks. riis_loads_add_sums
                                      does not read this array */
   int64_t n_edges;                /* 1 to 2^40. Default 0 */
-  const double *edges;            /* (3, 2, n_edges): both ends of each edge, for example riis_attachment.edges; magnitude at
-                                     most 1e60. An edge may have length 0 */
+  const double *edges;            /* (3, 2, n_edges): both ends of each edge, for example riis_attachment.edges; coordinates at
+                                     most 1e60 in magnitude. An edge may have length 0 */
   const int32_t *edge_leaflet_id; /* (n_edges), >= 0: the leaflet that each edge holds, for example riis_attachment.leaflet_id. If
                                      a leaflet has no edge in this array, as a skirt, all edges hold it. NULL, the default: all
                                      edges hold all leaflets */

@@ -1,6 +1,6 @@
-/* SPDX-License-Identifier: Apache-2.0
- * obstacle.h - the obstacle in the caller's arrays: K and K u_surface, the forces of the flow on the surface, and sums on both
- * sides. The header riis.h includes this file, and has the rules that hold for every call.
+/* SPDX-License-Identifier: Apache-2.0 obstacle.h - the obstacle in the caller's arrays: K and K u_surface, the forces of the flow
+ * on the surface, and sums over the nodes on each side. The header riis.h includes this file, and has the rules that hold for
+ * every call.
  */
 /* clang-format off: argument lists in comments are laid out by hand */
 #ifndef RIIS_OBSTACLE_H
@@ -58,8 +58,8 @@ typedef struct riis_reaction {
                                even if another leaflet is equally near */
   double *leaflet_moment;   /* (3, n_leaflets): moment on each leaflet */
   int64_t n_edges;          /* the number of edges, at least 1. Only used with edge_force or edge_moment. Default 0 */
-  const double *edges;      /* (3, 2, n_edges): both ends of each edge, for example riis_attachment.edges;
-                               magnitude at most 1e60. An edge may have length 0 */
+  const double *edges;      /* (3, 2, n_edges): both ends of each edge, for example riis_attachment.edges; coordinates at most
+                               1e60 in magnitude. An edge may have length 0 */
   const int32_t *edge_leaflet_id; /* (n_edges), >= 0: the leaflet of each edge. A node then counts for the nearest edge of its own
                                      leaflet, and each leaflet needs an edge. NULL, the default: a node counts for the nearest of
                                      all edges */

@@ -36,8 +36,8 @@
  * - Status: a function that can fail returns a riis_status; 0 is success, and riis_last_error() gives the message of a failure.
  *   If the status is positive, the call has changed nothing, and pointers from earlier calls stay valid. If the status is
  *   negative, the objects that the call writes may be damaged, so destroy them. No function aborts, prints or throws.
- * - Any function may return RIIS_INVALID_ARGUMENT for a forbidden NULL and for an argument or field out of range,
- *   RIIS_INVALID_STRUCT_SIZE for a struct of a wrong size, and RIIS_OUT_OF_MEMORY.
+ * - Any function may return RIIS_INVALID_ARGUMENT for a forbidden NULL, and for an argument or field out of range. It may also
+ *   return RIIS_INVALID_STRUCT_SIZE for a struct of a wrong size, and RIIS_OUT_OF_MEMORY.
  * - Handles: a new object is the last argument, and is written only on success. A destroy function takes a handle's address,
  *   accepts NULL, and sets the handle to NULL. If a handle has the wrong kind, a destroy function ignores the handle, and all
  *   other functions return an error.

@@ -93,7 +93,7 @@ RIIS_API riis_status riis_vtk_mesh_get_volume_cells(const riis_vtk_mesh *mesh, i
  *   `n_node_ids`: the last offset, or 0 if node_ids is NULL.
  *   `node_ids` (n_node_ids): the ids of the cells' nodes, from 0, in VTK's order; NULL if not wanted. Each point of a polyhedron
  *     is listed once.
- * Errors: RIIS_INVALID_ARGUMENT for a wrong n_cells or n_node_ids, and for a mesh of centres. */
+ * Errors: RIIS_INVALID_ARGUMENT for a wrong n_cells or n_node_ids, and for a mesh whose nodes are centres of cells. */
 RIIS_API riis_status riis_vtk_mesh_copy_cells(const riis_vtk_mesh *mesh, int64_t n_cells, int64_t *offsets,
                                               uint8_t *types, int64_t n_node_ids, int64_t *node_ids);
 

@@ -64,7 +64,7 @@ RIIS_API riis_status riis_valve_get(const riis_valve *valve, const char *name, i
  *   `stj`: the diameter at the commissures, 2 leaflet_radius_out (aortic, trileaflet) or 2 commissure_radius (coapting, bicuspid,
  *     quadricuspid).
  *   `effective_height`: the height of the free edges above the annulus, leaflet_height (aortic, trileaflet). The other kinds with
- *     cusps have a parameter of this name, for the middle of the edges.
+ *     cusps have the parameter effective_height, which is the height of the middle of the free edges.
  * Some parameters have a rule, which computes their values from other parameters until they are set. Parameters may be set in any
  * order. The call riis_valve_get also gives values that come from a rule. A copy or an open state of a valve keeps the
  * information which parameters were set. */
