@@ -308,11 +308,12 @@ module riis_c
     real(c_double) :: normal(3)       !< unit normal of the triangle, by the right-hand rule
     integer(c_int64_t) :: triangle_id !< the lowest id of the closest triangles
     integer(c_int32_t) :: leaflet_id  !< of the triangle
-    integer(c_int32_t) :: side        !< +1 on the side to which normals point (downstream), -1 on the other side. 0 on
-                                      !! the surface, and where the surface would continue beyond its rim. If the
-                                      !! closest point is on an edge or vertex of several triangles, the angle-weighted
-                                      !! mean of their normals gives the side (Baerentzen, Aanaes 2005). Vertices with
-                                      !! equal coordinates after placement count as one
+    integer(c_int32_t) :: side        !< +1 if the point is on the side to which normals point (downstream), -1 if it is
+                                      !! on the other side. The side is 0 for a point on the surface, and for a point
+                                      !! beyond the rim where the surface would continue. If the closest point is on an
+                                      !! edge or vertex of several triangles, the angle-weighted mean of their normals
+                                      !! gives the side (Baerentzen, Aanaes 2005). Vertices with equal coordinates after
+                                      !! placement count as one
   end type riis_closest
 
   type, bind(c) :: riis_closest_options

@@ -3873,7 +3873,9 @@ subroutine riisf_add_resistance_components_64(marks, R, half_thickness, rim, n_n
 end subroutine riisf_add_resistance_components_64
 
 !> Adds the force of the flow on the surface: the sum of weight * K * (velocity - u_surface). Ranks sum their forces by a
-!! reduction. u_surface is 0 without RIIS_FIELD_VELOCITY. Errors: as riisf_add_resistance.
+!! reduction. u_surface is 0 without RIIS_FIELD_VELOCITY. Errors: as riisf_add_resistance. RIIS_INVALID_ARGUMENT also if
+!! n_leaflets is too small (the message names the leaflet id), if a leaflet lacks an edge, and if an edge is not finite or too
+!! large.
 subroutine riisf_add_reaction(marks, R, half_thickness, rim, n_nodes, velocity, weight, force, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -3956,7 +3958,9 @@ subroutine riisf_add_reaction_64(marks, R, half_thickness, rim, n_nodes, velocit
 end subroutine riisf_add_reaction_64
 
 !> Adds the force of the flow on the surface: the sum of weight * K * (velocity - u_surface). Ranks sum their forces by a
-!! reduction. u_surface is 0 without RIIS_FIELD_VELOCITY. Errors: as riisf_add_resistance.
+!! reduction. u_surface is 0 without RIIS_FIELD_VELOCITY. Errors: as riisf_add_resistance. RIIS_INVALID_ARGUMENT also if
+!! n_leaflets is too small (the message names the leaflet id), if a leaflet lacks an edge, and if an edge is not finite or too
+!! large.
 subroutine riisf_add_reaction_components(marks, R, half_thickness, rim, n_nodes, vx, vy, vz, weight, force, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -4044,7 +4048,8 @@ end subroutine riisf_add_reaction_components_64
 
 !> Adds the force of the flow and its moment about a point, for the whole surface and for each leaflet. The force of a node acts
 !! at the closest point of the surface. Ranks pass the same point, and add their sums by a reduction. Errors: as
-!! riisf_add_resistance.
+!! riisf_add_resistance. RIIS_INVALID_ARGUMENT also if n_leaflets is too small (the message names the leaflet id), if a leaflet
+!! lacks an edge, and if an edge is not finite or too large.
 subroutine riisf_add_leaflet_reaction(marks, R, half_thickness, rim, n_nodes, velocity, weight, about, n_leaflets, &
     force, moment, leaflet_force, leaflet_moment, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -4156,7 +4161,8 @@ end subroutine riisf_add_leaflet_reaction_64
 
 !> Adds the force of the flow and its moment about a point, for the whole surface and for each leaflet. The force of a node acts
 !! at the closest point of the surface. Ranks pass the same point, and add their sums by a reduction. Errors: as
-!! riisf_add_resistance.
+!! riisf_add_resistance. RIIS_INVALID_ARGUMENT also if n_leaflets is too small (the message names the leaflet id), if a leaflet
+!! lacks an edge, and if an edge is not finite or too large.
 subroutine riisf_add_leaflet_reaction_components(marks, R, half_thickness, rim, n_nodes, vx, vy, vz, weight, about, &
     n_leaflets, force, moment, leaflet_force, leaflet_moment, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -4272,7 +4278,9 @@ end subroutine riisf_add_leaflet_reaction_components_64
 
 !> Adds the force of the flow, and its moment about the edge's middle, to edges. The force of a node goes to the edge nearest to
 !! its closest point. The sums of edges are loads for tissue codes. They do not model how a membrane carries loads to its edges.
-!! Ranks pass the same edges, and add their sums by a reduction. Errors: as riisf_add_resistance.
+!! Ranks pass the same edges, and add their sums by a reduction. Errors: as riisf_add_resistance. RIIS_INVALID_ARGUMENT also if
+!! n_leaflets is too small (the message names the leaflet id), if a leaflet lacks an edge, and if an edge is not finite or too
+!! large.
 subroutine riisf_add_edge_reaction(marks, R, half_thickness, rim, n_nodes, velocity, weight, n_edges, edges, &
     edge_leaflet_id, edge_force, edge_moment, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -4388,7 +4396,9 @@ end subroutine riisf_add_edge_reaction_64
 
 !> Adds the force of the flow, and its moment about the edge's middle, to edges. The force of a node goes to the edge nearest to
 !! its closest point. The sums of edges are loads for tissue codes. They do not model how a membrane carries loads to its edges.
-!! Ranks pass the same edges, and add their sums by a reduction. Errors: as riisf_add_resistance.
+!! Ranks pass the same edges, and add their sums by a reduction. Errors: as riisf_add_resistance. RIIS_INVALID_ARGUMENT also if
+!! n_leaflets is too small (the message names the leaflet id), if a leaflet lacks an edge, and if an edge is not finite or too
+!! large.
 subroutine riisf_add_edge_reaction_components(marks, R, half_thickness, rim, n_nodes, vx, vy, vz, weight, n_edges, &
     edges, edge_leaflet_id, edge_force, edge_moment, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -4870,8 +4880,8 @@ end subroutine riisf_loads_sums_64
 !> Adds the forces of the leaflets at nodes of tissue. Up to rounding, the forces of a leaflet have the sum leaflet_force and the
 !! moment leaflet_moment. Errors: as riisf_loads_sums. RIIS_INVALID_ARGUMENT also if a leaflet with a force has fewer than three
 !! nodes within the radius, or only nodes that lie nearly on a line. Let r be the root-mean-square distance of these nodes from
-!! the line. The nodes are too near the line if r is less than a hundredth of their root-mean-square distance from their middle,
-!! or less than a thousandth of the size of the edges (docs/theory/loads.md).
+!! the line. The nodes are too near the line if r is less than a hundredth of their root-mean-square distance from their middle.
+!! They are also too near if r is less than a thousandth of the size of the edges (docs/theory/loads.md).
 subroutine riisf_loads_forces(radius, n_edges, edges, edge_leaflet_id, n_nodes, xyz, weight, n_leaflets, about, &
     leaflet_force, leaflet_moment, sums, node_force, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -5717,9 +5727,9 @@ end subroutine riisf_valve_swept_volume
 
 !> Finds the openings, or the sizes, at which the orifice of a valve has given areas (docs/theory/measures.md, 'From an area to a
 !! valve'). Errors: RIIS_INVALID_ARGUMENT for a bad area; the message names the area. If no opening or size has the area, the
-!! message names the range of areas. RIIS_INVALID_PARAMETER for an unknown name, for a parameter with three values, for a
-!! parameter that does not change the area, and for a valve with one state or no orifice. If a surface cannot be made, the
-!! message also names the opening or size. On an error nothing is written.
+!! message names the range of areas. RIIS_INVALID_PARAMETER for an unknown name, and for a parameter that has three values or
+!! does not change the area. RIIS_INVALID_PARAMETER also for a valve with one state or no orifice. If a surface cannot be made,
+!! the message also names the opening or size. On an error nothing is written.
 subroutine riisf_find_by_area(valve, name, n_areas, areas, half_thickness, tolerance, scale, rotation_axis, &
     rotation_angle, translation, n_threads, area_kind, values, reached, least, most, n_turns, status)
   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_loc, c_ptr, c_sizeof
@@ -6158,10 +6168,10 @@ subroutine riisf_opening_angle_init(state, status)
       the_state%pressure_difference, the_state%flow]
 end subroutine riisf_opening_angle_init
 
-!> Advances the angle law to a time. During a step, the law takes the pressure difference and the flow as linear in time, so the
-!! error of the angle is of second order in the length of the step. During the first step the law takes them as constant, because
-!! no earlier values are known. Errors: RIIS_INVALID_ARGUMENT for a bad field or argument; the message names it and its value.
-!! RIIS_LIMIT_EXCEEDED if the integration of the step needs more than a million smaller steps.
+!> Advances the angle law to a time. During a step, the law takes the pressure difference and the flow as linear in time. The
+!! error of the angle is therefore of second order in the length of the step. During the first step the law takes both as
+!! constant, because no earlier values are known. Errors: RIIS_INVALID_ARGUMENT for a bad field or argument; the message names it
+!! and its value. RIIS_LIMIT_EXCEEDED if the integration of the step needs more than a million smaller steps.
 subroutine riisf_opening_angle_advance(pressure_gain, flow_gain, friction, vortex_gain, angle_min, angle_max, time, &
     pressure_difference, flow, state, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -6212,14 +6222,15 @@ end subroutine riisf_opening_angle_advance
 ! -----------------------------------------------------------------------------------------------------------------
 
 !> Sets a valve's sizes, in centimetres, to a patient's sizes, and finds the placement of the valve. Errors:
-!! RIIS_INVALID_ARGUMENT if landmarks are missing, too many, in one place, collinear or mirrored, if they do not show the
-!! direction of flow, and if the valve is too large or too small for a heart valve at this scale. The message names the
-!! landmarks. The axis of a tricuspid or mitral_coapting valve must be at most 20 degrees from the normal of the annulus. A
-!! mitral valve must satisfy three conditions: - The posterior horn is on the posterior side of the annulus, and the trigones are
-!! on the anterior side. - The axis of the fitted valve is at most 20 degrees from the annulus' normal. - The fitted AP_diameter
-!! differs from the depth of the annulus by at most a twelfth of this depth, or by at most five times the noise. The depth is
-!! measured from the anterior horn to the posterior horn, or without a posterior horn to the farthest point of the annulus.
-!! RIIS_INVALID_PARAMETER for a valve from patches, for an unknown name in `held`, and for sizes that do not fit together.
+!! RIIS_INVALID_ARGUMENT if landmarks are missing, too many, in one place, collinear or mirrored, and if they do not show the
+!! direction of flow. RIIS_INVALID_ARGUMENT also if they are too large or too small for a heart valve at this scale. The message
+!! names the landmarks. The axis of a tricuspid or mitral_coapting valve must be at most 20 degrees from the normal of the
+!! annulus. A mitral valve must satisfy three conditions: - The posterior horn is on the posterior side of the annulus, and the
+!! trigones are on the anterior side. - The axis of the fitted valve is at most 20 degrees from the annulus' normal. - The fitted
+!! AP_diameter differs from the depth of the annulus by at most a twelfth of this depth, or by at most five times the noise. The
+!! depth is measured from the anterior horn to the posterior horn, or without a posterior horn to the farthest point of the
+!! annulus. RIIS_INVALID_PARAMETER for a valve from patches, for an unknown name in `held`, and for sizes that do not fit
+!! together.
 subroutine riisf_place(valve, n_landmarks, xyz, role, leaflet_id, scale, noise, flow, held, rotation_axis, &
     rotation_angle, translation, residual, size_state, status)
   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_sizeof
@@ -6235,11 +6246,12 @@ subroutine riisf_place(valve, n_landmarks, xyz, role, leaflet_id, scale, noise, 
   real(c_double), intent(in) :: xyz(3, *)                 !< (3, n_landmarks): the points, in mesh units.
   integer(int32), intent(in) :: role(*)                   !< (n_landmarks): RIIS_LANDMARK_*.
   integer(int32), intent(in) :: leaflet_id(2, *)          !< (2, n_landmarks): the leaflets of each landmark. For a nadir or an
-                                                          !! attachment point, pass its cusp and -1. For a commissure, pass its
-                                                          !! two leaflets in any order. Pass -1 and -1 if the leaflets are not
-                                                          !! known. For an aortic or tricuspid valve, the known leaflets must
-                                                          !! determine the names of all leaflets. For other kinds, if no
-                                                          !! leaflet is known, the cusp of the first nadir becomes cusp 0.
+                                                          !! attachment point, pass the id of its cusp, and -1. For a
+                                                          !! commissure, pass the ids of its two leaflets in any order. Pass -1
+                                                          !! and -1 if the leaflets are not known. For an aortic or tricuspid
+                                                          !! valve, the known leaflets must determine the names of all
+                                                          !! leaflets. For other kinds, if no leaflet is known, the cusp of the
+                                                          !! first nadir becomes cusp 0.
   real(c_double), intent(in) :: scale                     !< Mesh units in a centimetre: 10 for millimetres, 1 for centimetres,
                                                           !! or 0.01 for metres. Must be set.
   real(c_double), intent(in) :: noise                     !< The standard deviation of each coordinate of the landmarks, mesh

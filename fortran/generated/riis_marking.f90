@@ -32,10 +32,10 @@ module riis_marking
                                                             !! flip_normals, both directions are reversed.
     real(c_double), pointer :: velocity(:, :) => null()     !< (3, n_nodes): the velocity of the surface at the closest point,
                                                             !! from the surface's last update. If several leaflets are equally
-                                                            !! near (within 1e-6 half thicknesses), or several patches of one
-                                                            !! leaflet (within 1e-9), the velocity is the mean of the velocities
-                                                            !! at their closest points (docs/theory/marks.md). All other
-                                                            !! components come from the closest triangle.
+                                                            !! near (within 1e-6 half thicknesses), the velocity is the mean of
+                                                            !! the velocities at their closest points (docs/theory/marks.md). The
+                                                            !! same holds for several patches of one leaflet (within 1e-9). All
+                                                            !! other components come from the closest triangle.
     integer(int32), pointer :: side(:) => null()            !< (n_nodes): as riis_closest%side.
     integer(int32), pointer :: rim(:) => null()             !< (n_nodes): 1 if the closest point lies on the rim of the surface,
                                                             !! else 0. The rim of a valve consists of the sides that belong to
@@ -46,12 +46,12 @@ module riis_marking
                                                             !! vertex.
     integer(int32), pointer :: patch_id(:) => null()        !< (n_nodes): as in riis_triangles.
     real(c_double), pointer :: distance_gradient(:, :) => null() !< (n_directions, n_nodes): the derivative of the distance in
-                                                            !! each direction. It is -n.V, where the unit vector n points
-                                                            !! from the closest point to the node, and V is the rate of the
-                                                            !! closest point in the triangle triangle_id. At nodes on the
-                                                            !! surface the array has 0, because the distance has a kink
-                                                            !! there. The distance also has a kink at nodes with several
-                                                            !! closest points.
+                                                            !! each direction. It is -n.V. The unit vector n points from the
+                                                            !! closest point to the node, and V is the rate of the closest
+                                                            !! point in the triangle triangle_id. At nodes on the surface
+                                                            !! the array has 0, because the distance has a kink there. The
+                                                            !! distance also has a kink at nodes with several closest
+                                                            !! points.
     real(c_double), pointer :: K_gradient(:, :) => null()   !< (n_directions, n_nodes): the derivative of K in each direction,
                                                             !! for constant R and half thickness. The derivative is 0 where K is
                                                             !! 0. If there is an offset, the unit vector n of distance_gradient

@@ -45,8 +45,8 @@ RIIS_API riis_status riis_opening_from_table(const riis_opening_table *table, do
                                              double *rate);
 
 /* A law that opens and closes the valve by two ramps at given times. The ramps are polynomials of degree five, so the rate and
- * its derivative are continuous. For example, a mitral valve may begin to open at 0.45 s and begin to close at 0.95 s of each
- * second, where each motion takes 0.05 s. */
+ * its derivative are continuous. For example, in each second a mitral valve may begin to open at 0.45 s and begin to close at
+ * 0.95 s. Each motion then takes 0.05 s. */
 typedef struct riis_opening_times {
   int64_t struct_size;    /* set by the init function */
   double opening_start;   /* the time at which the valve begins to open. This field and the next three have the default NaN, which
@@ -136,9 +136,9 @@ typedef struct riis_opening_angle_state {
 } riis_opening_angle_state;
 /* Fills *state with a closed valve at rest, at time 0. In the first step, the angle 0 of this state stands for angle_min. */
 RIIS_API riis_status riis_opening_angle_state_init(riis_opening_angle_state *state, int64_t struct_size);
-/* Advances the angle law to a time. During a step, the law takes the pressure difference and the flow as linear in time, so the
- * error of the angle is of second order in the length of the step. During the first step the law takes them as constant, because
- * no earlier values are known.
+/* Advances the angle law to a time. During a step, the law takes the pressure difference and the flow as linear in time. The
+ * error of the angle is therefore of second order in the length of the step. During the first step the law takes both as
+ * constant, because no earlier values are known.
  *   `time`: the end of the step; at least before->time, and at most 1e30 in magnitude.
  *   `pressure_difference`, `flow`: the values at this time, at most 1e30 in magnitude.
  * Errors: RIIS_INVALID_ARGUMENT for a bad field or argument; the message names it and its value. RIIS_LIMIT_EXCEEDED if the

@@ -59,8 +59,8 @@ RIIS_API riis_status riis_loads_add_sums(const riis_loads *loads, const riis_poi
  * get the forces of one leaflet alone, pass zeros for the other leaflets. The forces do not model the mechanics of a membrane.
  * Errors: as riis_loads_add_sums. RIIS_INVALID_ARGUMENT also if a leaflet with a force has fewer than three nodes within the
  * radius, or only nodes that lie nearly on a line. Let r be the root-mean-square distance of these nodes from the line. The nodes
- * are too near the line if r is less than a hundredth of their root-mean-square distance from their middle, or less than a
- * thousandth of the size of the edges (docs/theory/loads.md). */
+ * are too near the line if r is less than a hundredth of their root-mean-square distance from their middle. They are also too
+ * near if r is less than a thousandth of the size of the edges (docs/theory/loads.md). */
 RIIS_API riis_status riis_loads_add_forces(const riis_loads *loads, const riis_points *nodes, const double *weight,
                                            const double *sums, double *node_force);
 

@@ -112,9 +112,9 @@ RIIS_API riis_status riis_mark_options_init(riis_mark_options *options, int64_t 
  * limit. Without an offset, the band holds the nodes within the half thickness of the surface. Distances in double precision
  * decide which nodes are found.
  *   `marks`: its content is replaced.
- * The log gets a warning if the mesh and the surface seem to have different units. A sign of this is that the largest sides of
- * their bounding boxes differ by more than a factor of 50, or that one of these sides is below the half thickness. The warning
- * comes once for each pair of surface and mesh, at most eight times for each mesh, and never for fewer than 1000 nodes.
+ * The log gets a warning if the mesh and the surface seem to have different units. In this case, the largest sides of their
+ * bounding boxes differ by more than a factor of 50, or one of these sides is below the half thickness. The warning comes once
+ * for each pair of surface and mesh, at most eight times for each mesh, and never for fewer than 1000 nodes.
  * Errors: RIIS_INVALID_MESH if a coordinate has become non-finite since the mesh was created or updated. */
 RIIS_API riis_status riis_mark_nodes(const riis_surface *surface, const riis_mesh *mesh,
                                      const riis_mark_options *options, riis_marks *marks);
@@ -142,9 +142,9 @@ typedef struct riis_mark_list {
                                  the normal. On mirrored patches it points against the normal (cusps: patch_id % 4 >= 2; mitral:
                                  3, 4, 5, 8, 9). With flip_normals, both directions are reversed */
   const double *velocity;     /* (3, n_nodes): the velocity of the surface at the closest point, from the surface's last update.
-                                 If several leaflets are equally near (within 1e-6 half thicknesses), or several patches of one
-                                 leaflet (within 1e-9), the velocity is the mean of the velocities at their closest points
-                                 (docs/theory/marks.md). All other fields come from the closest triangle */
+                                 If several leaflets are equally near (within 1e-6 half thicknesses), the velocity is the mean of
+                                 the velocities at their closest points (docs/theory/marks.md). The same holds for several patches
+                                 of one leaflet (within 1e-9). All other fields come from the closest triangle */
   const int32_t *side;        /* (n_nodes): as riis_closest.side */
   const int32_t *rim;         /* (n_nodes): 1 if the closest point lies on the rim of the surface, else 0. The rim of a valve
                                  consists of the sides that belong to only one patch, such as free edges and the annulus. Where
@@ -154,10 +154,10 @@ typedef struct riis_mark_list {
   const int32_t *patch_id;    /* (n_nodes): as in riis_triangles */
   int64_t n_directions;       /* the number of directions that the surface had during the marking; 0 without
                                  RIIS_FIELD_GRADIENT */
-  const double *distance_gradient; /* (n_directions, n_nodes): the derivative of the distance in each direction. It is -n.V, where
-                                      the unit vector n points from the closest point to the node, and V is the rate of the
-                                      closest point in the triangle triangle_id. At nodes on the surface the array has 0, because
-                                      the distance has a kink there. The distance also has a kink at nodes with several closest
+  const double *distance_gradient; /* (n_directions, n_nodes): the derivative of the distance in each direction. It is -n.V. The
+                                      unit vector n points from the closest point to the node, and V is the rate of the closest
+                                      point in the triangle triangle_id. At nodes on the surface the array has 0, because the
+                                      distance has a kink there. The distance also has a kink at nodes with several closest
                                       points */
   const double *K_gradient;   /* (n_directions, n_nodes): the derivative of K in each direction, for constant R and half
                                  thickness. The derivative is 0 where K is 0. NULL without a resistance. If there is an offset,

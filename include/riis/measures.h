@@ -90,10 +90,10 @@ typedef struct riis_area_search {
   int64_t struct_size;                 /* set by the init function */
   const riis_surface_options *surface; /* options of the valve's surface. NULL, the default, stands for defaults */
   const riis_resistance *resistance;   /* as in riis_surface_get_orifice. NULL, the default, stands for defaults */
-  double from, to;    /* the range to search, with `from` below `to`. The default NaN stands for these ranges: 0 to 1 for the
-                         opening, 0.1 to 10 times the present scale, and 0.5 to 2 times the present value of a parameter. If the
-                         present value is 0, a parameter with a range from 0 to at most 1 is searched over its whole range. For
-                         other parameters that are 0 at present, `from` and `to` must be set */
+  double from, to;    /* the range to search, with `from` below `to`. The default NaN stands for 0 to 1 for the opening, and for
+                         0.1 to 10 times the present scale. For a parameter, NaN stands for 0.5 to 2 times its present value. If
+                         the present value is 0, a parameter with a range from 0 to at most 1 is searched over its whole range.
+                         For other parameters that are 0 at present, `from` and `to` must be set */
   double tolerance;   /* the tolerance of each area, as a fraction of it, 1e-12 to 1e-2. Default 1e-8 */
   int32_t n_samples;  /* the number of values at which the area is sampled first, 2 to 100,001. Default 33 */
   int32_t area;       /* RIIS_AREA_*, default RIIS_AREA_GEOMETRIC */
@@ -129,9 +129,9 @@ typedef struct riis_area_range {
  * wherever the triangles change. If a wanted area lies within such a jump, the call gives the end of the jump with the nearer
  * area. The search may miss an area that occurs only between two neighbouring samples.
  * Errors: RIIS_INVALID_ARGUMENT for a bad area; the message names the area. If no opening or size has the area, the message names
- * the range of areas. RIIS_INVALID_PARAMETER for an unknown name, for a parameter with three values, for a parameter that does
- * not change the area, and for a valve with one state or no orifice. If a surface cannot be made, the message also names the
- * opening or size. On an error nothing is written. */
+ * the range of areas. RIIS_INVALID_PARAMETER for an unknown name, and for a parameter that has three values or does not change
+ * the area. RIIS_INVALID_PARAMETER also for a valve with one state or no orifice. If a surface cannot be made, the message also
+ * names the opening or size. On an error nothing is written. */
 RIIS_API riis_status riis_find_by_area(const riis_valve *valve, const char *name, int64_t n_areas,
                                        const double *areas, const riis_area_search *search, double *values,
                                        double *reached, riis_area_range *range, int64_t struct_size);

@@ -82,7 +82,8 @@ RIIS_API riis_status riis_reaction_init(riis_reaction *reaction, int64_t struct_
  * enclosed by walls and by faces with K dt > rho. The source in this set must be the outflow of u_surface through these faces.
  * Finite elements have the same error if K dt > rho, but no such source is known for them.
  * Errors: as riis_marks_add_resistance. RIIS_INVALID_ARGUMENT also if n_leaflets is too small (the message names the leaflet id),
- * if a leaflet lacks an edge, if an edge is not finite or too large, and if all arrays are NULL. */
+ * if a leaflet lacks an edge, and if an edge is not finite or too large. The call also refuses a reaction whose arrays are all
+ * NULL. */
 RIIS_API riis_status riis_marks_add_reaction(const riis_marks *marks, const riis_resistance *resistance,
                                              const riis_flow_arrays *flow, const riis_reaction *reaction);
 

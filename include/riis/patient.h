@@ -45,11 +45,11 @@ typedef struct riis_landmarks {
   const void *x, *y, *z;     /* (n_landmarks) by stride, in mesh units */
   int64_t stride;            /* of x, y and z. Default 1 */
   const int32_t *role;       /* (n_landmarks): RIIS_LANDMARK_* */
-  const int32_t *leaflet_id; /* (2, n_landmarks): the leaflets of each landmark. For a nadir or an attachment point, pass its cusp
-                                and -1. For a commissure, pass its two leaflets in any order. Pass -1 and -1 if the leaflets are
-                                not known. NULL: all -1. For an aortic or tricuspid valve, the known leaflets must determine the
-                                names of all leaflets. For other kinds, if no leaflet is known, the cusp of the first nadir
-                                becomes cusp 0 */
+  const int32_t *leaflet_id; /* (2, n_landmarks): the leaflets of each landmark. For a nadir or an attachment point, pass the id
+                                of its cusp, and -1. For a commissure, pass the ids of its two leaflets in any order. Pass -1 and
+                                -1 if the leaflets are not known. NULL: all -1. For an aortic or tricuspid valve, the known
+                                leaflets must determine the names of all leaflets. For other kinds, if no leaflet is known, the
+                                cusp of the first nadir becomes cusp 0 */
   double scale;              /* mesh units in a centimetre: 10 for millimetres, 1 for centimetres, or 0.01 for metres. Must be
                                 set */
   double noise;              /* the standard deviation of each coordinate of the landmarks, mesh units, >= 0. Default RIIS_AUTO:
@@ -117,10 +117,10 @@ RIIS_API riis_status riis_placement_arrays_init(riis_placement_arrays *arrays, i
  * commissure_height is then the mean height. If the differences are below the noise, the sectors and the proportions of the
  * heights do not change. The rotations and leaflet angles of an aortic valve follow from the landmarks. If cusps would overlap,
  * the call lowers leaflet_power.
- * Errors: RIIS_INVALID_ARGUMENT if landmarks are missing, too many, in one place, collinear or mirrored, if they do not show the
- * direction of flow, and if the valve is too large or too small for a heart valve at this scale. The message names the landmarks.
- * The axis of a tricuspid or mitral_coapting valve must be at most 20 degrees from the normal of the annulus. A mitral valve must
- * satisfy three conditions:
+ * Errors: RIIS_INVALID_ARGUMENT if landmarks are missing, too many, in one place, collinear or mirrored, and if they do not show
+ * the direction of flow. RIIS_INVALID_ARGUMENT also if they are too large or too small for a heart valve at this scale. The
+ * message names the landmarks. The axis of a tricuspid or mitral_coapting valve must be at most 20 degrees from the normal of the
+ * annulus. A mitral valve must satisfy three conditions:
  * - The posterior horn is on the posterior side of the annulus, and the trigones are on the anterior side.
  * - The axis of the fitted valve is at most 20 degrees from the annulus' normal.
  * - The fitted AP_diameter differs from the depth of the annulus by at most a twelfth of this depth, or by at most five times the
@@ -152,7 +152,7 @@ RIIS_API riis_status riis_warp_options_init(riis_warp_options *options, int64_t 
 
 /* Makes a warp from landmarks on the unwarped valve. The map is the identity until riis_warp_set_targets gives it targets.
  *   `sources`: 3 to 1000 landmarks. If the landmarks lie nearly in a plane (riis_warp_info.is_planar), the map stretches lengths
- *     normal to the plane as much as lengths in the plane, and keeps normals of the plane at right angles to it.
+ *     normal to the plane as much as lengths in the plane. It also keeps normals of the plane at right angles to the plane.
  * Errors: RIIS_INVALID_ARGUMENT for a bad landmark or field, if two landmarks are in one place, and if all landmarks lie on a
  * line. The message names the landmark or field and its value. */
 RIIS_API riis_status riis_warp_create(const riis_points *sources, const riis_warp_options *options, riis_warp **warp);

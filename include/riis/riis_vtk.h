@@ -33,9 +33,9 @@ typedef struct riis_vtk_mesh riis_vtk_mesh;
 
 /* Reads a mesh, which may have no cells. Nodes and cells keep the order of the file, but the nodes within a cell of second order
  * get the order of VTK. docs/formats.md lists the limits of each format.
- *   `path`: a file with one of these endings: .vtu (VTK XML), .vtk (legacy VTK), .vti, .vtr or .vts (structured grids of VTK),
- *     .vtm (blocks, whose shared nodes are joined), .msh (gmsh), .xdmf or .xmf, .e, .exo, .ex2 or .exii (Exodus), .foam. The path
- *     may also be a folder of OpenFOAM: a case, a time folder of a case, or a polyMesh.
+ *   `path`: a file of VTK (.vtu, .vtk, .vti, .vtr, .vts or .vtm), gmsh (.msh), XDMF (.xdmf or .xmf) or Exodus (.e, .exo, .ex2 or
+ *     .exii), or a .foam file. Nodes that blocks of a .vtm file share are joined. The path may also be a folder of OpenFOAM: a
+ *     case, a time folder of a case, or a polyMesh.
  * HDF5 and VTK's reader of Exodus can crash on damaged files. If you do not trust an .xdmf or Exodus file, read it in a separate
  * process. The program riis does so.
  * Errors: RIIS_FILE_ERROR if the file is missing, unreadable or truncated, has another format, or has no points. The message

@@ -104,8 +104,8 @@ RIIS_API riis_status riis_surface_options_init(riis_surface_options *options, in
  * skipped. They occur at the root of each cusp, at the mitral commissures and at the ends of bileaflet middle edges. The band is
  * the set of nodes within the half thickness eps of the surface. An offset o moves the band by o eps along the normals. Let s be
  * the signed distance of a node, which is positive on the side to which normals point. The band with the offset then holds the
- * nodes with |s - o eps| <= eps. If the closest point p of a node x lies on a rim, the band holds the node if |x - p - o eps n|
- * <= eps, with the normal n at p (docs/theory/marks.md, "Offset"). An offset does not change distances, sides and closest points.
+ * nodes with |s - o eps| <= eps. A node x whose closest point p lies on a rim is in the band if |x - p - o eps n| <= eps, with
+ * the normal n at p (docs/theory/marks.md, "Offset"). An offset does not change distances, sides and closest points.
  * Errors: RIIS_INVALID_PARAMETER for parameters that do not fit together or that put a curve out of range. RIIS_INVALID_SURFACE
  * if there is an offset, and two neighbouring triangles have opposite windings. RIIS_LIMIT_EXCEEDED if a tolerance needs more
  * than 16,777,216 triangles, quads or samples, or is smaller than the rounding error of coordinates. */
