@@ -18,7 +18,7 @@ namespace {
 std::string advice_on_band(const std::string &kind) {
   if (kind == "bileaflet") return "band: leave --offset at 0, because the flow passes on both sides of the leaflets\n";
   std::string advice =
-      "band: with a cut rim and a skirt, --offset 0.75 gives the flow the full width of an open valve. This\n"
+      "band: with a cut rim and a skirt, --offset 0.75 gives the flow the full width of an open valve. It\n"
       "needs a half thickness of at least twice the gap of the closed valve. If the half thickness is between the gap\n"
       "and twice the gap, take --offset 0.5. If it is smaller than the gap, leave --offset at 0 (docs/choosing.md)\n";
   if (kind == "coapting")
