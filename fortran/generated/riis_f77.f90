@@ -6050,8 +6050,8 @@ subroutine riisf_opening_from_table(n_keys, key_time, key_opening, period, inter
   status = riis_opening_from_table(table, time, opening, rate)
 end subroutine riisf_opening_from_table
 
-!> Gives the opening that two ramps give at a time. Errors: RIIS_INVALID_ARGUMENT for a bad field; the message names the field
-!! and its value.
+!> Gives the opening at a time, from the times of the two ramps. Errors: RIIS_INVALID_ARGUMENT for a bad field; the message names
+!! the field and its value.
 subroutine riisf_opening_from_times(opening_start, opening_duration, closing_start, closing_duration, closed, open, &
     period, time, opening, rate, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof

@@ -59,7 +59,7 @@ typedef struct riis_opening_times {
                              only once */
 } riis_opening_times;
 RIIS_API riis_status riis_opening_times_init(riis_opening_times *times, int64_t struct_size); /* the defaults */
-/* Gives the opening that two ramps give at a time. Each of `opening` and `rate` may be NULL.
+/* Gives the opening at a time, from the times of the two ramps. Each of `opening` and `rate` may be NULL.
  *   `time`: magnitude at most 1e30.
  * Errors: RIIS_INVALID_ARGUMENT for a bad field; the message names the field and its value. */
 RIIS_API riis_status riis_opening_from_times(const riis_opening_times *times, double time, double *opening,

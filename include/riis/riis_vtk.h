@@ -458,9 +458,9 @@ RIIS_API riis_status riis_vtk_picture_options_init(riis_vtk_picture_options *opt
  *
  *   `mesh`: must have marks set. NULL draws the surface alone, in one panel.
  *   `path`: ends in .png.
- * Errors: RIIS_UNAVAILABLE without a usable X display, after about half a second. RIIS_INVALID_ARGUMENT for leaking_edges,
- * RIIS_VTK_PANELS_MARKS or a velocity without a mesh, and if the mesh lacks a node of leaking_edges or the array of the
- * velocity. */
+ * Errors: RIIS_UNAVAILABLE without a usable X display, after about half a second. Without a mesh, RIIS_INVALID_ARGUMENT for
+ * leaking_edges, RIIS_VTK_PANELS_MARKS and a velocity. With a mesh, RIIS_INVALID_ARGUMENT if it lacks a node of leaking_edges or
+ * the array of the velocity. */
 RIIS_API riis_status riis_vtk_draw(const riis_surface *surface, const riis_vtk_mesh *mesh,
                                    const riis_vtk_picture_options *options, const char *path);
 

@@ -26,9 +26,9 @@ RIIS_API void riis_leaks_destroy(riis_leaks **leaks); /* destroys the leaks and 
  *   `leaks`: its content is replaced.
  * The test is exact for coordinates in double precision; coordinates below 1e-90 in magnitude count as 0. Each edge is listed
  * once, even if the adjacency has it in the rows of both of its nodes. Edges to ghosts are ignored. Edges of at most two half
- * thicknesses do not leak (docs/meshes.md). With an offset o, this length is 2 (1 - |o|) half thicknesses. Longer edges up to 2
- * sqrt(1 - o^2) half thicknesses leak only beside rims, and seldom. With an offset, an edge also does not leak if both of its
- * nodes are on the same side of the surface and away from rims. Such an edge only cuts the corner of a fold. If the same
+ * thicknesses do not leak (docs/meshes.md). With an offset o, this length is 2 (1 - |o|) half thicknesses. Longer edges of at
+ * most 2 sqrt(1 - o^2) half thicknesses seldom leak, and only beside rims. With an offset, an edge also does not leak if both of
+ * its nodes are on the same side of the surface and away from rims. Such an edge only cuts the corner of a fold. If the same
  * triangles are marked with riis_leak_list.half_thickness, no edge leaks, except with RIIS_SEARCH_PAPER. However, an update with
  * this half thickness moves a valve's triangles by up to tolerance * half_thickness, so search for leaks again after the update.
  * Errors: RIIS_INVALID_ARGUMENT if the mesh has no adjacency, if the marks are empty, and if the marks have another number of
