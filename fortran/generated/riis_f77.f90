@@ -64,7 +64,7 @@ subroutine riisf_valve_create(kind, valve, status)
   valve = handle_of(c_handle)
 end subroutine riisf_valve_create
 
-!> Makes a second valve with the same parameters, patches and states. The caller destroys both valves.
+!> Makes a copy of a valve, with the valve's parameters, patches and states. The caller destroys both valves.
 subroutine riisf_valve_copy(valve, copy, status)
   use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr
   use, intrinsic :: iso_fortran_env, only: int64
@@ -81,8 +81,9 @@ subroutine riisf_valve_copy(valve, copy, status)
   copy = handle_of(c_handle)
 end subroutine riisf_valve_copy
 
-!> Sets a parameter by its name in the paper. riisf_surface_create checks that all values fit together. Errors:
-!! RIIS_INVALID_PARAMETER naming the parameter and the value.
+!> Sets a parameter by its name. This call checks only the range of the values; riisf_surface_create checks whether all
+!! parameters fit together. Errors: RIIS_INVALID_PARAMETER for a bad name or value; the message names the parameter and the
+!! value.
 subroutine riisf_valve_set(valve, name, n_values, values, status)
   use, intrinsic :: iso_c_binding, only: c_char, c_double
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -92,19 +93,20 @@ subroutine riisf_valve_set(valve, name, n_values, values, status)
   integer(int64), intent(in) :: valve                     !< From riisf_valve_create, for example.
   character(len=*), intent(in) :: name                    !< Such as 'root_radius'. A name such as 'right.leaflet_angle',
                                                           !! 'commissure_0.fusion' or 'bump_0.open' sets the parameter of one
-                                                          !! part. The name 'leaflet_angle' alone sets the parameter of all
-                                                          !! parts, or of the whole valve if it has such a parameter.
-  integer(int32), intent(in) :: n_values                  !< 3 for rotation, translation (x, y, z), t0_* and t3_* (right, left,
-                                                          !! non-coronary cusp); 1 for others.
-  real(c_double), intent(in) :: values(*)                 !< (n_values), within the parameter's range.
+                                                          !! part. The name 'leaflet_angle' alone sets this parameter of all
+                                                          !! parts. If the whole valve has a parameter of this name, the name
+                                                          !! sets only that parameter.
+  integer(int32), intent(in) :: n_values                  !< 3 for translation (x, y, z), and for rotation, t0_* and t3_*
+                                                          !! (right, left, non-coronary cusp); 1 for other parameters.
+  real(c_double), intent(in) :: values(*)                 !< (n_values): the values, within the parameter's range.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   character(len=len_trim(name) + 1, kind=c_char) :: c_name
   call end_for_c(name, c_name)
   status = riis_valve_set(c_handle_of(valve), c_name, int(n_values, int64), values)
 end subroutine riisf_valve_set
 
-!> Copies a parameter's values to the caller's array. Arguments are as in riisf_valve_set. Errors: RIIS_INVALID_PARAMETER, also
-!! for a name that means all cusps.
+!> Copies a parameter's values to the caller's array. Arguments are as in riisf_valve_set. Errors: RIIS_INVALID_PARAMETER for an
+!! unknown name, and for a name that stands for a parameter of several cusps.
 subroutine riisf_valve_get(valve, name, n_values, values, status)
   use, intrinsic :: iso_c_binding, only: c_char, c_double
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -114,19 +116,20 @@ subroutine riisf_valve_get(valve, name, n_values, values, status)
   integer(int64), intent(in) :: valve                     !< From riisf_valve_create, for example.
   character(len=*), intent(in) :: name                    !< Such as 'root_radius'. A name such as 'right.leaflet_angle',
                                                           !! 'commissure_0.fusion' or 'bump_0.open' sets the parameter of one
-                                                          !! part. The name 'leaflet_angle' alone sets the parameter of all
-                                                          !! parts, or of the whole valve if it has such a parameter.
-  integer(int32), intent(in) :: n_values                  !< 3 for rotation, translation (x, y, z), t0_* and t3_* (right, left,
-                                                          !! non-coronary cusp); 1 for others.
-  real(c_double), intent(inout) :: values(*)              !< (n_values), within the parameter's range.
+                                                          !! part. The name 'leaflet_angle' alone sets this parameter of all
+                                                          !! parts. If the whole valve has a parameter of this name, the name
+                                                          !! sets only that parameter.
+  integer(int32), intent(in) :: n_values                  !< 3 for translation (x, y, z), and for rotation, t0_* and t3_*
+                                                          !! (right, left, non-coronary cusp); 1 for other parameters.
+  real(c_double), intent(inout) :: values(*)              !< (n_values): the values, within the parameter's range.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   character(len=len_trim(name) + 1, kind=c_char) :: c_name
   call end_for_c(name, c_name)
   status = riis_valve_get(c_handle_of(valve), c_name, int(n_values, int64), values)
 end subroutine riisf_valve_get
 
-!> Returns a parameter to the value that its rule gives, or to its default if it has no rule. Errors: RIIS_INVALID_PARAMETER for
-!! another name.
+!> Undoes riisf_valve_set: the parameter gets the value of its rule again, or its default if it has no rule. Errors:
+!! RIIS_INVALID_PARAMETER for an unknown name.
 subroutine riisf_valve_unset(valve, name, status)
   use, intrinsic :: iso_c_binding, only: c_char
   use, intrinsic :: iso_fortran_env, only: int64
@@ -141,7 +144,8 @@ subroutine riisf_valve_unset(valve, name, status)
   status = riis_valve_unset(c_handle_of(valve), c_name)
 end subroutine riisf_valve_unset
 
-!> Says whether a parameter was set. Errors: RIIS_INVALID_PARAMETER, also for a name that means all cusps.
+!> Says whether a parameter was set. Errors: RIIS_INVALID_PARAMETER for an unknown name, and for a name that stands for a
+!! parameter of several cusps.
 subroutine riisf_valve_is_set(valve, name, is_set, status)
   use, intrinsic :: iso_c_binding, only: c_char
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -150,15 +154,16 @@ subroutine riisf_valve_is_set(valve, name, is_set, status)
   implicit none
   integer(int64), intent(in) :: valve                     !< From riisf_valve_create, for example.
   character(len=*), intent(in) :: name                    !< As in riisf_valve_get.
-  integer(int32), intent(inout) :: is_set                 !< 1, or 0 if the parameter has its default or follows its rule.
+  integer(int32), intent(inout) :: is_set                 !< 1 if the parameter was set; 0 if its value is the default or comes
+                                                          !! from its rule.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   character(len=len_trim(name) + 1, kind=c_char) :: c_name
   call end_for_c(name, c_name)
   status = riis_valve_is_set(c_handle_of(valve), c_name, is_set)
 end subroutine riisf_valve_is_set
 
-!> Gives the valve an open state. At opening 0 the valve then has its own shape, and at opening 1 the shape of the valve `open`.
-!! Errors: RIIS_INVALID_PARAMETER if `open` has another kind, or other curves, degrees or sides.
+!> Gives the valve an open state. At opening 0 the valve then has its own shape. At opening 1 it has the shape of the valve
+!! `open`. Errors: RIIS_INVALID_PARAMETER if `open` has another kind, or other curves, degrees or sides.
 subroutine riisf_valve_set_open_state(valve, open, status)
   use, intrinsic :: iso_fortran_env, only: int64
   use riis_support, only: c_handle_of
@@ -166,15 +171,15 @@ subroutine riisf_valve_set_open_state(valve, open, status)
   implicit none
   integer(int64), intent(in) :: valve                     !< From riisf_valve_create, for example.
   integer(int64), intent(in) :: open                      !< A valve of the same kind, which is copied. The opening, leaflet
-                                                          !! ids and open state of `open` are ignored. Two valves from patches
-                                                          !! must have the same curves, sides and degrees (degree 1 may stand
-                                                          !! for degree 2). If one of two bileaflet valves has a ring, the
-                                                          !! other must also have one.
+                                                          !! ids and open state of `open` are ignored. If the valves come from
+                                                          !! patches, `open` must have the same curves, sides and degrees
+                                                          !! (degree 1 may stand for degree 2). Two bileaflet valves must both
+                                                          !! have a ring, or both lack it.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   status = riis_valve_set_open_state(c_handle_of(valve), c_handle_of(open))
 end subroutine riisf_valve_set_open_state
 
-!> Destroys the valve. Surfaces that were made from the valve do not change. Valves that use it as their open state do not
+!> Destroys the valve. Surfaces that were made from the valve do not change. Valves with this valve as their open state do not
 !! change. The handle becomes 0. Nothing happens to a handle that is 0.
 subroutine riisf_valve_destroy(handle)
   use, intrinsic :: iso_c_binding, only: c_ptr
@@ -191,8 +196,8 @@ end subroutine riisf_valve_destroy
 
 !> Makes the surface of a valve: curves, polylines, Coons patches, quads and triangles (paper, 3 and 4.1; docs/theory.md).
 !! Errors: RIIS_INVALID_PARAMETER for parameters that do not fit together or that put a curve out of range. RIIS_INVALID_SURFACE
-!! with an offset, if two neighbouring triangles have opposite windings. RIIS_LIMIT_EXCEEDED if a tolerance needs more than
-!! 16,777,216 triangles, quads or samples, or is smaller than the rounding of coordinates.
+!! if there is an offset, and two neighbouring triangles have opposite windings. RIIS_LIMIT_EXCEEDED if a tolerance needs more
+!! than 16,777,216 triangles, quads or samples, or is smaller than the rounding error of coordinates.
 subroutine riisf_surface_create(valve, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
     surface, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_null_ptr, c_ptr, c_sizeof
@@ -210,9 +215,9 @@ subroutine riisf_surface_create(valve, half_thickness, tolerance, scale, rotatio
   real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Refused for a
-                                                          !! valve if coordinates would be rounded by more than a thousandth of
-                                                          !! tolerance * half_thickness.
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse so
+                                                          !! large a shift of a valve that coordinates would be rounded by more
+                                                          !! than a thousandth of tolerance * half_thickness.
   integer(int64), intent(inout) :: surface                !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_options) :: options
@@ -263,9 +268,9 @@ subroutine riisf_surface_place(surface, valve, half_thickness, tolerance, scale,
   real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Refused for a
-                                                          !! valve if coordinates would be rounded by more than a thousandth of
-                                                          !! tolerance * half_thickness.
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse so
+                                                          !! large a shift of a valve that coordinates would be rounded by more
+                                                          !! than a thousandth of tolerance * half_thickness.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_options) :: options
   status = riis_surface_options_init(options, c_sizeof(options))
@@ -299,11 +304,11 @@ subroutine riisf_surface_measure(surface, valve, half_thickness, tolerance, scal
   real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Refused for a
-                                                          !! valve if coordinates would be rounded by more than a thousandth of
-                                                          !! tolerance * half_thickness.
-  integer(int32), intent(in) :: measure                   !< RIIS_MEASURE_*, for closest points and marking only, usually
-                                                          !! RIIS_MEASURE_TRIANGLES, the only one for surfaces from arrays.
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse so
+                                                          !! large a shift of a valve that coordinates would be rounded by more
+                                                          !! than a thousandth of tolerance * half_thickness.
+  integer(int32), intent(in) :: measure                   !< RIIS_MEASURE_*, for closest points and marking only. Usually
+                                                          !! RIIS_MEASURE_TRIANGLES; surfaces from arrays accept only this.
   real(c_double), intent(in) :: measure_tolerance         !< A fraction of half_thickness, 1e-6 to 1; RIIS_AUTO: tolerance. Not
                                                           !! used by RIIS_MEASURE_TRIANGLES.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -341,9 +346,9 @@ subroutine riisf_surface_triangulate(surface, valve, half_thickness, tolerance, 
   real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Refused for a
-                                                          !! valve if coordinates would be rounded by more than a thousandth of
-                                                          !! tolerance * half_thickness.
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse so
+                                                          !! large a shift of a valve that coordinates would be rounded by more
+                                                          !! than a thousandth of tolerance * half_thickness.
   integer(int32), intent(in) :: triangulation             !< RIIS_TRIANGULATION_*, usually RIIS_TRIANGULATION_ADAPTED.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_options) :: options
@@ -380,12 +385,12 @@ subroutine riisf_surface_offset(surface, valve, half_thickness, tolerance, scale
   real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Refused for a
-                                                          !! valve if coordinates would be rounded by more than a thousandth of
-                                                          !! tolerance * half_thickness.
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse so
+                                                          !! large a shift of a valve that coordinates would be rounded by more
+                                                          !! than a thousandth of tolerance * half_thickness.
   real(c_double), intent(in) :: offset                    !< The offset o, in half thicknesses, above -1 and below 1, usually
-                                                          !! 0. The middle of the band lies o half thicknesses beside the
-                                                          !! surface, along the normals after flip_normals.
+                                                          !! 0. The middle of the band is the surface moved by o half
+                                                          !! thicknesses along its normals (after flip_normals).
                                                           !! RIIS_MEASURE_SAMPLING and RIIS_MEASURE_MINIMIZATION need 0.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_options) :: options
@@ -401,9 +406,9 @@ subroutine riisf_surface_offset(surface, valve, half_thickness, tolerance, scale
   status = riis_surface_update(c_handle_of(surface), c_handle_of(valve), options)
 end subroutine riisf_surface_offset
 
-!> Replaces the surface's content by a valve, and gives every vertex a velocity. The triangles are bitwise the same as those of
-!! riisf_surface_update. For a valve at rest, also pass the valve as valve_before. Errors: as riisf_surface_update.
-!! RIIS_INVALID_PARAMETER for a valve_before of another kind or other patches, or with parameters that do not fit together.
+!> Updates the surface from a valve, and gives every vertex a velocity. The triangles are bitwise the same as those of
+!! riisf_surface_update. For a valve at rest, pass the same valve as valve_before. Errors: as riisf_surface_update.
+!! RIIS_INVALID_PARAMETER if valve_before has another kind or other patches, or if its parameters do not fit together.
 subroutine riisf_surface_update_moving(surface, valve, valve_before, dt, status)
   use, intrinsic :: iso_c_binding, only: c_double
   use, intrinsic :: iso_fortran_env, only: int64
@@ -421,8 +426,8 @@ subroutine riisf_surface_update_moving(surface, valve, valve_before, dt, status)
 end subroutine riisf_surface_update_moving
 
 !> Replaces the surface like riisf_surface_update_moving, but with another placement, now and before. Errors: as
-!! riisf_surface_update. RIIS_INVALID_PARAMETER for a valve_before of another kind or other patches, or with parameters that do
-!! not fit together.
+!! riisf_surface_update. RIIS_INVALID_PARAMETER if valve_before has another kind or other patches, or if its parameters do not
+!! fit together.
 subroutine riisf_surface_place_moving(surface, valve, valve_before, dt, half_thickness, tolerance, scale, &
     rotation_axis, rotation_angle, translation, scale_before, rotation_axis_before, rotation_angle_before, &
     translation_before, status)
@@ -446,9 +451,9 @@ subroutine riisf_surface_place_moving(surface, valve, valve_before, dt, half_thi
   real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Refused for a
-                                                          !! valve if coordinates would be rounded by more than a thousandth of
-                                                          !! tolerance * half_thickness.
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse so
+                                                          !! large a shift of a valve that coordinates would be rounded by more
+                                                          !! than a thousandth of tolerance * half_thickness.
   real(c_double), intent(in) :: scale_before              !< The placement of the earlier state.
   real(c_double), intent(in) :: rotation_axis_before(3)   !< The placement of the earlier state.
   real(c_double), intent(in) :: rotation_angle_before     !< The placement of the earlier state.
@@ -476,8 +481,8 @@ subroutine riisf_surface_place_moving(surface, valve, valve_before, dt, half_thi
 end subroutine riisf_surface_place_moving
 
 !> Adds a direction in which the surface of a valve changes with a parameter, a landmark or a number of the placement. Errors:
-!! RIIS_INVALID_ARGUMENT for a surface from arrays and for a dp out of range. RIIS_INVALID_PARAMETER for a state of another kind
-!! or with other patches, and for parameters that do not fit together. RIIS_LIMIT_EXCEEDED for more than 1000 directions.
+!! RIIS_INVALID_ARGUMENT for a surface from arrays, and for a dp out of range. RIIS_INVALID_PARAMETER if a state has another kind
+!! or other patches, and if its parameters do not fit together. RIIS_LIMIT_EXCEEDED for more than 1000 directions.
 subroutine riisf_surface_add_direction(surface, valve_after, valve_before, dp, status)
   use, intrinsic :: iso_c_binding, only: c_double
   use, intrinsic :: iso_fortran_env, only: int64
@@ -485,23 +490,21 @@ subroutine riisf_surface_add_direction(surface, valve_after, valve_before, dp, s
   use riis_c, only: riis_status, riis_surface_add_direction
   implicit none
   integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
-  integer(int64), intent(in) :: valve_after               !< Two copies of the surface's valve. The parameter is a little
-                                                          !! larger in valve_after, and a little smaller in valve_before, than
-                                                          !! in the surface. If only the placement changes, pass the same valve
-                                                          !! twice.
-  integer(int64), intent(in) :: valve_before              !< Two copies of the surface's valve. The parameter is a little
-                                                          !! larger in valve_after, and a little smaller in valve_before, than
-                                                          !! in the surface. If only the placement changes, pass the same valve
-                                                          !! twice.
-  real(c_double), intent(in) :: dp                        !< The parameter's difference from valve_before to valve_after, 1e-30
-                                                          !! to 1e30 in magnitude.
+  integer(int64), intent(in) :: valve_after               !< Two copies of the surface's valve. In valve_after the parameter is
+                                                          !! a little larger than in the surface, and in valve_before a little
+                                                          !! smaller. If only the placement changes, pass the same valve twice.
+  integer(int64), intent(in) :: valve_before              !< Two copies of the surface's valve. In valve_after the parameter is
+                                                          !! a little larger than in the surface, and in valve_before a little
+                                                          !! smaller. If only the placement changes, pass the same valve twice.
+  real(c_double), intent(in) :: dp                        !< The value of the parameter in valve_after minus its value in
+                                                          !! valve_before, 1e-30 to 1e30 in magnitude.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   status = riis_surface_add_direction(c_handle_of(surface), c_handle_of(valve_after), c_handle_of(valve_before), dp)
 end subroutine riisf_surface_add_direction
 
 !> Adds a direction like riisf_surface_add_direction, in which the placement also changes. Errors: RIIS_INVALID_ARGUMENT for a
-!! surface from arrays and for a dp out of range. RIIS_INVALID_PARAMETER for a state of another kind or with other patches, and
-!! for parameters that do not fit together. RIIS_LIMIT_EXCEEDED for more than 1000 directions.
+!! surface from arrays, and for a dp out of range. RIIS_INVALID_PARAMETER if a state has another kind or other patches, and if
+!! its parameters do not fit together. RIIS_LIMIT_EXCEEDED for more than 1000 directions.
 subroutine riisf_surface_add_placed(surface, valve_after, valve_before, dp, scale_after, rotation_axis_after, &
     rotation_angle_after, translation_after, scale_before, rotation_axis_before, rotation_angle_before, &
     translation_before, status)
@@ -511,16 +514,14 @@ subroutine riisf_surface_add_placed(surface, valve_after, valve_before, dp, scal
   use riis_c, only: RIIS_OK, riis_status, riis_surface_add_direction, riis_surface_options, riis_surface_options_init
   implicit none
   integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
-  integer(int64), intent(in) :: valve_after               !< Two copies of the surface's valve. The parameter is a little
-                                                          !! larger in valve_after, and a little smaller in valve_before, than
-                                                          !! in the surface. If only the placement changes, pass the same valve
-                                                          !! twice.
-  integer(int64), intent(in) :: valve_before              !< Two copies of the surface's valve. The parameter is a little
-                                                          !! larger in valve_after, and a little smaller in valve_before, than
-                                                          !! in the surface. If only the placement changes, pass the same valve
-                                                          !! twice.
-  real(c_double), intent(in) :: dp                        !< The parameter's difference from valve_before to valve_after, 1e-30
-                                                          !! to 1e30 in magnitude.
+  integer(int64), intent(in) :: valve_after               !< Two copies of the surface's valve. In valve_after the parameter is
+                                                          !! a little larger than in the surface, and in valve_before a little
+                                                          !! smaller. If only the placement changes, pass the same valve twice.
+  integer(int64), intent(in) :: valve_before              !< Two copies of the surface's valve. In valve_after the parameter is
+                                                          !! a little larger than in the surface, and in valve_before a little
+                                                          !! smaller. If only the placement changes, pass the same valve twice.
+  real(c_double), intent(in) :: dp                        !< The value of the parameter in valve_after minus its value in
+                                                          !! valve_before, 1e-30 to 1e30 in magnitude.
   real(c_double), intent(in) :: scale_after               !< The placement of the later state.
   real(c_double), intent(in) :: rotation_axis_after(3)    !< The placement of the later state.
   real(c_double), intent(in) :: rotation_angle_after      !< The placement of the later state.
@@ -547,7 +548,7 @@ subroutine riisf_surface_add_placed(surface, valve_after, valve_before, dp, scal
       options_after, options_before)
 end subroutine riisf_surface_add_placed
 
-!> Destroys the surface. Marks that were made with the surface stay. The handle becomes 0. Nothing happens to a handle that is 0.
+!> Destroys the surface. Marks of the surface stay valid. The handle becomes 0. Nothing happens to a handle that is 0.
 subroutine riisf_surface_destroy(handle)
   use, intrinsic :: iso_c_binding, only: c_ptr
   use, intrinsic :: iso_fortran_env, only: int64
@@ -566,8 +567,8 @@ end subroutine riisf_surface_destroy
 ! -----------------------------------------------------------------------------------------------------------------
 
 !> Borrows node coordinates and checks them once. The coordinates must stay in place until the mesh is updated or destroyed. With
-!! MPI, a process without nodes must also make a mesh. Errors: RIIS_INVALID_MESH naming the node and the value.
-!! RIIS_LIMIT_EXCEEDED for too many nodes.
+!! MPI, processes without nodes must also make a mesh. Errors: RIIS_INVALID_MESH for a bad coordinate; the message names the node
+!! and the value. RIIS_LIMIT_EXCEEDED for too many nodes.
 subroutine riisf_mesh_create(n_nodes, x, y, z, stride, mesh, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_null_ptr, c_ptr
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -610,9 +611,9 @@ subroutine riisf_mesh_create_64(n_nodes, x, y, z, stride, mesh, status)
   mesh = handle_of(c_handle)
 end subroutine riisf_mesh_create_64
 
-!> Tells the mesh that its coordinates have changed or are now in other arrays, and checks them again. Call this function after
-!! every change of coordinates. The adjacency stays if n_nodes is the same. Make a new handle for another mesh. Arguments and
-!! errors are as in riisf_mesh_create.
+!> Tells the mesh that coordinates have changed or are now in other arrays, and checks them again. Call this function after every
+!! change of coordinates. If n_nodes is the same, the mesh keeps its adjacency. For a different mesh, make a new handle.
+!! Arguments and errors are as in riisf_mesh_create.
 subroutine riisf_mesh_update(mesh, n_nodes, x, y, z, stride, status)
   use, intrinsic :: iso_c_binding, only: c_double
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -647,8 +648,8 @@ subroutine riisf_mesh_update_64(mesh, n_nodes, x, y, z, stride, status)
   status = riis_mesh_update(c_handle_of(mesh), n_nodes, location_of(x), location_of(y), location_of(z), stride)
 end subroutine riisf_mesh_update_64
 
-!> Copies node coordinates and checks them. Use this call for a temporary array of Fortran, or for single precision, which is
-!! converted to double exactly. The copies take 24 bytes per node. Errors: as riisf_mesh_create.
+!> Copies node coordinates and checks them. Use this call for a temporary array of Fortran, or for coordinates in single
+!! precision, which become doubles without rounding. The copies take 24 bytes per node. Errors: as riisf_mesh_create.
 subroutine riisf_mesh_create_copy(n_nodes, x, y, z, stride, real_bits, mesh, status)
   use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -710,7 +711,8 @@ subroutine riisf_mesh_create_copy_64(n_nodes, x, y, z, stride, real_bits, mesh, 
   mesh = handle_of(c_handle)
 end subroutine riisf_mesh_create_copy_64
 
-!> Does the same as riisf_mesh_update, but copies the coordinates. A mesh may change between borrowed and copied coordinates.
+!> Does the same as riisf_mesh_update, but copies the coordinates. A mesh with borrowed coordinates may later get copies, and the
+!! reverse.
 subroutine riisf_mesh_update_copy(mesh, n_nodes, x, y, z, stride, real_bits, status)
   use, intrinsic :: iso_c_binding, only: c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -766,8 +768,8 @@ end subroutine riisf_mesh_update_copy_64
 
 !> Makes a mesh from the axes of a rectilinear grid, and stores nothing for each node. Node (i, j, k) is at X(i), Y(j), Z(k). Its
 !! number is first_num + (i - 1) stride_i + (j - 1) stride_j + (k - 1) stride_k. An array K(0:NI+1, 0:NJ+1, 0:NK+1) has the
-!! strides 1, NI+2 and (NI+2)(NJ+2), its first node is 1 plus their sum, and n_nodes is its length. Errors: RIIS_INVALID_MESH
-!! naming the axis, the index and the value. RIIS_LIMIT_EXCEEDED for a node's number of 2^40 or more.
+!! strides 1, NI+2 and (NI+2)(NJ+2), its first node is 1 plus their sum, and n_nodes is its length. Errors: RIIS_INVALID_MESH for
+!! a bad axis; the message names the axis, the index and the value. RIIS_LIMIT_EXCEEDED if a node has a number of 2^40 or more.
 subroutine riisf_mesh_create_grid(ni, nj, nk, x, y, z, real_bits, first_num, stride_i, stride_j, stride_k, n_nodes, &
     mesh, status)
   use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr, c_sizeof
@@ -857,8 +859,8 @@ subroutine riisf_mesh_create_grid_64(ni, nj, nk, x, y, z, real_bits, first_num, 
   mesh = handle_of(c_handle)
 end subroutine riisf_mesh_create_grid_64
 
-!> Gives a mesh other axes, or turns a mesh of points into a grid. The call riisf_mesh_update turns a grid into points. Errors:
-!! those of riisf_mesh_create_grid; the mesh then keeps its nodes.
+!> Gives a mesh other axes. A mesh of points becomes a grid; riisf_mesh_update makes it a mesh of points again. Errors: as
+!! riisf_mesh_create_grid. After an error the mesh keeps its nodes.
 subroutine riisf_mesh_update_grid(mesh, ni, nj, nk, x, y, z, real_bits, first_num, stride_i, stride_j, stride_k, &
     n_nodes, status)
   use, intrinsic :: iso_c_binding, only: c_sizeof
@@ -940,9 +942,10 @@ subroutine riisf_mesh_update_grid_64(mesh, ni, nj, nk, x, y, z, real_bits, first
   status = riis_mesh_update_grid(c_handle_of(mesh), grid)
 end subroutine riisf_mesh_update_grid_64
 
-!> Makes the clusters of RIIS_SEARCH_CLUSTERS in advance, so that no marking has to make them. Clusters take 41 bytes per node
-!! while the handle lives, and 32 more while they are made, because they copy the coordinates. A grid needs no copy of
-!! coordinates. Errors: RIIS_LIMIT_EXCEEDED for 2^32 nodes or more. RIIS_INVALID_MESH as riisf_mark_nodes.
+!> Makes the clusters for RIIS_SEARCH_CLUSTERS in advance, so that no marking has to make them. The clusters contain a copy of
+!! the coordinates. They take 41 bytes per node until the mesh is destroyed, and 32 more bytes per node while they are made. For
+!! a grid, the call stores nothing per node. Errors: RIIS_LIMIT_EXCEEDED for 2^32 nodes or more. RIIS_INVALID_MESH as
+!! riisf_mark_nodes.
 subroutine riisf_mesh_prepare(mesh, n_threads, status)
   use, intrinsic :: iso_fortran_env, only: int32, int64
   use riis_support, only: c_handle_of
@@ -1001,8 +1004,8 @@ end subroutine riisf_version
 ! Adjacencies
 ! -----------------------------------------------------------------------------------------------------------------
 
-!> Gives the mesh the adjacency that the neighbour search walks along, and checks it once. Errors: RIIS_INVALID_MESH naming the
-!! row and its value.
+!> Gives the mesh an adjacency, the edges along which the neighbour search walks, and checks it once. Errors: RIIS_INVALID_MESH
+!! for a bad row; the message names the row and its value.
 subroutine riisf_mesh_set_adjacency(mesh, n_rows, offsets, columns, index_base, n_all, status)
   use, intrinsic :: iso_c_binding, only: c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -1016,9 +1019,9 @@ subroutine riisf_mesh_set_adjacency(mesh, n_rows, offsets, columns, index_base, 
                                                           !! index_base is 1, the neighbours of node i are columns(offsets(i))
                                                           !! to columns(offsets(i + 1) - 1).
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
-  integer(int32), intent(in) :: n_all                     !< Every column is below this number, which is at least n_rows.
-                                                          !! Columns from n_rows on are ghosts of other ranks, and are ignored.
-                                                          !! 0 stands for n_rows.
+  integer(int32), intent(in) :: n_all                     !< The number of nodes with ghosts, at least n_rows. Every column is
+                                                          !! below this number. Columns from n_rows on are ghosts, nodes of
+                                                          !! other ranks, and are ignored. The default 0 stands for n_rows.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_csr) :: csr
   status = riis_csr_init(csr, c_sizeof(csr))
@@ -1047,9 +1050,9 @@ subroutine riisf_mesh_set_adjacency_64(mesh, n_rows, offsets, columns, index_bas
                                                           !! index_base is 1, the neighbours of node i are columns(offsets(i))
                                                           !! to columns(offsets(i + 1) - 1).
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
-  integer(int64), intent(in) :: n_all                     !< Every column is below this number, which is at least n_rows.
-                                                          !! Columns from n_rows on are ghosts of other ranks, and are ignored.
-                                                          !! 0 stands for n_rows.
+  integer(int64), intent(in) :: n_all                     !< The number of nodes with ghosts, at least n_rows. Every column is
+                                                          !! below this number. Columns from n_rows on are ghosts, nodes of
+                                                          !! other ranks, and are ignored. The default 0 stands for n_rows.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_csr) :: csr
   status = riis_csr_init(csr, c_sizeof(csr))
@@ -1092,7 +1095,7 @@ subroutine riisf_mesh_clear_adjacency(mesh, status)
 end subroutine riisf_mesh_clear_adjacency
 
 !> Makes an adjacency of nodes from cells. Two nodes are neighbours if an edge of a cell joins them. Errors: RIIS_INVALID_MESH
-!! naming the cell and its value.
+!! for a bad cell; the message names the cell and its value.
 subroutine riisf_adjacency_from_cells(n_nodes, nodes_per_cell, n_cells, cells, index_base, n_threads, adjacency, status)
   use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -1158,7 +1161,7 @@ subroutine riisf_adjacency_from_cells_64(n_nodes, nodes_per_cell, n_cells, cells
 end subroutine riisf_adjacency_from_cells_64
 
 !> Makes an adjacency from cells of several shapes. If offsets begins with 1, the nodes of cell i are node_ids(offsets(i)) to
-!! node_ids(offsets(i + 1) - 1). Errors: RIIS_INVALID_MESH naming the cell and its value.
+!! node_ids(offsets(i + 1) - 1). Errors: RIIS_INVALID_MESH for a bad cell; the message names the cell and its value.
 subroutine riisf_adjacency_from_mixed(n_nodes, n_cells, node_ids, offsets, index_base, n_threads, adjacency, status)
   use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -1168,8 +1171,9 @@ subroutine riisf_adjacency_from_mixed(n_nodes, n_cells, node_ids, offsets, index
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   integer(int32), intent(in) :: n_cells                   !< >= 0.
   integer(int32), intent(in) :: node_ids(*)               !< (nodes_per_cell, n_cells): the nodes of cell after cell.
-  integer(int32), intent(in) :: offsets(*)                !< (n_cells + 1), ascending from 0 or from index_base: where each
-                                                          !! cell begins in node_ids, and where the last cell ends.
+  integer(int32), intent(in) :: offsets(*)                !< (n_cells + 1), ascending from 0 or from index_base: the position
+                                                          !! in node_ids at which each cell begins, and the end of the last
+                                                          !! cell.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int64), intent(inout) :: adjacency              !< Written on success.
@@ -1201,8 +1205,9 @@ subroutine riisf_adjacency_from_mixed_64(n_nodes, n_cells, node_ids, offsets, in
   integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   integer(int64), intent(in) :: n_cells                   !< >= 0.
   integer(int64), intent(in) :: node_ids(*)               !< (nodes_per_cell, n_cells): the nodes of cell after cell.
-  integer(int64), intent(in) :: offsets(*)                !< (n_cells + 1), ascending from 0 or from index_base: where each
-                                                          !! cell begins in node_ids, and where the last cell ends.
+  integer(int64), intent(in) :: offsets(*)                !< (n_cells + 1), ascending from 0 or from index_base: the position
+                                                          !! in node_ids at which each cell begins, and the end of the last
+                                                          !! cell.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int64), intent(inout) :: adjacency              !< Written on success.
@@ -1224,8 +1229,8 @@ subroutine riisf_adjacency_from_mixed_64(n_nodes, n_cells, node_ids, offsets, in
   adjacency = handle_of(c_handle)
 end subroutine riisf_adjacency_from_mixed_64
 
-!> Makes an adjacency of cells from faces. Two cells are neighbours if they have a common face. Errors: RIIS_INVALID_MESH naming
-!! the face and the owner or neighbor that is no cell.
+!> Makes an adjacency of cells from faces. Two cells are neighbours if they have a common face. Errors: RIIS_INVALID_MESH if an
+!! owner or neighbor is not a cell; the message names the face and the value.
 subroutine riisf_adjacency_from_faces(n_cells, n_faces, face_cells, index_base, n_threads, adjacency, status)
   use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -1335,14 +1340,16 @@ end subroutine riisf_adjacency_destroy
 ! Triangles without area are refused.
 ! -----------------------------------------------------------------------------------------------------------------
 
-!> Makes a surface from arrays, with the caller's winding. A triangle's id is its face's number; the halves of quad q have the
-!! ids 2 q and 2 q + 1. The id of a skipped triangle is not used again. A triangle has zero area if its longest edge is shorter
-!! than 1e-60, or if its height over its longest edge is at most 1e-12 of this edge. A skirt leads away from the axis of the
-!! attachment. This axis is the line through the centroid of the attachment along its vector area (docs/theory/skirt.md). The
-!! skirt's vertices and triangles come after the caller's vertices and triangles. Without `attached`, the attachment is the
-!! closed line of open edges that encloses the largest area. This line must enclose at least 0.8 of the area of the leaflets'
-!! outline (RIIS_OUTLINE_BOUNDARY). Errors: RIIS_LIMIT_EXCEEDED for too many triangles. RIIS_INVALID_SURFACE naming the face or
-!! vertex and its value, or saying why an attachment is not found. RIIS_INVALID_ARGUMENT for a length of the skirt out of range.
+!> Makes a surface from arrays, and keeps the winding of the caller's faces. The id of a triangle is the number of its face. The
+!! halves of quad q have the ids 2 q and 2 q + 1. The id of a skipped triangle is not used again. A triangle has zero area if its
+!! longest edge is shorter than 1e-60, or if its height over its longest edge is at most 1e-12 of this edge. A skirt leads
+!! outwards from the axis of the attachment. This axis passes through the centroid of the attachment, in the direction of the
+!! vector area that the attachment encloses (docs/theory/skirt.md). The skirt's vertices and triangles come after the caller's
+!! vertices and triangles. An open edge belongs to only one triangle. Without `attached`, the attachment is the closed line of
+!! open edges that encloses the largest area. The call refuses the skirt if this area is less than 0.8 of the area inside the
+!! leaflets' outline (RIIS_OUTLINE_BOUNDARY). Errors: RIIS_LIMIT_EXCEEDED for too many triangles. RIIS_INVALID_SURFACE for a bad
+!! face or vertex, and if no attachment is found. The message names the face or vertex and its value, or says why there is no
+!! attachment. RIIS_INVALID_ARGUMENT if a length of the skirt is out of range.
 subroutine riisf_surface_from_arrays(n_vertices, x, y, z, stride, corners_per_face, n_faces, vertex_ids, index_base, &
     half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, surface, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_null_ptr, c_ptr, c_sizeof
@@ -1371,9 +1378,9 @@ subroutine riisf_surface_from_arrays(n_vertices, x, y, z, stride, corners_per_fa
   real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Refused for a
-                                                          !! valve if coordinates would be rounded by more than a thousandth of
-                                                          !! tolerance * half_thickness.
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse so
+                                                          !! large a shift of a valve that coordinates would be rounded by more
+                                                          !! than a thousandth of tolerance * half_thickness.
   integer(int64), intent(inout) :: surface                !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_arrays) :: arrays
@@ -1433,9 +1440,9 @@ subroutine riisf_surface_from_arrays_64(n_vertices, x, y, z, stride, corners_per
   real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Refused for a
-                                                          !! valve if coordinates would be rounded by more than a thousandth of
-                                                          !! tolerance * half_thickness.
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse so
+                                                          !! large a shift of a valve that coordinates would be rounded by more
+                                                          !! than a thousandth of tolerance * half_thickness.
   integer(int64), intent(inout) :: surface                !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_arrays) :: arrays
@@ -1467,8 +1474,8 @@ subroutine riisf_surface_from_arrays_64(n_vertices, x, y, z, stride, corners_per
 end subroutine riisf_surface_from_arrays_64
 
 !> Makes a surface as riisf_surface_from_arrays does, with a skirt. Errors: RIIS_LIMIT_EXCEEDED for too many triangles.
-!! RIIS_INVALID_SURFACE naming the face or vertex and its value, or saying why an attachment is not found. RIIS_INVALID_ARGUMENT
-!! for a length of the skirt out of range.
+!! RIIS_INVALID_SURFACE for a bad face or vertex, and if no attachment is found. The message names the face or vertex and its
+!! value, or says why there is no attachment. RIIS_INVALID_ARGUMENT if a length of the skirt is out of range.
 subroutine riisf_surface_with_skirt(n_vertices, x, y, z, stride, corners_per_face, n_faces, vertex_ids, index_base, &
     attached, skirt_length, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, surface, &
     status)
@@ -1493,7 +1500,8 @@ subroutine riisf_surface_with_skirt(n_vertices, x, y, z, stride, corners_per_fac
                                                           !! for others. attached(1) = -1: the attachment is chosen.
   real(c_double), intent(in) :: skirt_length              !< The length of a skirt before placement. A skirt is a strip that
                                                           !! leads outwards from the attachment. The length is 1e-4 to 10 times
-                                                          !! the mean distance of the attachment from its axis. 0: no skirt.
+                                                          !! the mean distance of the attachment from the attachment's axis. 0:
+                                                          !! no skirt.
   real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
                                                           !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
   real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
@@ -1503,9 +1511,9 @@ subroutine riisf_surface_with_skirt(n_vertices, x, y, z, stride, corners_per_fac
   real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Refused for a
-                                                          !! valve if coordinates would be rounded by more than a thousandth of
-                                                          !! tolerance * half_thickness.
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse so
+                                                          !! large a shift of a valve that coordinates would be rounded by more
+                                                          !! than a thousandth of tolerance * half_thickness.
   integer(int64), intent(inout) :: surface                !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_arrays) :: arrays
@@ -1563,7 +1571,8 @@ subroutine riisf_surface_with_skirt_64(n_vertices, x, y, z, stride, corners_per_
                                                           !! for others. attached(1) = -1: the attachment is chosen.
   real(c_double), intent(in) :: skirt_length              !< The length of a skirt before placement. A skirt is a strip that
                                                           !! leads outwards from the attachment. The length is 1e-4 to 10 times
-                                                          !! the mean distance of the attachment from its axis. 0: no skirt.
+                                                          !! the mean distance of the attachment from the attachment's axis. 0:
+                                                          !! no skirt.
   real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
                                                           !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
   real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
@@ -1573,9 +1582,9 @@ subroutine riisf_surface_with_skirt_64(n_vertices, x, y, z, stride, corners_per_
   real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Refused for a
-                                                          !! valve if coordinates would be rounded by more than a thousandth of
-                                                          !! tolerance * half_thickness.
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse so
+                                                          !! large a shift of a valve that coordinates would be rounded by more
+                                                          !! than a thousandth of tolerance * half_thickness.
   integer(int64), intent(inout) :: surface                !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_arrays) :: arrays
@@ -1639,12 +1648,12 @@ subroutine riisf_surface_offset_arrays(n_vertices, x, y, z, stride, corners_per_
   real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Refused for a
-                                                          !! valve if coordinates would be rounded by more than a thousandth of
-                                                          !! tolerance * half_thickness.
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse so
+                                                          !! large a shift of a valve that coordinates would be rounded by more
+                                                          !! than a thousandth of tolerance * half_thickness.
   real(c_double), intent(in) :: offset                    !< The offset o, in half thicknesses, above -1 and below 1, usually
-                                                          !! 0. The middle of the band lies o half thicknesses beside the
-                                                          !! surface, along the normals after flip_normals.
+                                                          !! 0. The middle of the band is the surface moved by o half
+                                                          !! thicknesses along its normals (after flip_normals).
                                                           !! RIIS_MEASURE_SAMPLING and RIIS_MEASURE_MINIMIZATION need 0.
   integer(int64), intent(inout) :: surface                !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -1706,12 +1715,12 @@ subroutine riisf_surface_offset_arrays_64(n_vertices, x, y, z, stride, corners_p
   real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Refused for a
-                                                          !! valve if coordinates would be rounded by more than a thousandth of
-                                                          !! tolerance * half_thickness.
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse so
+                                                          !! large a shift of a valve that coordinates would be rounded by more
+                                                          !! than a thousandth of tolerance * half_thickness.
   real(c_double), intent(in) :: offset                    !< The offset o, in half thicknesses, above -1 and below 1, usually
-                                                          !! 0. The middle of the band lies o half thicknesses beside the
-                                                          !! surface, along the normals after flip_normals.
+                                                          !! 0. The middle of the band is the surface moved by o half
+                                                          !! thicknesses along its normals (after flip_normals).
                                                           !! RIIS_MEASURE_SAMPLING and RIIS_MEASURE_MINIMIZATION need 0.
   integer(int64), intent(inout) :: surface                !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -1745,8 +1754,8 @@ subroutine riisf_surface_offset_arrays_64(n_vertices, x, y, z, stride, corners_p
 end subroutine riisf_surface_offset_arrays_64
 
 !> Replaces the surface by triangles or quads that moved, with the same options and with the velocities of the vertices. Errors:
-!! as riisf_surface_from_arrays. With n_faces 0, also RIIS_INVALID_ARGUMENT if n_vertices differs from the last arrays, or if the
-!! surface was not made from arrays.
+!! as riisf_surface_from_arrays. With n_faces 0, also RIIS_INVALID_ARGUMENT if n_vertices differs from that of the last arrays,
+!! or if the surface was not made from arrays.
 subroutine riisf_surface_update_arrays(surface, n_vertices, x, y, z, stride, vx, vy, vz, velocity_stride, &
     corners_per_face, n_faces, vertex_ids, index_base, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -1761,14 +1770,14 @@ subroutine riisf_surface_update_arrays(surface, n_vertices, x, y, z, stride, vx,
   real(c_double), intent(in) :: z(*)                      !< Entry i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
   integer(int32), intent(in) :: stride                    !< 1 for separate arrays, 3 for XYZ(3,*).
   real(c_double), intent(in) :: vx(*)                     !< (n_vertices) by velocity_stride: velocities of the vertices, in
-                                                          !! lengths per unit of time. The placement turns and scales the
-                                                          !! velocities.
+                                                          !! the unit of x, y and z per unit of time. The placement rotates and
+                                                          !! scales the velocities.
   real(c_double), intent(in) :: vy(*)                     !< (n_vertices) by velocity_stride: velocities of the vertices, in
-                                                          !! lengths per unit of time. The placement turns and scales the
-                                                          !! velocities.
+                                                          !! the unit of x, y and z per unit of time. The placement rotates and
+                                                          !! scales the velocities.
   real(c_double), intent(in) :: vz(*)                     !< (n_vertices) by velocity_stride: velocities of the vertices, in
-                                                          !! lengths per unit of time. The placement turns and scales the
-                                                          !! velocities.
+                                                          !! the unit of x, y and z per unit of time. The placement rotates and
+                                                          !! scales the velocities.
   integer(int32), intent(in) :: velocity_stride           !< Of vx, vy and vz. Usually 1.
   integer(int32), intent(in) :: corners_per_face          !< 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3.
                                                           !! Usually 3.
@@ -1812,14 +1821,14 @@ subroutine riisf_surface_update_arrays_64(surface, n_vertices, x, y, z, stride, 
   real(c_double), intent(in) :: z(*)                      !< Entry i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
   integer(int64), intent(in) :: stride                    !< 1 for separate arrays, 3 for XYZ(3,*).
   real(c_double), intent(in) :: vx(*)                     !< (n_vertices) by velocity_stride: velocities of the vertices, in
-                                                          !! lengths per unit of time. The placement turns and scales the
-                                                          !! velocities.
+                                                          !! the unit of x, y and z per unit of time. The placement rotates and
+                                                          !! scales the velocities.
   real(c_double), intent(in) :: vy(*)                     !< (n_vertices) by velocity_stride: velocities of the vertices, in
-                                                          !! lengths per unit of time. The placement turns and scales the
-                                                          !! velocities.
+                                                          !! the unit of x, y and z per unit of time. The placement rotates and
+                                                          !! scales the velocities.
   real(c_double), intent(in) :: vz(*)                     !< (n_vertices) by velocity_stride: velocities of the vertices, in
-                                                          !! lengths per unit of time. The placement turns and scales the
-                                                          !! velocities.
+                                                          !! the unit of x, y and z per unit of time. The placement rotates and
+                                                          !! scales the velocities.
   integer(int64), intent(in) :: velocity_stride           !< Of vx, vy and vz. Usually 1.
   integer(int32), intent(in) :: corners_per_face          !< 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3.
                                                           !! Usually 3.
@@ -1848,8 +1857,8 @@ subroutine riisf_surface_update_arrays_64(surface, n_vertices, x, y, z, stride, 
   status = riis_surface_update_from_arrays(c_handle_of(surface), arrays)
 end subroutine riisf_surface_update_arrays_64
 
-!> Makes keyframes from copies of arrays and frames. Errors: RIIS_INVALID_SURFACE naming the frame, vertex or face.
-!! RIIS_LIMIT_EXCEEDED for too many.
+!> Makes keyframes from copies of arrays and frames. Errors: RIIS_INVALID_SURFACE for a bad frame, vertex or face; the message
+!! names it. RIIS_LIMIT_EXCEEDED for too many frames, vertices or faces.
 subroutine riisf_keyframes_create(n_vertices, n_keys, time, xyz, period, interpolation, corners_per_face, n_faces, &
     vertex_ids, index_base, keyframes, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_null_ptr, c_ptr, c_sizeof
@@ -1863,10 +1872,11 @@ subroutine riisf_keyframes_create(n_vertices, n_keys, time, xyz, period, interpo
   real(c_double), intent(in) :: time(*)                   !< (n_keys), strictly ascending, magnitude at most 1e30.
   real(c_double), intent(in) :: xyz(*)                    !< (3, n_vertices, n_keys): the vertices, frame after frame;
                                                           !! magnitude at most 1e60.
-  real(c_double), intent(in) :: period                    !< A number above 0: the motion repeats with this period. All keys
-                                                          !! lie within a period of the first key. If the last key is one
-                                                          !! period after the first key, both keys must have the same frame. 0:
-                                                          !! the surface rests before the first key and after the last key.
+  real(c_double), intent(in) :: period                    !< If above 0, the motion repeats with this period. All keys lie
+                                                          !! within one period of the first key. If the last key is exactly one
+                                                          !! period after the first key, the two keys must have the same frame.
+                                                          !! With 0, the default, the surface rests before the first key and
+                                                          !! after the last key.
   integer(int32), intent(in) :: interpolation             !< RIIS_INTERPOLATION_*, of each coordinate. Usually
                                                           !! RIIS_INTERPOLATION_LINEAR.
   integer(int32), intent(in) :: corners_per_face          !< 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3.
@@ -1915,10 +1925,11 @@ subroutine riisf_keyframes_create_64(n_vertices, n_keys, time, xyz, period, inte
   real(c_double), intent(in) :: time(*)                   !< (n_keys), strictly ascending, magnitude at most 1e30.
   real(c_double), intent(in) :: xyz(*)                    !< (3, n_vertices, n_keys): the vertices, frame after frame;
                                                           !! magnitude at most 1e60.
-  real(c_double), intent(in) :: period                    !< A number above 0: the motion repeats with this period. All keys
-                                                          !! lie within a period of the first key. If the last key is one
-                                                          !! period after the first key, both keys must have the same frame. 0:
-                                                          !! the surface rests before the first key and after the last key.
+  real(c_double), intent(in) :: period                    !< If above 0, the motion repeats with this period. All keys lie
+                                                          !! within one period of the first key. If the last key is exactly one
+                                                          !! period after the first key, the two keys must have the same frame.
+                                                          !! With 0, the default, the surface rests before the first key and
+                                                          !! after the last key.
   integer(int32), intent(in) :: interpolation             !< RIIS_INTERPOLATION_*, of each coordinate. Usually
                                                           !! RIIS_INTERPOLATION_LINEAR.
   integer(int32), intent(in) :: corners_per_face          !< 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3.
@@ -1963,9 +1974,9 @@ subroutine riisf_surface_from_keyframes(keyframes, time, dt, half_thickness, tol
       riis_surface_options_init
   implicit none
   integer(int64), intent(in) :: keyframes                 !< From riisf_keyframes_create, for example.
-  real(c_double), intent(in) :: time                      !< Finite, magnitude at most 1e30.
+  real(c_double), intent(in) :: time                      !< The time, finite and at most 1e30 in magnitude.
   real(c_double), intent(in) :: dt                        !< The velocity is the mean from time - dt to time. With dt 0, the
-                                                          !! velocity is the derivative of the interpolation at that time.
+                                                          !! velocity is the time derivative of the interpolation.
   real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
                                                           !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
   real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
@@ -1975,9 +1986,9 @@ subroutine riisf_surface_from_keyframes(keyframes, time, dt, half_thickness, tol
   real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Refused for a
-                                                          !! valve if coordinates would be rounded by more than a thousandth of
-                                                          !! tolerance * half_thickness.
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse so
+                                                          !! large a shift of a valve that coordinates would be rounded by more
+                                                          !! than a thousandth of tolerance * half_thickness.
   integer(int64), intent(inout) :: surface                !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_options) :: options
@@ -2007,9 +2018,9 @@ subroutine riisf_surface_offset_keyframes(keyframes, time, dt, half_thickness, t
       riis_surface_options_init
   implicit none
   integer(int64), intent(in) :: keyframes                 !< From riisf_keyframes_create, for example.
-  real(c_double), intent(in) :: time                      !< Finite, magnitude at most 1e30.
+  real(c_double), intent(in) :: time                      !< The time, finite and at most 1e30 in magnitude.
   real(c_double), intent(in) :: dt                        !< The velocity is the mean from time - dt to time. With dt 0, the
-                                                          !! velocity is the derivative of the interpolation at that time.
+                                                          !! velocity is the time derivative of the interpolation.
   real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
                                                           !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
   real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
@@ -2019,12 +2030,12 @@ subroutine riisf_surface_offset_keyframes(keyframes, time, dt, half_thickness, t
   real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Refused for a
-                                                          !! valve if coordinates would be rounded by more than a thousandth of
-                                                          !! tolerance * half_thickness.
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse so
+                                                          !! large a shift of a valve that coordinates would be rounded by more
+                                                          !! than a thousandth of tolerance * half_thickness.
   real(c_double), intent(in) :: offset                    !< The offset o, in half thicknesses, above -1 and below 1, usually
-                                                          !! 0. The middle of the band lies o half thicknesses beside the
-                                                          !! surface, along the normals after flip_normals.
+                                                          !! 0. The middle of the band is the surface moved by o half
+                                                          !! thicknesses along its normals (after flip_normals).
                                                           !! RIIS_MEASURE_SAMPLING and RIIS_MEASURE_MINIMIZATION need 0.
   integer(int64), intent(inout) :: surface                !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -2045,8 +2056,7 @@ subroutine riisf_surface_offset_keyframes(keyframes, time, dt, half_thickness, t
   surface = handle_of(c_handle)
 end subroutine riisf_surface_offset_keyframes
 
-!> Replaces the surface's content by the frames around a time. Arguments and errors are as in riisf_surface_from_keyframes,
-!! options as in riisf_surface_update.
+!> Updates the surface from the frames around a time.
 subroutine riisf_surface_update_keyframes(surface, keyframes, time, dt, status)
   use, intrinsic :: iso_c_binding, only: c_double
   use, intrinsic :: iso_fortran_env, only: int64
@@ -2055,9 +2065,9 @@ subroutine riisf_surface_update_keyframes(surface, keyframes, time, dt, status)
   implicit none
   integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
   integer(int64), intent(in) :: keyframes                 !< From riisf_keyframes_create, for example.
-  real(c_double), intent(in) :: time                      !< Finite, magnitude at most 1e30.
+  real(c_double), intent(in) :: time                      !< The time, finite and at most 1e30 in magnitude.
   real(c_double), intent(in) :: dt                        !< The velocity is the mean from time - dt to time. With dt 0, the
-                                                          !! velocity is the derivative of the interpolation at that time.
+                                                          !! velocity is the time derivative of the interpolation.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   status = riis_surface_update_from_keyframes(c_handle_of(surface), c_handle_of(keyframes), time, dt)
 end subroutine riisf_surface_update_keyframes
@@ -2291,7 +2301,7 @@ subroutine riisf_surface_vertex_velocities_64(surface, length, n, velocity, stat
 end subroutine riisf_surface_vertex_velocities_64
 
 !> Copies the edges at which tissue or a stent holds the leaflets of a valve (riis_surface_get_attachment in riis.h). Errors:
-!! RIIS_INVALID_ARGUMENT for other surfaces from arrays, because their attached edges are not known.
+!! RIIS_INVALID_ARGUMENT for a surface from arrays or keyframes without an attachment.
 subroutine riisf_surface_attachment(surface, length, n, edges, leaflet_id, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -2422,8 +2432,8 @@ subroutine riisf_surface_direction_64(surface, direction_num, length, n, rate, a
   area_rate = direction%area_rate
 end subroutine riisf_surface_direction_64
 
-!> Finds the closest points of many points, in parallel. Errors: RIIS_INVALID_ARGUMENT naming the first bad point; nothing is
-!! then written.
+!> Finds the closest points of many points, in parallel. Errors: RIIS_INVALID_ARGUMENT for a bad point; the message names the
+!! first bad point, and nothing is written.
 subroutine riisf_closest_points(surface, n_points, x, y, z, stride, distance_limit, n_threads, distance, point, &
     normal, triangle_id, leaflet_id, side, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -2522,7 +2532,7 @@ subroutine riisf_closest_points_64(surface, n_points, x, y, z, stride, distance_
 end subroutine riisf_closest_points_64
 
 !> Works like riisf_closest_points, but for a list of points. Only these points are read, and only their entries are written.
-!! Errors: RIIS_INVALID_ARGUMENT naming the first bad point; nothing is then written.
+!! Errors: RIIS_INVALID_ARGUMENT for a bad point; the message names the first bad point, and nothing is written.
 subroutine riisf_closest_points_listed(surface, n_points, x, y, z, stride, n_listed, point_num, distance_limit, &
     n_threads, distance, point, normal, triangle_id, leaflet_id, side, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_loc, c_ptr, c_sizeof
@@ -2646,10 +2656,10 @@ end subroutine riisf_closest_points_listed_64
 ! Marking
 ! -----------------------------------------------------------------------------------------------------------------
 
-!> Finds every node near the surface: the marked nodes, which lie within the half thickness, and the nodes within the distance
-!! limit. The distance in double precision decides whether a node is near. If the surface has an offset, the marked nodes are the
-!! nodes in the band (riisf_surface_create). Errors: RIIS_INVALID_MESH for a coordinate that became non-finite after it was
-!! given.
+!> Finds the marked nodes, which lie in the band around the surface (riisf_surface_create), and the nodes within the distance
+!! limit. Without an offset, the band holds the nodes within the half thickness of the surface. Distances in double precision
+!! decide which nodes are found. Errors: RIIS_INVALID_MESH if a coordinate has become non-finite since the mesh was created or
+!! updated.
 subroutine riisf_mark_nodes(surface, mesh, distance_limit, search, n_threads, marks, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -2825,7 +2835,7 @@ subroutine riisf_within_limit_64(marks, length, n, node_num, distance, status)
   distance(:n) = c_distance
 end subroutine riisf_within_limit_64
 
-!> Writes every node's distance. Errors: RIIS_INVALID_ARGUMENT naming the field.
+!> Writes every node's distance. Errors: RIIS_INVALID_ARGUMENT for a bad field; the message names the field.
 subroutine riisf_dense_distance(marks, n_nodes, far_distance, distance, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -2834,8 +2844,8 @@ subroutine riisf_dense_distance(marks, n_nodes, far_distance, distance, status)
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes, for example.
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
-  real(c_double), intent(in) :: far_distance              !< The number that the array `distance` gets for nodes that are
-                                                          !! masked out or beyond the limit: NaN, or any value outside [0,
+  real(c_double), intent(in) :: far_distance              !< The number that stands for the distance of nodes that are masked
+                                                          !! out or beyond the limit. It may be NaN, or any value outside [0,
                                                           !! distance limit]. Usually RIIS_FAR_DISTANCE.
   real(c_double), intent(inout) :: distance(*)            !< (n_nodes): the distance of nodes within the distance limit,
                                                           !! far_distance for others.
@@ -2849,7 +2859,7 @@ subroutine riisf_dense_distance(marks, n_nodes, far_distance, distance, status)
   status = riis_marks_get_dense(c_handle_of(marks), arrays)
 end subroutine riisf_dense_distance
 
-!> Writes every node's closest triangle. Errors: RIIS_INVALID_ARGUMENT naming the field.
+!> Writes every node's closest triangle. Errors: RIIS_INVALID_ARGUMENT for a bad field; the message names the field.
 subroutine riisf_dense_triangle(marks, n_nodes, triangle_id, status)
   use, intrinsic :: iso_c_binding, only: c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -2869,7 +2879,7 @@ subroutine riisf_dense_triangle(marks, n_nodes, triangle_id, status)
   status = riis_marks_get_dense(c_handle_of(marks), arrays)
 end subroutine riisf_dense_triangle
 
-!> Writes every node's closest leaflet. Errors: RIIS_INVALID_ARGUMENT naming the field.
+!> Writes every node's closest leaflet. Errors: RIIS_INVALID_ARGUMENT for a bad field; the message names the field.
 subroutine riisf_dense_leaflet(marks, n_nodes, leaflet_id, status)
   use, intrinsic :: iso_c_binding, only: c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -2888,7 +2898,7 @@ subroutine riisf_dense_leaflet(marks, n_nodes, leaflet_id, status)
   status = riis_marks_get_dense(c_handle_of(marks), arrays)
 end subroutine riisf_dense_leaflet
 
-!> Writes every node's mark. Errors: RIIS_INVALID_ARGUMENT naming the field.
+!> Writes every node's mark. Errors: RIIS_INVALID_ARGUMENT for a bad field; the message names the field.
 subroutine riisf_dense_mark(marks, n_nodes, mark, status)
   use, intrinsic :: iso_c_binding, only: c_loc, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int8, int32, int64
@@ -3435,7 +3445,8 @@ end subroutine riisf_within_limit_integers_64
 ! -----------------------------------------------------------------------------------------------------------------
 
 !> Marks nodes like riisf_mark_with_fields, and also computes K and K u_surface of the nodes in the lists. K u_surface exists if
-!! the surface has velocities. Errors: RIIS_INVALID_MESH for a coordinate that became non-finite after it was given.
+!! the surface has velocities. Errors: RIIS_INVALID_MESH if a coordinate has become non-finite since the mesh was created or
+!! updated.
 subroutine riisf_mark_with_resistance(surface, mesh, distance_limit, search, n_threads, fields, R, half_thickness, &
     rim, marks, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_loc, c_ptr, c_sizeof
@@ -3452,8 +3463,8 @@ subroutine riisf_mark_with_resistance(surface, mesh, distance_limit, search, n_t
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int32), intent(in) :: fields                    !< A sum of RIIS_FIELD_*, for the nodes of riis_mark_list. Usually 0.
   real(c_double), intent(in) :: R                         !< The resistance, 0 or 1e-300 to 1e60, in mass / (length time), such
-                                                          !! as kg/(m s). A flat closed valve in a flow of velocity u has a
-                                                          !! pressure drop of (R / eps) u.
+                                                          !! as kg/(m s). In a flow of velocity u, the pressure drop across a
+                                                          !! flat closed valve is (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit; RIIS_AUTO: the half thickness.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_*, usually RIIS_RIM_ROUND.
   integer(int64), intent(inout) :: marks                  !< 0, which creates them, or from an earlier call.
@@ -3649,7 +3660,7 @@ subroutine riisf_within_limit_resistance_64(marks, length, n, K, K_u_surface, st
 end subroutine riisf_within_limit_resistance_64
 
 !> Adds the resistance K = (R / eps) delta(d), so that several valves add up. At a distance d below eps, delta(d) is (1 + cos(pi
-!! d / eps)) / (2 eps). Errors: RIIS_INVALID_ARGUMENT also for empty marks, and for a field that the marks lack.
+!! d / eps)) / (2 eps). Errors: RIIS_INVALID_ARGUMENT if the marks are empty, and if they lack a field.
 subroutine riisf_add_resistance(marks, R, half_thickness, rim, n_nodes, K, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -3659,8 +3670,8 @@ subroutine riisf_add_resistance(marks, R, half_thickness, rim, n_nodes, K, statu
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes, for example.
   real(c_double), intent(in) :: R                         !< The resistance, 0 or 1e-300 to 1e60, in mass / (length time), such
-                                                          !! as kg/(m s). A flat closed valve in a flow of velocity u has a
-                                                          !! pressure drop of (R / eps) u.
+                                                          !! as kg/(m s). In a flow of velocity u, the pressure drop across a
+                                                          !! flat closed valve is (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -3690,8 +3701,8 @@ subroutine riisf_add_resistance_64(marks, R, half_thickness, rim, n_nodes, K, st
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes, for example.
   real(c_double), intent(in) :: R                         !< The resistance, 0 or 1e-300 to 1e60, in mass / (length time), such
-                                                          !! as kg/(m s). A flat closed valve in a flow of velocity u has a
-                                                          !! pressure drop of (R / eps) u.
+                                                          !! as kg/(m s). In a flow of velocity u, the pressure drop across a
+                                                          !! flat closed valve is (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -3712,7 +3723,7 @@ subroutine riisf_add_resistance_64(marks, R, half_thickness, rim, n_nodes, K, st
 end subroutine riisf_add_resistance_64
 
 !> Adds K like riisf_add_resistance, but for a surface that moves, and also adds K u_surface. A scheme uses (sum of K) u - (sum
-!! of K u_surface). Errors: RIIS_INVALID_ARGUMENT also for empty marks, and for a field that the marks lack.
+!! of K u_surface). Errors: RIIS_INVALID_ARGUMENT if the marks are empty, and if they lack a field.
 subroutine riisf_add_moving_resistance(marks, R, half_thickness, rim, n_nodes, K, K_u_surface, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -3722,8 +3733,8 @@ subroutine riisf_add_moving_resistance(marks, R, half_thickness, rim, n_nodes, K
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_VELOCITY.
   real(c_double), intent(in) :: R                         !< The resistance, 0 or 1e-300 to 1e60, in mass / (length time), such
-                                                          !! as kg/(m s). A flat closed valve in a flow of velocity u has a
-                                                          !! pressure drop of (R / eps) u.
+                                                          !! as kg/(m s). In a flow of velocity u, the pressure drop across a
+                                                          !! flat closed valve is (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -3758,8 +3769,8 @@ subroutine riisf_add_moving_resistance_64(marks, R, half_thickness, rim, n_nodes
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_VELOCITY.
   real(c_double), intent(in) :: R                         !< The resistance, 0 or 1e-300 to 1e60, in mass / (length time), such
-                                                          !! as kg/(m s). A flat closed valve in a flow of velocity u has a
-                                                          !! pressure drop of (R / eps) u.
+                                                          !! as kg/(m s). In a flow of velocity u, the pressure drop across a
+                                                          !! flat closed valve is (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -3785,7 +3796,7 @@ subroutine riisf_add_moving_resistance_64(marks, R, half_thickness, rim, n_nodes
 end subroutine riisf_add_moving_resistance_64
 
 !> Adds K like riisf_add_resistance, but for a surface that moves, and also adds K u_surface. A scheme uses (sum of K) u - (sum
-!! of K u_surface). Errors: RIIS_INVALID_ARGUMENT also for empty marks, and for a field that the marks lack.
+!! of K u_surface). Errors: RIIS_INVALID_ARGUMENT if the marks are empty, and if they lack a field.
 subroutine riisf_add_resistance_components(marks, R, half_thickness, rim, n_nodes, K, K_u_x, K_u_y, K_u_z, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -3795,8 +3806,8 @@ subroutine riisf_add_resistance_components(marks, R, half_thickness, rim, n_node
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_VELOCITY.
   real(c_double), intent(in) :: R                         !< The resistance, 0 or 1e-300 to 1e60, in mass / (length time), such
-                                                          !! as kg/(m s). A flat closed valve in a flow of velocity u has a
-                                                          !! pressure drop of (R / eps) u.
+                                                          !! as kg/(m s). In a flow of velocity u, the pressure drop across a
+                                                          !! flat closed valve is (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -3833,8 +3844,8 @@ subroutine riisf_add_resistance_components_64(marks, R, half_thickness, rim, n_n
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_VELOCITY.
   real(c_double), intent(in) :: R                         !< The resistance, 0 or 1e-300 to 1e60, in mass / (length time), such
-                                                          !! as kg/(m s). A flat closed valve in a flow of velocity u has a
-                                                          !! pressure drop of (R / eps) u.
+                                                          !! as kg/(m s). In a flow of velocity u, the pressure drop across a
+                                                          !! flat closed valve is (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -3863,8 +3874,8 @@ end subroutine riisf_add_resistance_components_64
 
 !> Adds the force of the flow on the surface: the sum of weight * K * (velocity - u_surface). Ranks sum their forces by a
 !! reduction. u_surface is 0 without RIIS_FIELD_VELOCITY. Errors: as riisf_add_resistance. RIIS_INVALID_ARGUMENT also if
-!! n_leaflets is too small (the message names the leaflet id), if a leaflet lacks an edge, if an edge is bad, and if the reaction
-!! has no array.
+!! n_leaflets is too small (the message names the leaflet id), if a leaflet lacks an edge, and if an edge is not finite or too
+!! large.
 subroutine riisf_add_reaction(marks, R, half_thickness, rim, n_nodes, velocity, weight, force, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -3874,8 +3885,8 @@ subroutine riisf_add_reaction(marks, R, half_thickness, rim, n_nodes, velocity, 
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes or riisf_mark_with_fields.
   real(c_double), intent(in) :: R                         !< The resistance, 0 or 1e-300 to 1e60, in mass / (length time), such
-                                                          !! as kg/(m s). A flat closed valve in a flow of velocity u has a
-                                                          !! pressure drop of (R / eps) u.
+                                                          !! as kg/(m s). In a flow of velocity u, the pressure drop across a
+                                                          !! flat closed valve is (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -3915,8 +3926,8 @@ subroutine riisf_add_reaction_64(marks, R, half_thickness, rim, n_nodes, velocit
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes or riisf_mark_with_fields.
   real(c_double), intent(in) :: R                         !< The resistance, 0 or 1e-300 to 1e60, in mass / (length time), such
-                                                          !! as kg/(m s). A flat closed valve in a flow of velocity u has a
-                                                          !! pressure drop of (R / eps) u.
+                                                          !! as kg/(m s). In a flow of velocity u, the pressure drop across a
+                                                          !! flat closed valve is (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -3948,8 +3959,8 @@ end subroutine riisf_add_reaction_64
 
 !> Adds the force of the flow on the surface: the sum of weight * K * (velocity - u_surface). Ranks sum their forces by a
 !! reduction. u_surface is 0 without RIIS_FIELD_VELOCITY. Errors: as riisf_add_resistance. RIIS_INVALID_ARGUMENT also if
-!! n_leaflets is too small (the message names the leaflet id), if a leaflet lacks an edge, if an edge is bad, and if the reaction
-!! has no array.
+!! n_leaflets is too small (the message names the leaflet id), if a leaflet lacks an edge, and if an edge is not finite or too
+!! large.
 subroutine riisf_add_reaction_components(marks, R, half_thickness, rim, n_nodes, vx, vy, vz, weight, force, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -3959,8 +3970,8 @@ subroutine riisf_add_reaction_components(marks, R, half_thickness, rim, n_nodes,
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes or riisf_mark_with_fields.
   real(c_double), intent(in) :: R                         !< The resistance, 0 or 1e-300 to 1e60, in mass / (length time), such
-                                                          !! as kg/(m s). A flat closed valve in a flow of velocity u has a
-                                                          !! pressure drop of (R / eps) u.
+                                                          !! as kg/(m s). In a flow of velocity u, the pressure drop across a
+                                                          !! flat closed valve is (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -4002,8 +4013,8 @@ subroutine riisf_add_reaction_components_64(marks, R, half_thickness, rim, n_nod
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes or riisf_mark_with_fields.
   real(c_double), intent(in) :: R                         !< The resistance, 0 or 1e-300 to 1e60, in mass / (length time), such
-                                                          !! as kg/(m s). A flat closed valve in a flow of velocity u has a
-                                                          !! pressure drop of (R / eps) u.
+                                                          !! as kg/(m s). In a flow of velocity u, the pressure drop across a
+                                                          !! flat closed valve is (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -4038,7 +4049,7 @@ end subroutine riisf_add_reaction_components_64
 !> Adds the force of the flow and its moment about a point, for the whole surface and for each leaflet. The force of a node acts
 !! at the closest point of the surface. Ranks pass the same point, and add their sums by a reduction. Errors: as
 !! riisf_add_resistance. RIIS_INVALID_ARGUMENT also if n_leaflets is too small (the message names the leaflet id), if a leaflet
-!! lacks an edge, if an edge is bad, and if the reaction has no array.
+!! lacks an edge, and if an edge is not finite or too large.
 subroutine riisf_add_leaflet_reaction(marks, R, half_thickness, rim, n_nodes, velocity, weight, about, n_leaflets, &
     force, moment, leaflet_force, leaflet_moment, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -4049,22 +4060,22 @@ subroutine riisf_add_leaflet_reaction(marks, R, half_thickness, rim, n_nodes, ve
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_POINT.
   real(c_double), intent(in) :: R                         !< The resistance, 0 or 1e-300 to 1e60, in mass / (length time), such
-                                                          !! as kg/(m s). A flat closed valve in a flow of velocity u has a
-                                                          !! pressure drop of (R / eps) u.
+                                                          !! as kg/(m s). In a flow of velocity u, the pressure drop across a
+                                                          !! flat closed valve is (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
-  real(c_double), intent(in) :: about(3)                  !< The reference point of moment and leaflet_moment; magnitude at
-                                                          !! most 1e60. Usually 0.
+  real(c_double), intent(in) :: about(3)                  !< The reference point of moment and leaflet_moment; each coordinate
+                                                          !! at most 1e60 in magnitude. Usually 0.
   integer(int32), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
   real(c_double), intent(inout) :: force(3)               !< (3): force on the whole surface, in the unit of weight K velocity,
                                                           !! which is N in SI units.
   real(c_double), intent(inout) :: moment(3)              !< (3): moment on the whole surface.
-  real(c_double), intent(inout) :: leaflet_force(3, *)    !< (3, n_leaflets): force on each leaflet. A node belongs to the
-                                                          !! leaflet in riis_mark_list.leaflet_id, even if two leaflets are
+  real(c_double), intent(inout) :: leaflet_force(3, *)    !< (3, n_leaflets): force on each leaflet. A node counts for the
+                                                          !! leaflet riis_mark_list.leaflet_id, even if another leaflet is
                                                           !! equally near.
   real(c_double), intent(inout) :: leaflet_moment(3, *)   !< (3, n_leaflets): moment on each leaflet.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -4104,22 +4115,22 @@ subroutine riisf_add_leaflet_reaction_64(marks, R, half_thickness, rim, n_nodes,
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_POINT.
   real(c_double), intent(in) :: R                         !< The resistance, 0 or 1e-300 to 1e60, in mass / (length time), such
-                                                          !! as kg/(m s). A flat closed valve in a flow of velocity u has a
-                                                          !! pressure drop of (R / eps) u.
+                                                          !! as kg/(m s). In a flow of velocity u, the pressure drop across a
+                                                          !! flat closed valve is (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
   integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
-  real(c_double), intent(in) :: about(3)                  !< The reference point of moment and leaflet_moment; magnitude at
-                                                          !! most 1e60. Usually 0.
+  real(c_double), intent(in) :: about(3)                  !< The reference point of moment and leaflet_moment; each coordinate
+                                                          !! at most 1e60 in magnitude. Usually 0.
   integer(int32), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
   real(c_double), intent(inout) :: force(3)               !< (3): force on the whole surface, in the unit of weight K velocity,
                                                           !! which is N in SI units.
   real(c_double), intent(inout) :: moment(3)              !< (3): moment on the whole surface.
-  real(c_double), intent(inout) :: leaflet_force(3, *)    !< (3, n_leaflets): force on each leaflet. A node belongs to the
-                                                          !! leaflet in riis_mark_list.leaflet_id, even if two leaflets are
+  real(c_double), intent(inout) :: leaflet_force(3, *)    !< (3, n_leaflets): force on each leaflet. A node counts for the
+                                                          !! leaflet riis_mark_list.leaflet_id, even if another leaflet is
                                                           !! equally near.
   real(c_double), intent(inout) :: leaflet_moment(3, *)   !< (3, n_leaflets): moment on each leaflet.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -4151,7 +4162,7 @@ end subroutine riisf_add_leaflet_reaction_64
 !> Adds the force of the flow and its moment about a point, for the whole surface and for each leaflet. The force of a node acts
 !! at the closest point of the surface. Ranks pass the same point, and add their sums by a reduction. Errors: as
 !! riisf_add_resistance. RIIS_INVALID_ARGUMENT also if n_leaflets is too small (the message names the leaflet id), if a leaflet
-!! lacks an edge, if an edge is bad, and if the reaction has no array.
+!! lacks an edge, and if an edge is not finite or too large.
 subroutine riisf_add_leaflet_reaction_components(marks, R, half_thickness, rim, n_nodes, vx, vy, vz, weight, about, &
     n_leaflets, force, moment, leaflet_force, leaflet_moment, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -4162,8 +4173,8 @@ subroutine riisf_add_leaflet_reaction_components(marks, R, half_thickness, rim, 
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_POINT.
   real(c_double), intent(in) :: R                         !< The resistance, 0 or 1e-300 to 1e60, in mass / (length time), such
-                                                          !! as kg/(m s). A flat closed valve in a flow of velocity u has a
-                                                          !! pressure drop of (R / eps) u.
+                                                          !! as kg/(m s). In a flow of velocity u, the pressure drop across a
+                                                          !! flat closed valve is (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -4173,14 +4184,14 @@ subroutine riisf_add_leaflet_reaction_components(marks, R, half_thickness, rim, 
   real(c_double), intent(in) :: vy(*)                     !< (n_nodes), the y component.
   real(c_double), intent(in) :: vz(*)                     !< (n_nodes), the z component.
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
-  real(c_double), intent(in) :: about(3)                  !< The reference point of moment and leaflet_moment; magnitude at
-                                                          !! most 1e60. Usually 0.
+  real(c_double), intent(in) :: about(3)                  !< The reference point of moment and leaflet_moment; each coordinate
+                                                          !! at most 1e60 in magnitude. Usually 0.
   integer(int32), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
   real(c_double), intent(inout) :: force(3)               !< (3): force on the whole surface, in the unit of weight K velocity,
                                                           !! which is N in SI units.
   real(c_double), intent(inout) :: moment(3)              !< (3): moment on the whole surface.
-  real(c_double), intent(inout) :: leaflet_force(3, *)    !< (3, n_leaflets): force on each leaflet. A node belongs to the
-                                                          !! leaflet in riis_mark_list.leaflet_id, even if two leaflets are
+  real(c_double), intent(inout) :: leaflet_force(3, *)    !< (3, n_leaflets): force on each leaflet. A node counts for the
+                                                          !! leaflet riis_mark_list.leaflet_id, even if another leaflet is
                                                           !! equally near.
   real(c_double), intent(inout) :: leaflet_moment(3, *)   !< (3, n_leaflets): moment on each leaflet.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -4219,8 +4230,8 @@ subroutine riisf_add_leaflet_reaction_components_64(marks, R, half_thickness, ri
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_POINT.
   real(c_double), intent(in) :: R                         !< The resistance, 0 or 1e-300 to 1e60, in mass / (length time), such
-                                                          !! as kg/(m s). A flat closed valve in a flow of velocity u has a
-                                                          !! pressure drop of (R / eps) u.
+                                                          !! as kg/(m s). In a flow of velocity u, the pressure drop across a
+                                                          !! flat closed valve is (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -4230,14 +4241,14 @@ subroutine riisf_add_leaflet_reaction_components_64(marks, R, half_thickness, ri
   real(c_double), intent(in) :: vy(*)                     !< (n_nodes), the y component.
   real(c_double), intent(in) :: vz(*)                     !< (n_nodes), the z component.
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
-  real(c_double), intent(in) :: about(3)                  !< The reference point of moment and leaflet_moment; magnitude at
-                                                          !! most 1e60. Usually 0.
+  real(c_double), intent(in) :: about(3)                  !< The reference point of moment and leaflet_moment; each coordinate
+                                                          !! at most 1e60 in magnitude. Usually 0.
   integer(int32), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
   real(c_double), intent(inout) :: force(3)               !< (3): force on the whole surface, in the unit of weight K velocity,
                                                           !! which is N in SI units.
   real(c_double), intent(inout) :: moment(3)              !< (3): moment on the whole surface.
-  real(c_double), intent(inout) :: leaflet_force(3, *)    !< (3, n_leaflets): force on each leaflet. A node belongs to the
-                                                          !! leaflet in riis_mark_list.leaflet_id, even if two leaflets are
+  real(c_double), intent(inout) :: leaflet_force(3, *)    !< (3, n_leaflets): force on each leaflet. A node counts for the
+                                                          !! leaflet riis_mark_list.leaflet_id, even if another leaflet is
                                                           !! equally near.
   real(c_double), intent(inout) :: leaflet_moment(3, *)   !< (3, n_leaflets): moment on each leaflet.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -4268,8 +4279,8 @@ end subroutine riisf_add_leaflet_reaction_components_64
 !> Adds the force of the flow, and its moment about the edge's middle, to edges. The force of a node goes to the edge nearest to
 !! its closest point. The sums of edges are loads for tissue codes. They do not model how a membrane carries loads to its edges.
 !! Ranks pass the same edges, and add their sums by a reduction. Errors: as riisf_add_resistance. RIIS_INVALID_ARGUMENT also if
-!! n_leaflets is too small (the message names the leaflet id), if a leaflet lacks an edge, if an edge is bad, and if the reaction
-!! has no array.
+!! n_leaflets is too small (the message names the leaflet id), if a leaflet lacks an edge, and if an edge is not finite or too
+!! large.
 subroutine riisf_add_edge_reaction(marks, R, half_thickness, rim, n_nodes, velocity, weight, n_edges, edges, &
     edge_leaflet_id, edge_force, edge_moment, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -4280,8 +4291,8 @@ subroutine riisf_add_edge_reaction(marks, R, half_thickness, rim, n_nodes, veloc
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_POINT.
   real(c_double), intent(in) :: R                         !< The resistance, 0 or 1e-300 to 1e60, in mass / (length time), such
-                                                          !! as kg/(m s). A flat closed valve in a flow of velocity u has a
-                                                          !! pressure drop of (R / eps) u.
+                                                          !! as kg/(m s). In a flow of velocity u, the pressure drop across a
+                                                          !! flat closed valve is (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -4290,14 +4301,15 @@ subroutine riisf_add_edge_reaction(marks, R, half_thickness, rim, n_nodes, veloc
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
   integer(int32), intent(in) :: n_edges                   !< At least 1.
   real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge, for example
-                                                          !! riis_attachment.edges; magnitude at most 1e60. An edge may have
-                                                          !! length 0.
+                                                          !! riis_attachment.edges; coordinates at most 1e60 in magnitude. An
+                                                          !! edge may have length 0.
   integer(int32), intent(in) :: edge_leaflet_id(*)        !< (n_edges): a node's force goes to the nearest edge of its leaflet.
                                                           !! If the first entry is -1, the other entries are not read, and each
                                                           !! edge serves all leaflets.
   real(c_double), intent(inout) :: edge_force(3, *)       !< (3, n_edges): the sum of the forces of all nodes that count for
-                                                          !! the edge. Distances to edges are measured from the node's closest
-                                                          !! point. If edges are equally near, the first one counts.
+                                                          !! the edge. The nearest edge is the one nearest to the node's
+                                                          !! closest point on the surface. Of equally near edges, the first one
+                                                          !! counts.
   real(c_double), intent(inout) :: edge_moment(3, *)      !< (3, n_edges): the moment of these forces about the middle of the
                                                           !! edge.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -4336,8 +4348,8 @@ subroutine riisf_add_edge_reaction_64(marks, R, half_thickness, rim, n_nodes, ve
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_POINT.
   real(c_double), intent(in) :: R                         !< The resistance, 0 or 1e-300 to 1e60, in mass / (length time), such
-                                                          !! as kg/(m s). A flat closed valve in a flow of velocity u has a
-                                                          !! pressure drop of (R / eps) u.
+                                                          !! as kg/(m s). In a flow of velocity u, the pressure drop across a
+                                                          !! flat closed valve is (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -4346,14 +4358,15 @@ subroutine riisf_add_edge_reaction_64(marks, R, half_thickness, rim, n_nodes, ve
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
   integer(int64), intent(in) :: n_edges                   !< At least 1.
   real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge, for example
-                                                          !! riis_attachment.edges; magnitude at most 1e60. An edge may have
-                                                          !! length 0.
+                                                          !! riis_attachment.edges; coordinates at most 1e60 in magnitude. An
+                                                          !! edge may have length 0.
   integer(int32), intent(in) :: edge_leaflet_id(*)        !< (n_edges): a node's force goes to the nearest edge of its leaflet.
                                                           !! If the first entry is -1, the other entries are not read, and each
                                                           !! edge serves all leaflets.
   real(c_double), intent(inout) :: edge_force(3, *)       !< (3, n_edges): the sum of the forces of all nodes that count for
-                                                          !! the edge. Distances to edges are measured from the node's closest
-                                                          !! point. If edges are equally near, the first one counts.
+                                                          !! the edge. The nearest edge is the one nearest to the node's
+                                                          !! closest point on the surface. Of equally near edges, the first one
+                                                          !! counts.
   real(c_double), intent(inout) :: edge_moment(3, *)      !< (3, n_edges): the moment of these forces about the middle of the
                                                           !! edge.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -4384,8 +4397,8 @@ end subroutine riisf_add_edge_reaction_64
 !> Adds the force of the flow, and its moment about the edge's middle, to edges. The force of a node goes to the edge nearest to
 !! its closest point. The sums of edges are loads for tissue codes. They do not model how a membrane carries loads to its edges.
 !! Ranks pass the same edges, and add their sums by a reduction. Errors: as riisf_add_resistance. RIIS_INVALID_ARGUMENT also if
-!! n_leaflets is too small (the message names the leaflet id), if a leaflet lacks an edge, if an edge is bad, and if the reaction
-!! has no array.
+!! n_leaflets is too small (the message names the leaflet id), if a leaflet lacks an edge, and if an edge is not finite or too
+!! large.
 subroutine riisf_add_edge_reaction_components(marks, R, half_thickness, rim, n_nodes, vx, vy, vz, weight, n_edges, &
     edges, edge_leaflet_id, edge_force, edge_moment, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -4396,8 +4409,8 @@ subroutine riisf_add_edge_reaction_components(marks, R, half_thickness, rim, n_n
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_POINT.
   real(c_double), intent(in) :: R                         !< The resistance, 0 or 1e-300 to 1e60, in mass / (length time), such
-                                                          !! as kg/(m s). A flat closed valve in a flow of velocity u has a
-                                                          !! pressure drop of (R / eps) u.
+                                                          !! as kg/(m s). In a flow of velocity u, the pressure drop across a
+                                                          !! flat closed valve is (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -4409,14 +4422,15 @@ subroutine riisf_add_edge_reaction_components(marks, R, half_thickness, rim, n_n
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
   integer(int32), intent(in) :: n_edges                   !< At least 1.
   real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge, for example
-                                                          !! riis_attachment.edges; magnitude at most 1e60. An edge may have
-                                                          !! length 0.
+                                                          !! riis_attachment.edges; coordinates at most 1e60 in magnitude. An
+                                                          !! edge may have length 0.
   integer(int32), intent(in) :: edge_leaflet_id(*)        !< (n_edges): a node's force goes to the nearest edge of its leaflet.
                                                           !! If the first entry is -1, the other entries are not read, and each
                                                           !! edge serves all leaflets.
   real(c_double), intent(inout) :: edge_force(3, *)       !< (3, n_edges): the sum of the forces of all nodes that count for
-                                                          !! the edge. Distances to edges are measured from the node's closest
-                                                          !! point. If edges are equally near, the first one counts.
+                                                          !! the edge. The nearest edge is the one nearest to the node's
+                                                          !! closest point on the surface. Of equally near edges, the first one
+                                                          !! counts.
   real(c_double), intent(inout) :: edge_moment(3, *)      !< (3, n_edges): the moment of these forces about the middle of the
                                                           !! edge.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -4454,8 +4468,8 @@ subroutine riisf_add_edge_reaction_components_64(marks, R, half_thickness, rim, 
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_POINT.
   real(c_double), intent(in) :: R                         !< The resistance, 0 or 1e-300 to 1e60, in mass / (length time), such
-                                                          !! as kg/(m s). A flat closed valve in a flow of velocity u has a
-                                                          !! pressure drop of (R / eps) u.
+                                                          !! as kg/(m s). In a flow of velocity u, the pressure drop across a
+                                                          !! flat closed valve is (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -4467,14 +4481,15 @@ subroutine riisf_add_edge_reaction_components_64(marks, R, half_thickness, rim, 
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
   integer(int64), intent(in) :: n_edges                   !< At least 1.
   real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge, for example
-                                                          !! riis_attachment.edges; magnitude at most 1e60. An edge may have
-                                                          !! length 0.
+                                                          !! riis_attachment.edges; coordinates at most 1e60 in magnitude. An
+                                                          !! edge may have length 0.
   integer(int32), intent(in) :: edge_leaflet_id(*)        !< (n_edges): a node's force goes to the nearest edge of its leaflet.
                                                           !! If the first entry is -1, the other entries are not read, and each
                                                           !! edge serves all leaflets.
   real(c_double), intent(inout) :: edge_force(3, *)       !< (3, n_edges): the sum of the forces of all nodes that count for
-                                                          !! the edge. Distances to edges are measured from the node's closest
-                                                          !! point. If edges are equally near, the first one counts.
+                                                          !! the edge. The nearest edge is the one nearest to the node's
+                                                          !! closest point on the surface. Of equally near edges, the first one
+                                                          !! counts.
   real(c_double), intent(inout) :: edge_moment(3, *)      !< (3, n_edges): the moment of these forces about the middle of the
                                                           !! edge.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -4502,8 +4517,8 @@ subroutine riisf_add_edge_reaction_components_64(marks, R, half_thickness, rim, 
 end subroutine riisf_add_edge_reaction_components_64
 
 !> Adds the force of the flow on each vertex of the surface, so that a code for shells can move the leaflets. Errors: as
-!! riisf_add_reaction. RIIS_INVALID_ARGUMENT also for marks without RIIS_FIELD_BARYCENTRIC, for another number of vertices, and
-!! if the surface lacks a closest triangle.
+!! riisf_add_reaction. RIIS_INVALID_ARGUMENT also if the marks lack RIIS_FIELD_BARYCENTRIC, if n_vertices is wrong, and if the
+!! surface lacks the closest triangle of a node.
 subroutine riisf_add_vertex_reaction(marks, surface, R, half_thickness, rim, n_nodes, velocity, weight, n_vertices, &
     vertex_force, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -4516,8 +4531,8 @@ subroutine riisf_add_vertex_reaction(marks, surface, R, half_thickness, rim, n_n
   integer(int64), intent(in) :: surface                   !< The surface of the marking. The surface must not have been updated
                                                           !! since the marking.
   real(c_double), intent(in) :: R                         !< The resistance, 0 or 1e-300 to 1e60, in mass / (length time), such
-                                                          !! as kg/(m s). A flat closed valve in a flow of velocity u has a
-                                                          !! pressure drop of (R / eps) u.
+                                                          !! as kg/(m s). In a flow of velocity u, the pressure drop across a
+                                                          !! flat closed valve is (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -4526,9 +4541,9 @@ subroutine riisf_add_vertex_reaction(marks, surface, R, half_thickness, rim, n_n
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
   integer(int32), intent(in) :: n_vertices                !< The surface's number of vertices.
   real(c_double), intent(inout) :: vertex_force(3, *)     !< (3, n_vertices): the array to which the forces are added. The
-                                                          !! three vertices of a node's closest triangle share the node's
-                                                          !! force. The barycentric coordinates of the closest point are the
-                                                          !! shares.
+                                                          !! force of a node is divided among the three vertices of its closest
+                                                          !! triangle, in the proportions of the barycentric coordinates of its
+                                                          !! closest point.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
   type(riis_flow_arrays) :: flow
@@ -4561,8 +4576,8 @@ subroutine riisf_add_vertex_reaction_64(marks, surface, R, half_thickness, rim, 
   integer(int64), intent(in) :: surface                   !< The surface of the marking. The surface must not have been updated
                                                           !! since the marking.
   real(c_double), intent(in) :: R                         !< The resistance, 0 or 1e-300 to 1e60, in mass / (length time), such
-                                                          !! as kg/(m s). A flat closed valve in a flow of velocity u has a
-                                                          !! pressure drop of (R / eps) u.
+                                                          !! as kg/(m s). In a flow of velocity u, the pressure drop across a
+                                                          !! flat closed valve is (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -4571,9 +4586,9 @@ subroutine riisf_add_vertex_reaction_64(marks, surface, R, half_thickness, rim, 
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
   integer(int64), intent(in) :: n_vertices                !< The surface's number of vertices.
   real(c_double), intent(inout) :: vertex_force(3, *)     !< (3, n_vertices): the array to which the forces are added. The
-                                                          !! three vertices of a node's closest triangle share the node's
-                                                          !! force. The barycentric coordinates of the closest point are the
-                                                          !! shares.
+                                                          !! force of a node is divided among the three vertices of its closest
+                                                          !! triangle, in the proportions of the barycentric coordinates of its
+                                                          !! closest point.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
   type(riis_flow_arrays) :: flow
@@ -4594,8 +4609,8 @@ subroutine riisf_add_vertex_reaction_64(marks, surface, R, half_thickness, rim, 
 end subroutine riisf_add_vertex_reaction_64
 
 !> Adds the force of the flow on each vertex of the surface, so that a code for shells can move the leaflets. Errors: as
-!! riisf_add_reaction. RIIS_INVALID_ARGUMENT also for marks without RIIS_FIELD_BARYCENTRIC, for another number of vertices, and
-!! if the surface lacks a closest triangle.
+!! riisf_add_reaction. RIIS_INVALID_ARGUMENT also if the marks lack RIIS_FIELD_BARYCENTRIC, if n_vertices is wrong, and if the
+!! surface lacks the closest triangle of a node.
 subroutine riisf_add_vertex_reaction_components(marks, surface, R, half_thickness, rim, n_nodes, vx, vy, vz, weight, &
     n_vertices, vertex_force, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -4608,8 +4623,8 @@ subroutine riisf_add_vertex_reaction_components(marks, surface, R, half_thicknes
   integer(int64), intent(in) :: surface                   !< The surface of the marking. The surface must not have been updated
                                                           !! since the marking.
   real(c_double), intent(in) :: R                         !< The resistance, 0 or 1e-300 to 1e60, in mass / (length time), such
-                                                          !! as kg/(m s). A flat closed valve in a flow of velocity u has a
-                                                          !! pressure drop of (R / eps) u.
+                                                          !! as kg/(m s). In a flow of velocity u, the pressure drop across a
+                                                          !! flat closed valve is (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -4621,9 +4636,9 @@ subroutine riisf_add_vertex_reaction_components(marks, surface, R, half_thicknes
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
   integer(int32), intent(in) :: n_vertices                !< The surface's number of vertices.
   real(c_double), intent(inout) :: vertex_force(3, *)     !< (3, n_vertices): the array to which the forces are added. The
-                                                          !! three vertices of a node's closest triangle share the node's
-                                                          !! force. The barycentric coordinates of the closest point are the
-                                                          !! shares.
+                                                          !! force of a node is divided among the three vertices of its closest
+                                                          !! triangle, in the proportions of the barycentric coordinates of its
+                                                          !! closest point.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
   type(riis_flow_arrays) :: flow
@@ -4655,8 +4670,8 @@ subroutine riisf_add_vertex_reaction_components_64(marks, surface, R, half_thick
   integer(int64), intent(in) :: surface                   !< The surface of the marking. The surface must not have been updated
                                                           !! since the marking.
   real(c_double), intent(in) :: R                         !< The resistance, 0 or 1e-300 to 1e60, in mass / (length time), such
-                                                          !! as kg/(m s). A flat closed valve in a flow of velocity u has a
-                                                          !! pressure drop of (R / eps) u.
+                                                          !! as kg/(m s). In a flow of velocity u, the pressure drop across a
+                                                          !! flat closed valve is (R / eps) u.
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking divided by 1 +
                                                           !! |offset|; RIIS_AUTO: the half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
@@ -4668,9 +4683,9 @@ subroutine riisf_add_vertex_reaction_components_64(marks, surface, R, half_thick
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
   integer(int64), intent(in) :: n_vertices                !< The surface's number of vertices.
   real(c_double), intent(inout) :: vertex_force(3, *)     !< (3, n_vertices): the array to which the forces are added. The
-                                                          !! three vertices of a node's closest triangle share the node's
-                                                          !! force. The barycentric coordinates of the closest point are the
-                                                          !! shares.
+                                                          !! force of a node is divided among the three vertices of its closest
+                                                          !! triangle, in the proportions of the barycentric coordinates of its
+                                                          !! closest point.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
   type(riis_flow_arrays) :: flow
@@ -4689,10 +4704,11 @@ subroutine riisf_add_vertex_reaction_components_64(marks, surface, R, half_thick
       vertex_force)
 end subroutine riisf_add_vertex_reaction_components_64
 
-!> Gives the sums of the value over the nodes in the band, for each side. Nodes whose closest point is on the rim, and nodes with
-!! side 0, are left out. With an open valve the two sides have no meaning. If the surface has an offset o, the distance is |s - o
-!! eps|, and the sign of s - o eps is the side. Here s is the signed distance, and eps is the half thickness of the marking.
-!! Errors: RIIS_INVALID_ARGUMENT also for a field that the marks lack.
+!> Gives the sums of a value over the nodes in the band, for each side of the surface. Nodes whose closest point is on the rim,
+!! and nodes with side 0, are left out. For an open valve, the two sides have no meaning. If the surface has an offset o, the
+!! middle of the marked band takes the place of the surface. Let s be the signed distance of a node, and eps the half thickness
+!! of the marking. Then |s - o eps| is the distance of the node, and the sign of s - o eps is its side. Errors:
+!! RIIS_INVALID_ARGUMENT also if the marks lack a field.
 subroutine riisf_band_sums(marks, inner, outer, n_nodes, value, weight, sum_of_values, sum_of_weights, n_in_band, &
     status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -4701,12 +4717,14 @@ subroutine riisf_band_sums(marks, inner, outer, n_nodes, value, weight, sum_of_v
   use riis_c, only: RIIS_OK, riis_band, riis_band_init, riis_band_sums, riis_marks_get_band_sums, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_SIDE and _RIM.
-  real(c_double), intent(in) :: inner                     !< inner, outer: the band holds the distances d with 0 <= inner <= d
-                                                          !! <= outer. With an offset o and the half thickness eps, outer + |o|
-                                                          !! eps must be at most the marking's distance limit. Usually 0.
-  real(c_double), intent(in) :: outer                     !< inner, outer: the band holds the distances d with 0 <= inner <= d
-                                                          !! <= outer. With an offset o and the half thickness eps, outer + |o|
-                                                          !! eps must be at most the marking's distance limit. Usually 0.
+  real(c_double), intent(in) :: inner                     !< inner, outer: the band holds the nodes with distances from inner
+                                                          !! to outer, where 0 <= inner <= outer. If the surface has an offset
+                                                          !! o, outer + |o| eps must be at most the marking's distance limit,
+                                                          !! with the half thickness eps. Usually 0.
+  real(c_double), intent(in) :: outer                     !< inner, outer: the band holds the nodes with distances from inner
+                                                          !! to outer, where 0 <= inner <= outer. If the surface has an offset
+                                                          !! o, outer + |o| eps must be at most the marking's distance limit,
+                                                          !! with the half thickness eps. Usually 0.
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(in) :: value(*)                  !< (n_nodes), such as the pressure.
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
@@ -4739,12 +4757,14 @@ subroutine riisf_band_sums_64(marks, inner, outer, n_nodes, value, weight, sum_o
   use riis_c, only: RIIS_OK, riis_band, riis_band_init, riis_band_sums, riis_marks_get_band_sums, riis_status
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_SIDE and _RIM.
-  real(c_double), intent(in) :: inner                     !< inner, outer: the band holds the distances d with 0 <= inner <= d
-                                                          !! <= outer. With an offset o and the half thickness eps, outer + |o|
-                                                          !! eps must be at most the marking's distance limit. Usually 0.
-  real(c_double), intent(in) :: outer                     !< inner, outer: the band holds the distances d with 0 <= inner <= d
-                                                          !! <= outer. With an offset o and the half thickness eps, outer + |o|
-                                                          !! eps must be at most the marking's distance limit. Usually 0.
+  real(c_double), intent(in) :: inner                     !< inner, outer: the band holds the nodes with distances from inner
+                                                          !! to outer, where 0 <= inner <= outer. If the surface has an offset
+                                                          !! o, outer + |o| eps must be at most the marking's distance limit,
+                                                          !! with the half thickness eps. Usually 0.
+  real(c_double), intent(in) :: outer                     !< inner, outer: the band holds the nodes with distances from inner
+                                                          !! to outer, where 0 <= inner <= outer. If the surface has an offset
+                                                          !! o, outer + |o| eps must be at most the marking's distance limit,
+                                                          !! with the half thickness eps. Usually 0.
   integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(in) :: value(*)                  !< (n_nodes), such as the pressure.
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
@@ -4772,8 +4792,8 @@ end subroutine riisf_band_sums_64
 ! Loads of tissue
 ! -----------------------------------------------------------------------------------------------------------------
 
-!> Adds the sums over nodes of tissue that riisf_loads_forces needs. Errors: RIIS_INVALID_ARGUMENT naming the field, or the edge,
-!! node or weight and its value.
+!> Computes sums over nodes of tissue for riisf_loads_forces, and adds them to an array. Errors: RIIS_INVALID_ARGUMENT for a bad
+!! field, edge, node or weight; the message names it and its value.
 subroutine riisf_loads_sums(radius, n_edges, edges, edge_leaflet_id, n_nodes, xyz, weight, n_leaflets, sums, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32
@@ -4781,18 +4801,18 @@ subroutine riisf_loads_sums(radius, n_edges, edges, edge_leaflet_id, n_nodes, xy
   use riis_c, only: RIIS_OK, riis_loads, riis_loads_add_sums, riis_loads_init, riis_points, riis_points_init, &
       riis_status
   implicit none
-  real(c_double), intent(in) :: radius                    !< Mesh units, 1e-50 to 1e50. A leaflet's force acts at the nodes
-                                                          !! whose distance from the leaflet's edges is less than the radius.
+  real(c_double), intent(in) :: radius                    !< Mesh units, 1e-50 to 1e50. The force of a leaflet acts at the
+                                                          !! nodes that are nearer to the leaflet's edges than the radius.
   integer(int32), intent(in) :: n_edges                   !< At least 1.
   real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge, for example
-                                                          !! riis_attachment.edges; magnitude at most 1e60. An edge may have
-                                                          !! length 0.
+                                                          !! riis_attachment.edges; coordinates at most 1e60 in magnitude. An
+                                                          !! edge may have length 0.
   integer(int32), intent(in) :: edge_leaflet_id(*)        !< (n_edges): the leaflet that the edge holds. If the first entry is
                                                           !! -1, the other entries are not read, and each edge holds all
                                                           !! leaflets.
   integer(int32), intent(in) :: n_nodes                   !< 0 to 2^40.
   real(c_double), intent(in) :: xyz(3, *)                 !< (3, n_nodes): the points, in mesh units.
-  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), 0 to 1e60: the area or volume around a node, 0 for
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes): the area or volume around each node, 0 to 1e60; 0 for
                                                           !! nodes of other ranks.
   integer(int32), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
   real(c_double), intent(inout) :: sums(11, *)            !< (11, n_leaflets): the array to which the sums are added.
@@ -4823,18 +4843,18 @@ subroutine riisf_loads_sums_64(radius, n_edges, edges, edge_leaflet_id, n_nodes,
   use riis_c, only: RIIS_OK, riis_loads, riis_loads_add_sums, riis_loads_init, riis_points, riis_points_init, &
       riis_status
   implicit none
-  real(c_double), intent(in) :: radius                    !< Mesh units, 1e-50 to 1e50. A leaflet's force acts at the nodes
-                                                          !! whose distance from the leaflet's edges is less than the radius.
+  real(c_double), intent(in) :: radius                    !< Mesh units, 1e-50 to 1e50. The force of a leaflet acts at the
+                                                          !! nodes that are nearer to the leaflet's edges than the radius.
   integer(int64), intent(in) :: n_edges                   !< At least 1.
   real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge, for example
-                                                          !! riis_attachment.edges; magnitude at most 1e60. An edge may have
-                                                          !! length 0.
+                                                          !! riis_attachment.edges; coordinates at most 1e60 in magnitude. An
+                                                          !! edge may have length 0.
   integer(int32), intent(in) :: edge_leaflet_id(*)        !< (n_edges): the leaflet that the edge holds. If the first entry is
                                                           !! -1, the other entries are not read, and each edge holds all
                                                           !! leaflets.
   integer(int64), intent(in) :: n_nodes                   !< 0 to 2^40.
   real(c_double), intent(in) :: xyz(3, *)                 !< (3, n_nodes): the points, in mesh units.
-  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), 0 to 1e60: the area or volume around a node, 0 for
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes): the area or volume around each node, 0 to 1e60; 0 for
                                                           !! nodes of other ranks.
   integer(int64), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
   real(c_double), intent(inout) :: sums(11, *)            !< (11, n_leaflets): the array to which the sums are added.
@@ -4857,11 +4877,11 @@ subroutine riisf_loads_sums_64(radius, n_edges, edges, edge_leaflet_id, n_nodes,
   status = riis_loads_add_sums(loads, nodes, weight, sums)
 end subroutine riisf_loads_sums_64
 
-!> Adds the forces of the leaflets at nodes of tissue. The forces of a leaflet have the sum leaflet_force and the moment
-!! leaflet_moment, up to rounding. Errors: as riisf_loads_sums. RIIS_INVALID_ARGUMENT also if a loaded leaflet has fewer than
-!! three nodes within the radius, or only nodes that lie nearly on a line. Let r be the root-mean-square distance of the nodes
-!! from a line. The nodes lie nearly on this line if r is less than a hundredth of their root-mean-square distance from their
-!! middle. They also do if r is less than a thousandth of the size of the edges (docs/theory/loads.md).
+!> Adds the forces of the leaflets at nodes of tissue. Up to rounding, the forces of a leaflet have the sum leaflet_force and the
+!! moment leaflet_moment. Errors: as riisf_loads_sums. RIIS_INVALID_ARGUMENT also if a leaflet with a force has fewer than three
+!! nodes within the radius, or only nodes that lie nearly on a line. Let r be the root-mean-square distance of these nodes from
+!! the line. The nodes are too near the line if r is less than a hundredth of their root-mean-square distance from their middle.
+!! They are also too near if r is less than a thousandth of the size of the edges (docs/theory/loads.md).
 subroutine riisf_loads_forces(radius, n_edges, edges, edge_leaflet_id, n_nodes, xyz, weight, n_leaflets, about, &
     leaflet_force, leaflet_moment, sums, node_force, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -4870,12 +4890,12 @@ subroutine riisf_loads_forces(radius, n_edges, edges, edge_leaflet_id, n_nodes, 
   use riis_c, only: RIIS_OK, riis_loads, riis_loads_add_forces, riis_loads_init, riis_points, riis_points_init, &
       riis_status
   implicit none
-  real(c_double), intent(in) :: radius                    !< Mesh units, 1e-50 to 1e50. A leaflet's force acts at the nodes
-                                                          !! whose distance from the leaflet's edges is less than the radius.
+  real(c_double), intent(in) :: radius                    !< Mesh units, 1e-50 to 1e50. The force of a leaflet acts at the
+                                                          !! nodes that are nearer to the leaflet's edges than the radius.
   integer(int32), intent(in) :: n_edges                   !< At least 1.
   real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge, for example
-                                                          !! riis_attachment.edges; magnitude at most 1e60. An edge may have
-                                                          !! length 0.
+                                                          !! riis_attachment.edges; coordinates at most 1e60 in magnitude. An
+                                                          !! edge may have length 0.
   integer(int32), intent(in) :: edge_leaflet_id(*)        !< (n_edges): the leaflet that the edge holds. If the first entry is
                                                           !! -1, the other entries are not read, and each edge holds all
                                                           !! leaflets.
@@ -4883,8 +4903,8 @@ subroutine riisf_loads_forces(radius, n_edges, edges, edge_leaflet_id, n_nodes, 
   real(c_double), intent(in) :: xyz(3, *)                 !< (3, n_nodes): the points, in mesh units.
   real(c_double), intent(in) :: weight(*)                 !< As in riisf_loads_sums.
   integer(int32), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
-  real(c_double), intent(in) :: about(3)                  !< The reference point of leaflet_moment; magnitude at most 1e60.
-                                                          !! Usually 0.
+  real(c_double), intent(in) :: about(3)                  !< The reference point of leaflet_moment; each coordinate at most
+                                                          !! 1e60 in magnitude. Usually 0.
   real(c_double), intent(in) :: leaflet_force(3, *)       !< (3, n_leaflets): from riisf_add_leaflet_reaction, the sum over all
                                                           !! ranks.
   real(c_double), intent(in) :: leaflet_moment(3, *)      !< (3, n_leaflets): from riisf_add_leaflet_reaction, the sum over all
@@ -4923,12 +4943,12 @@ subroutine riisf_loads_forces_64(radius, n_edges, edges, edge_leaflet_id, n_node
   use riis_c, only: RIIS_OK, riis_loads, riis_loads_add_forces, riis_loads_init, riis_points, riis_points_init, &
       riis_status
   implicit none
-  real(c_double), intent(in) :: radius                    !< Mesh units, 1e-50 to 1e50. A leaflet's force acts at the nodes
-                                                          !! whose distance from the leaflet's edges is less than the radius.
+  real(c_double), intent(in) :: radius                    !< Mesh units, 1e-50 to 1e50. The force of a leaflet acts at the
+                                                          !! nodes that are nearer to the leaflet's edges than the radius.
   integer(int64), intent(in) :: n_edges                   !< At least 1.
   real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge, for example
-                                                          !! riis_attachment.edges; magnitude at most 1e60. An edge may have
-                                                          !! length 0.
+                                                          !! riis_attachment.edges; coordinates at most 1e60 in magnitude. An
+                                                          !! edge may have length 0.
   integer(int32), intent(in) :: edge_leaflet_id(*)        !< (n_edges): the leaflet that the edge holds. If the first entry is
                                                           !! -1, the other entries are not read, and each edge holds all
                                                           !! leaflets.
@@ -4936,8 +4956,8 @@ subroutine riisf_loads_forces_64(radius, n_edges, edges, edge_leaflet_id, n_node
   real(c_double), intent(in) :: xyz(3, *)                 !< (3, n_nodes): the points, in mesh units.
   real(c_double), intent(in) :: weight(*)                 !< As in riisf_loads_sums.
   integer(int64), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
-  real(c_double), intent(in) :: about(3)                  !< The reference point of leaflet_moment; magnitude at most 1e60.
-                                                          !! Usually 0.
+  real(c_double), intent(in) :: about(3)                  !< The reference point of leaflet_moment; each coordinate at most
+                                                          !! 1e60 in magnitude. Usually 0.
   real(c_double), intent(in) :: leaflet_force(3, *)       !< (3, n_leaflets): from riisf_add_leaflet_reaction, the sum over all
                                                           !! ranks.
   real(c_double), intent(in) :: leaflet_moment(3, *)      !< (3, n_leaflets): from riisf_add_leaflet_reaction, the sum over all
@@ -4972,8 +4992,9 @@ end subroutine riisf_loads_forces_64
 ! -----------------------------------------------------------------------------------------------------------------
 
 !> Finds the mesh edges that leak through the surface. An edge of the mesh's adjacency leaks if both of its nodes are unmarked
-!! and the edge crosses or touches a triangle of the surface. Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, for
-!! empty marks, and for marks with another number of nodes or another half thickness. RIIS_INVALID_MESH as riisf_mark_nodes.
+!! and the edge crosses or touches a triangle of the surface. Errors: RIIS_INVALID_ARGUMENT if the mesh has no adjacency, if the
+!! marks are empty, and if the marks have another number of nodes or another half thickness. RIIS_INVALID_MESH as
+!! riisf_mark_nodes.
 subroutine riisf_find_leaks(surface, mesh, marks, n_threads, leaks, n_edges, longest, middle, half_thickness, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -4988,12 +5009,12 @@ subroutine riisf_find_leaks(surface, mesh, marks, n_threads, leaks, n_edges, lon
   integer(int64), intent(in) :: marks                     !< Marks from riisf_mark_nodes.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int64), intent(inout) :: leaks                  !< 0, which creates them, or from an earlier call.
-  integer(int64), intent(inout) :: n_edges                !< The number of edges that leak. If this number is 0, node ids are
-                                                          !! -1, and all other fields except seconds are 0.
+  integer(int64), intent(inout) :: n_edges                !< The number of edges that leak. If it is 0, node ids are -1, and
+                                                          !! all other fields except seconds are 0.
   real(c_double), intent(inout) :: longest                !< The length of the longest edge; 0 if none leaks.
   real(c_double), intent(inout) :: middle(3)              !< The middle of the longest edge.
-  real(c_double), intent(inout) :: half_thickness         !< The smallest half thickness that gives each edge a marked node,
-                                                          !! for these triangles.
+  real(c_double), intent(inout) :: half_thickness         !< The least half thickness with which each of these edges has a
+                                                          !! marked node, for the present triangles.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_mark_options) :: options
   type(riis_leak_list) :: list
@@ -5152,8 +5173,8 @@ subroutine riisf_label_open_regions_64(mesh, marks, n_threads, n_nodes, region_n
 end subroutine riisf_label_open_regions_64
 
 !> Finds the widest passage along the edges of the mesh's adjacency, whether it is open or closed. Errors: RIIS_INVALID_ARGUMENT
-!! for a mesh without adjacency. RIIS_INVALID_ARGUMENT also for a node in `from` or `to` that is not in the mesh, that node_mask
-!! leaves out, or whose distance from the surface is at most the half thickness. RIIS_INVALID_MESH as riisf_mark_nodes.
+!! for a mesh without adjacency, and for a bad node in `from` or `to`. A node is bad if it is not in the mesh, if node_mask
+!! leaves it out, or if it lies within the half thickness of the surface. RIIS_INVALID_MESH as riisf_mark_nodes.
 subroutine riisf_find_passage(surface, mesh, n_from, from_num, n_to, to_num, n_threads, state, node_num, distance, &
     point, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_loc, c_ptr, c_sizeof
@@ -5169,7 +5190,7 @@ subroutine riisf_find_passage(surface, mesh, n_from, from_num, n_to, to_num, n_t
                                                           !! Counted from 1.
   integer(int32), intent(in) :: n_to                      !< At least 1.
   integer(int32), intent(in) :: to_num(n_to)              !< (n_to): the ids of the nodes at which paths end, in any order. A
-                                                          !! node in both sets is a path by itself. Counted from 1.
+                                                          !! node that is in both sets is a path. Counted from 1.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int32), intent(inout) :: state                  !< RIIS_PASSAGE_*.
   integer(int32), intent(inout) :: node_num               !< The path's node nearest to the surface, from 1; 0 without a path.
@@ -5220,7 +5241,7 @@ subroutine riisf_find_passage_64(surface, mesh, n_from, from_num, n_to, to_num, 
                                                           !! Counted from 1.
   integer(int64), intent(in) :: n_to                      !< At least 1.
   integer(int64), intent(in) :: to_num(n_to)              !< (n_to): the ids of the nodes at which paths end, in any order. A
-                                                          !! node in both sets is a path by itself. Counted from 1.
+                                                          !! node that is in both sets is a path. Counted from 1.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int32), intent(inout) :: state                  !< RIIS_PASSAGE_*.
   integer(int64), intent(inout) :: node_num               !< The path's node nearest to the surface, from 1; 0 without a path.
@@ -5259,7 +5280,8 @@ end subroutine riisf_find_passage_64
 ! Crossings
 ! -----------------------------------------------------------------------------------------------------------------
 
-!> Finds every pair of the surface's triangles that go through each other. Errors: RIIS_INVALID_ARGUMENT naming the field.
+!> Finds every pair of the surface's triangles that go through each other. Errors: RIIS_INVALID_ARGUMENT for a bad field; the
+!! message names the field.
 subroutine riisf_find_crossings(surface, depth, n_threads, crossings, n_pairs, length, deepest, point, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -5268,15 +5290,15 @@ subroutine riisf_find_crossings(surface, depth, n_threads, crossings, n_pairs, l
       riis_crossings_create, riis_crossings_destroy, riis_crossings_get_list, riis_find_crossings, riis_status
   implicit none
   integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
-  real(c_double), intent(in) :: depth                     !< Half thicknesses, 0 to 1, usually 1e-6: pairs up to this depth
-                                                          !! count as touching.
+  real(c_double), intent(in) :: depth                     !< The depth up to which pairs only touch, in half thicknesses, 0 to
+                                                          !! 1. Usually 1e-6.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int64), intent(inout) :: crossings              !< 0, which creates them, or from an earlier call.
-  integer(int64), intent(inout) :: n_pairs                !< The number of pairs that cross. If this number is 0, ids are -1,
+  integer(int64), intent(inout) :: n_pairs                !< The number of pairs. If it is 0, the ids in this struct are -1,
                                                           !! and all other fields except seconds are 0.
   real(c_double), intent(inout) :: length                 !< The total length of their intersections.
-  real(c_double), intent(inout) :: deepest                !< The depth of the deepest pair. If several pairs are equally deep,
-                                                          !! the first pair counts.
+  real(c_double), intent(inout) :: deepest                !< The depth of the deepest pair. Of equally deep pairs, the first
+                                                          !! one counts as the deepest.
   real(c_double), intent(inout) :: point(3)               !< The middle of the deepest pair's intersection.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_crossing_options) :: options
@@ -5426,11 +5448,11 @@ subroutine riisf_surface_leaflet(surface, leaflet_num, leaflet_id, area, free_ed
   integer(int32), intent(in) :: leaflet_num               !< 1 to n_leaflets, ascending by leaflet_id.
   integer(int32), intent(inout) :: leaflet_id             !< As in riis_triangles.
   real(c_double), intent(inout) :: area                   !< The area of its triangles.
-  real(c_double), intent(inout) :: free_edge              !< The length of its free edge, which consists of the sides v = 1
-                                                          !! that belong to only one patch of the leaflet. In a surface from
-                                                          !! arrays, an edge is open if it belongs to only one triangle. The
-                                                          !! free edge then consists of all open edges except the longest
-                                                          !! closed line of open edges. 0 for a skirt.
+  real(c_double), intent(inout) :: free_edge              !< The length of the free edge. The free edge of a valve's leaflet
+                                                          !! consists of the sides v = 1 that belong to only one patch of the
+                                                          !! leaflet. For a surface from arrays, it consists of the edges that
+                                                          !! belong to only one triangle, without the longest closed line of
+                                                          !! such edges. 0 for a skirt.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_leaflet) :: sizes
   status = riis_surface_get_leaflet(c_handle_of(surface), int(leaflet_num, int64) - 1, sizes, c_sizeof(sizes))
@@ -5451,18 +5473,18 @@ subroutine riisf_surface_orifice(surface, half_thickness, rim, area, outline_are
   integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
   real(c_double), intent(in) :: half_thickness            !< eps of the resistance; RIIS_AUTO: the surface's.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_*, usually RIIS_RIM_ROUND.
-  real(c_double), intent(inout) :: area                   !< The area of the orifice. Without an outline, all fields but axis
-                                                          !! and rim_reach are 0.
+  real(c_double), intent(inout) :: area                   !< The area of the orifice. If there is no outline, all fields except
+                                                          !! axis and rim_reach are 0.
   real(c_double), intent(inout) :: outline_area           !< The area inside the outline.
-  real(c_double), intent(inout) :: perimeter              !< The length of the orifice's edge along the triangles. The edge is
-                                                          !! first moved inwards by a tenth of the half thickness, so that
-                                                          !! narrow slits do not count. Parts of the edge on the outline are
-                                                          !! walls and do not count.
-  real(c_double), intent(inout) :: effective_area         !< The area through which the flow can pass beside the band around
-                                                          !! the valve. It is the area of the orifice after its edge along the
-                                                          !! triangles is moved inwards by rim_reach * half_thickness. To first
-                                                          !! order the effective area is area - rim_reach * half_thickness *
-                                                          !! perimeter, but never below 0.
+  real(c_double), intent(inout) :: perimeter              !< The length of the orifice's edge along the triangles. Before it is
+                                                          !! measured, the edge is moved inwards by a tenth of the half
+                                                          !! thickness, so that narrow slits vanish. Parts of the edge on the
+                                                          !! outline are walls, and do not count.
+  real(c_double), intent(inout) :: effective_area         !< The area that the band around the leaflets leaves for the flow. It
+                                                          !! is the area of the orifice after the edge along the triangles was
+                                                          !! moved inwards by rim_reach * half_thickness. To first order this
+                                                          !! is area - rim_reach * half_thickness * perimeter. The effective
+                                                          !! area is never below 0.
   integer(int32), intent(inout) :: outline                !< RIIS_OUTLINE_*.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
@@ -5480,9 +5502,9 @@ subroutine riisf_surface_orifice(surface, half_thickness, rim, area, outline_are
   outline = orifice%outline
 end subroutine riisf_surface_orifice
 
-!> Measures the orifice inside a wall, such as a ring or a tube around the leaflets. The call serves leaflets that do not reach
-!! the wall, such as the leaflets of a mechanical valve from arrays. The longest connected line of open edges of the wall gives
-!! the outline and the axis (docs/theory/measures.md, 'Outline'). The other arguments are as in riisf_surface_orifice.
+!> Measures the orifice inside a wall, such as a ring or a tube around the leaflets. Use this call if the leaflets do not reach
+!! the wall, as in a mechanical valve from arrays. The longest connected line of open edges of the wall gives the outline and the
+!! axis (docs/theory/measures.md, 'Outline'). The other arguments are as in riisf_surface_orifice.
 subroutine riisf_surface_orifice_in_wall(surface, wall, half_thickness, rim, area, outline_area, perimeter, &
     effective_area, outline, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -5492,22 +5514,23 @@ subroutine riisf_surface_orifice_in_wall(surface, wall, half_thickness, rim, are
       riis_surface_get_orifice_in_wall
   implicit none
   integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
-  integer(int64), intent(in) :: wall                      !< In the frame of the surface. RIIS_INVALID_ARGUMENT if the line
-                                                          !! that gives the outline does not surround a centre.
+  integer(int64), intent(in) :: wall                      !< The wall, in the same coordinates as the surface. The call returns
+                                                          !! RIIS_INVALID_ARGUMENT if the line that gives the outline does not
+                                                          !! surround a centre.
   real(c_double), intent(in) :: half_thickness            !< eps of the resistance; RIIS_AUTO: the surface's.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_*, usually RIIS_RIM_ROUND.
-  real(c_double), intent(inout) :: area                   !< The area of the orifice. Without an outline, all fields but axis
-                                                          !! and rim_reach are 0.
+  real(c_double), intent(inout) :: area                   !< The area of the orifice. If there is no outline, all fields except
+                                                          !! axis and rim_reach are 0.
   real(c_double), intent(inout) :: outline_area           !< The area inside the outline.
-  real(c_double), intent(inout) :: perimeter              !< The length of the orifice's edge along the triangles. The edge is
-                                                          !! first moved inwards by a tenth of the half thickness, so that
-                                                          !! narrow slits do not count. Parts of the edge on the outline are
-                                                          !! walls and do not count.
-  real(c_double), intent(inout) :: effective_area         !< The area through which the flow can pass beside the band around
-                                                          !! the valve. It is the area of the orifice after its edge along the
-                                                          !! triangles is moved inwards by rim_reach * half_thickness. To first
-                                                          !! order the effective area is area - rim_reach * half_thickness *
-                                                          !! perimeter, but never below 0.
+  real(c_double), intent(inout) :: perimeter              !< The length of the orifice's edge along the triangles. Before it is
+                                                          !! measured, the edge is moved inwards by a tenth of the half
+                                                          !! thickness, so that narrow slits vanish. Parts of the edge on the
+                                                          !! outline are walls, and do not count.
+  real(c_double), intent(inout) :: effective_area         !< The area that the band around the leaflets leaves for the flow. It
+                                                          !! is the area of the orifice after the edge along the triangles was
+                                                          !! moved inwards by rim_reach * half_thickness. To first order this
+                                                          !! is area - rim_reach * half_thickness * perimeter. The effective
+                                                          !! area is never below 0.
   integer(int32), intent(inout) :: outline                !< RIIS_OUTLINE_*.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
@@ -5526,8 +5549,8 @@ subroutine riisf_surface_orifice_in_wall(surface, wall, half_thickness, rim, are
   outline = orifice%outline
 end subroutine riisf_surface_orifice_in_wall
 
-!> Measures the coaptation. Contact with a skirt or with the bileaflet housing does not count. Errors: RIIS_INVALID_ARGUMENT for
-!! a leaflet that the surface lacks, and for a reach out of range.
+!> Measures the coaptation. Contact with a skirt or with the bileaflet housing does not count. Errors: RIIS_INVALID_ARGUMENT if
+!! the surface lacks the leaflet, and if the reach is out of range.
 subroutine riisf_surface_coaptation(surface, reach, leaflet_id, area, edge, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -5537,11 +5560,11 @@ subroutine riisf_surface_coaptation(surface, reach, leaflet_id, area, edge, stat
   integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
   real(c_double), intent(in) :: reach                     !< 1e-50 to 1e50. RIIS_AUTO stands for the surface's half thickness.
   integer(int32), intent(in) :: leaflet_id                !< As in riis_triangles, or RIIS_ALL_LEAFLETS for the sum over all
-                                                          !! leaflets. This sum counts each contact twice, once for each
-                                                          !! leaflet.
+                                                          !! leaflets. In this sum each contact counts twice, once for each of
+                                                          !! the two leaflets.
   real(c_double), intent(inout) :: area                   !< The area of the leaflet's triangles within reach of another
                                                           !! leaflet.
-  real(c_double), intent(inout) :: edge                   !< The length of the part of its free edge (riis_leaflet) within
+  real(c_double), intent(inout) :: edge                   !< The length of the part of the free edge (riis_leaflet) within
                                                           !! reach of another leaflet.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_coaptation) :: coaptation
@@ -5551,8 +5574,8 @@ subroutine riisf_surface_coaptation(surface, reach, leaflet_id, area, edge, stat
   edge = coaptation%edge
 end subroutine riisf_surface_coaptation
 
-!> Measures the gap between a valve's attachment and a wall, such as a patient's vessel. Errors: RIIS_INVALID_ARGUMENT for a
-!! surface without an attachment, and for an attachment that encloses no area.
+!> Measures the gap between a valve's attachment and a wall, such as a patient's vessel. Errors: RIIS_INVALID_ARGUMENT if the
+!! surface has no attachment, and if the attachment encloses no area.
 subroutine riisf_surface_gap(surface, wall, least, mean, most, missed, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -5562,14 +5585,18 @@ subroutine riisf_surface_gap(surface, wall, least, mean, most, missed, status)
   integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
   integer(int64), intent(in) :: wall                      !< A surface in the valve's frame, usually by
                                                           !! riisf_surface_from_arrays.
-  real(c_double), intent(inout) :: least                  !< least, mean, most: the gap at the ends of the edges; the mean is
-                                                          !! weighted by the edges' lengths. 0 if no end has a wall.
-  real(c_double), intent(inout) :: mean                   !< least, mean, most: the gap at the ends of the edges; the mean is
-                                                          !! weighted by the edges' lengths. 0 if no end has a wall.
-  real(c_double), intent(inout) :: most                   !< least, mean, most: the gap at the ends of the edges; the mean is
-                                                          !! weighted by the edges' lengths. 0 if no end has a wall.
-  integer(int32), intent(inout) :: missed                 !< The number of ends without a wall in the skirt's direction. Such
-                                                          !! an end has no gap, and counts only here and in n_ends.
+  real(c_double), intent(inout) :: least                  !< least, mean, most: the least, the mean and the largest gap at the
+                                                          !! ends of the edges of riis_attachment. The mean is weighted by the
+                                                          !! lengths of the edges. 0 if no end meets the wall.
+  real(c_double), intent(inout) :: mean                   !< least, mean, most: the least, the mean and the largest gap at the
+                                                          !! ends of the edges of riis_attachment. The mean is weighted by the
+                                                          !! lengths of the edges. 0 if no end meets the wall.
+  real(c_double), intent(inout) :: most                   !< least, mean, most: the least, the mean and the largest gap at the
+                                                          !! ends of the edges of riis_attachment. The mean is weighted by the
+                                                          !! lengths of the edges. 0 if no end meets the wall.
+  integer(int32), intent(inout) :: missed                 !< The number of ends from which the skirt's direction does not meet
+                                                          !! the wall. These ends have no gap, and count only here and in
+                                                          !! n_ends.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_gap) :: gap
   status = riis_surface_get_gap(c_handle_of(surface), c_handle_of(wall), gap=gap, struct_size=c_sizeof(gap))
@@ -5580,9 +5607,9 @@ subroutine riisf_surface_gap(surface, wall, least, mean, most, missed, status)
   missed = int(gap%n_without_wall, int32)
 end subroutine riisf_surface_gap
 
-!> Gives a valve a skirt that just reaches a wall, and replaces the valve's skirt. Errors: RIIS_INVALID_ARGUMENT naming the first
-!! point from which the wall is missed or farther than longest. RIIS_INVALID_PARAMETER for a bileaflet valve, and for an
-!! attachment that encloses no area.
+!> Gives a valve a skirt that just reaches a wall. An earlier skirt of the valve is replaced. Errors: RIIS_INVALID_ARGUMENT if a
+!! skirt from some point does not meet the wall, or would be longer than `longest`; the message names the first such point.
+!! RIIS_INVALID_PARAMETER for a bileaflet valve, and for an attachment that encloses no area.
 subroutine riisf_valve_skirt_to_wall(valve, wall, longest, half_thickness, tolerance, scale, rotation_axis, &
     rotation_angle, translation, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -5602,9 +5629,9 @@ subroutine riisf_valve_skirt_to_wall(valve, wall, longest, half_thickness, toler
   real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Refused for a
-                                                          !! valve if coordinates would be rounded by more than a thousandth of
-                                                          !! tolerance * half_thickness.
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse so
+                                                          !! large a shift of a valve that coordinates would be rounded by more
+                                                          !! than a thousandth of tolerance * half_thickness.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_options) :: options
   status = riis_surface_options_init(options, c_sizeof(options))
@@ -5618,10 +5645,10 @@ subroutine riisf_valve_skirt_to_wall(valve, wall, longest, half_thickness, toler
   status = riis_valve_set_skirt_to_wall(c_handle_of(valve), c_handle_of(wall), longest, options)
 end subroutine riisf_valve_skirt_to_wall
 
-!> Gives the ideal leak of a closed surface: the volume flow drop * (eps / R) * area that a pressure drop causes. The area does
-!! not include the bileaflet housing. If the surface has an offset o, the area is that of the surface moved by o eps along its
-!! normals. The leak in a solver differs from the ideal (docs/solvers.md). Errors: RIIS_INVALID_ARGUMENT naming the field or
-!! argument and its value.
+!> Gives the ideal leak of a closed surface: a pressure drop causes the volume flow drop * (eps / R) * area. The area is that of
+!! the surface without a bileaflet housing. If there is an offset o, it is the area of the surface after a shift by o eps along
+!! its normals. The leak in a solver differs from the ideal leak (docs/solvers.md). Errors: RIIS_INVALID_ARGUMENT for a bad field
+!! or argument; the message names it and its value.
 subroutine riisf_surface_leak(surface, R, half_thickness, drop, flow, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int64
@@ -5631,9 +5658,10 @@ subroutine riisf_surface_leak(surface, R, half_thickness, drop, flow, status)
   integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
   real(c_double), intent(in) :: R                         !< 1e-60 to 1e60, mass / (length time): kg/(m s).
   real(c_double), intent(in) :: half_thickness            !< eps of the resistance; RIIS_AUTO: the surface's.
-  real(c_double), intent(in) :: drop                      !< Upstream pressure minus downstream pressure, magnitude at most
-                                                          !! 1e30.
-  real(c_double), intent(inout) :: flow                   !< In the unit of drop * area * eps / R, which is m^3/s in SI units.
+  real(c_double), intent(in) :: drop                      !< Upstream pressure minus downstream pressure, at most 1e30 in
+                                                          !! magnitude.
+  real(c_double), intent(inout) :: flow                   !< The volume flow, in the unit of drop * area * eps / R. In SI units
+                                                          !! this is m^3/s.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
   status = riis_resistance_init(resistance, c_sizeof(resistance))
@@ -5643,9 +5671,9 @@ subroutine riisf_surface_leak(surface, R, half_thickness, drop, flow, status)
   status = riis_surface_get_leak(c_handle_of(surface), resistance, drop, flow)
 end subroutine riisf_surface_leak
 
-!> Computes the number of mesh edges across the band. An edge counts once, even if it is in the adjacency's rows of both its
-!! nodes. Edges to ghosts and edges of length 0 do not count. Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, for
-!! empty marks, and for marks with another number of nodes. RIIS_INVALID_MESH as riisf_mark_nodes.
+!> Computes the number of mesh edges that fit across the band. An edge counts once, even if the adjacency has it in the rows of
+!! both of its nodes. Edges to ghosts and edges of length 0 do not count. Errors: RIIS_INVALID_ARGUMENT if the mesh has no
+!! adjacency, if the marks are empty, and if the marks have another number of nodes. RIIS_INVALID_MESH as riisf_mark_nodes.
 subroutine riisf_cells_across(marks, mesh, least, mean, most, mean_edge, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int64
@@ -5654,12 +5682,12 @@ subroutine riisf_cells_across(marks, mesh, least, mean, most, mean_edge, status)
   implicit none
   integer(int64), intent(in) :: marks                     !< Marks from riisf_mark_nodes.
   integer(int64), intent(in) :: mesh                      !< The mesh of the marking, with an adjacency.
-  real(c_double), intent(inout) :: least                  !< least, mean, most: 2 * half_thickness over the longest, the mean
-                                                          !! and the shortest length.
-  real(c_double), intent(inout) :: mean                   !< least, mean, most: 2 * half_thickness over the longest, the mean
-                                                          !! and the shortest length.
-  real(c_double), intent(inout) :: most                   !< least, mean, most: 2 * half_thickness over the longest, the mean
-                                                          !! and the shortest length.
+  real(c_double), intent(inout) :: least                  !< least, mean, most: 2 * half_thickness divided by longest_edge, by
+                                                          !! mean_edge and by shortest_edge.
+  real(c_double), intent(inout) :: mean                   !< least, mean, most: 2 * half_thickness divided by longest_edge, by
+                                                          !! mean_edge and by shortest_edge.
+  real(c_double), intent(inout) :: most                   !< least, mean, most: 2 * half_thickness divided by longest_edge, by
+                                                          !! mean_edge and by shortest_edge.
   real(c_double), intent(inout) :: mean_edge              !< The mean length of the edges.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_cells_across) :: cells
@@ -5672,9 +5700,10 @@ subroutine riisf_cells_across(marks, mesh, least, mean, most, mean_edge, status)
 end subroutine riisf_cells_across
 
 !> Gives the volume that the valve sweeps between two openings, in mesh units cubed. The volume is the integral of u_surface . n
-!! over surface and time, positive along the normals. A valve in a flow displaces less blood than this volume, because blood
-!! slips past the leaflets. Errors: RIIS_INVALID_ARGUMENT for an opening out of range and for a leaflet that the valve lacks.
-!! RIIS_INVALID_PARAMETER for inconsistent parameters, and for a valve with one state if an opening is above 0.
+!! over surface and time, so motion along the normals counts as positive. In a flow, a valve displaces less blood than this
+!! volume, because blood slips past the leaflets. Errors: RIIS_INVALID_ARGUMENT if an opening is out of range, and if the valve
+!! lacks the leaflet. RIIS_INVALID_PARAMETER if parameters do not fit together, and if the valve has only one state and an
+!! opening is above 0.
 subroutine riisf_valve_swept_volume(valve, opening_from, opening_to, scale, leaflet_id, volume, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -5697,10 +5726,10 @@ subroutine riisf_valve_swept_volume(valve, opening_from, opening_to, scale, leaf
 end subroutine riisf_valve_swept_volume
 
 !> Finds the openings, or the sizes, at which the orifice of a valve has given areas (docs/theory/measures.md, 'From an area to a
-!! valve'). Errors: RIIS_INVALID_ARGUMENT naming the area. If the area is out of reach, the message names the range.
-!! RIIS_INVALID_PARAMETER for an unknown name, for a parameter with three values, for a valve with one state or no orifice, and
-!! if the name does not change the area. If a surface cannot be made, the message also names the opening or size. On an error
-!! nothing is written.
+!! valve'). Errors: RIIS_INVALID_ARGUMENT for a bad area; the message names the area. If no opening or size has the area, the
+!! message names the range of areas. RIIS_INVALID_PARAMETER for an unknown name, and for a parameter that has three values or
+!! does not change the area. RIIS_INVALID_PARAMETER also for a valve with one state or no orifice. If a surface cannot be made,
+!! the message also names the opening or size. On an error nothing is written.
 subroutine riisf_find_by_area(valve, name, n_areas, areas, half_thickness, tolerance, scale, rotation_axis, &
     rotation_angle, translation, n_threads, area_kind, values, reached, least, most, n_turns, status)
   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_loc, c_ptr, c_sizeof
@@ -5709,11 +5738,12 @@ subroutine riisf_find_by_area(valve, name, n_areas, areas, half_thickness, toler
   use riis_c, only: RIIS_OK, riis_area_range, riis_area_search, riis_area_search_init, riis_find_by_area, riis_status, &
       riis_surface_options, riis_surface_options_init
   implicit none
-  integer(int64), intent(in) :: valve                     !< Its own opening is ignored if the call finds openings.
-  character(len=*), intent(in) :: name                    !< 'opening', 'scale' of the placement, or the name of a parameter
+  integer(int64), intent(in) :: valve                     !< The valve. If the call searches for openings, it ignores the
+                                                          !! valve's own opening.
+  character(len=*), intent(in) :: name                    !< 'opening', 'scale' (of the placement), or the name of a parameter
                                                           !! for which riisf_valve_get gives one value.
   integer(int32), intent(in) :: n_areas                   !< 0 to 1,000,000.
-  real(c_double), intent(in) :: areas(*)                  !< (n_areas), 0 to 1e120, mesh units squared.
+  real(c_double), intent(in) :: areas(*)                  !< (n_areas): the wanted areas, 0 to 1e120, in mesh units squared.
   real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
                                                           !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
   real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
@@ -5723,17 +5753,17 @@ subroutine riisf_find_by_area(valve, name, n_areas, areas, half_thickness, toler
   real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Refused for a
-                                                          !! valve if coordinates would be rounded by more than a thousandth of
-                                                          !! tolerance * half_thickness.
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse so
+                                                          !! large a shift of a valve that coordinates would be rounded by more
+                                                          !! than a thousandth of tolerance * half_thickness.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int32), intent(in) :: area_kind                 !< RIIS_AREA_*, usually RIIS_AREA_GEOMETRIC.
   real(c_double), intent(inout) :: values(*)              !< (n_areas): the openings or sizes.
   real(c_double), intent(inout) :: reached(*)             !< (n_areas): the areas at these values.
   real(c_double), intent(inout) :: least                  !< least, most: the least and the largest area.
   real(c_double), intent(inout) :: most                   !< least, most: the least and the largest area.
-  integer(int32), intent(inout) :: n_turns                !< The number of turns. Without a turn, the area only grows or only
-                                                          !! falls.
+  integer(int32), intent(inout) :: n_turns                !< The number of such openings or sizes. If it is 0, the area only
+                                                          !! grows or only falls.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   character(len=len_trim(name) + 1, kind=c_char) :: c_name
   type(riis_area_search) :: search
@@ -5769,11 +5799,12 @@ subroutine riisf_find_by_area_64(valve, name, n_areas, areas, half_thickness, to
   use riis_c, only: RIIS_OK, riis_area_range, riis_area_search, riis_area_search_init, riis_find_by_area, riis_status, &
       riis_surface_options, riis_surface_options_init
   implicit none
-  integer(int64), intent(in) :: valve                     !< Its own opening is ignored if the call finds openings.
-  character(len=*), intent(in) :: name                    !< 'opening', 'scale' of the placement, or the name of a parameter
+  integer(int64), intent(in) :: valve                     !< The valve. If the call searches for openings, it ignores the
+                                                          !! valve's own opening.
+  character(len=*), intent(in) :: name                    !< 'opening', 'scale' (of the placement), or the name of a parameter
                                                           !! for which riisf_valve_get gives one value.
   integer(int64), intent(in) :: n_areas                   !< 0 to 1,000,000.
-  real(c_double), intent(in) :: areas(*)                  !< (n_areas), 0 to 1e120, mesh units squared.
+  real(c_double), intent(in) :: areas(*)                  !< (n_areas): the wanted areas, 0 to 1e120, in mesh units squared.
   real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
                                                           !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
   real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
@@ -5783,17 +5814,17 @@ subroutine riisf_find_by_area_64(valve, name, n_areas, areas, half_thickness, to
   real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Refused for a
-                                                          !! valve if coordinates would be rounded by more than a thousandth of
-                                                          !! tolerance * half_thickness.
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse so
+                                                          !! large a shift of a valve that coordinates would be rounded by more
+                                                          !! than a thousandth of tolerance * half_thickness.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int32), intent(in) :: area_kind                 !< RIIS_AREA_*, usually RIIS_AREA_GEOMETRIC.
   real(c_double), intent(inout) :: values(*)              !< (n_areas): the openings or sizes.
   real(c_double), intent(inout) :: reached(*)             !< (n_areas): the areas at these values.
   real(c_double), intent(inout) :: least                  !< least, most: the least and the largest area.
   real(c_double), intent(inout) :: most                   !< least, most: the least and the largest area.
-  integer(int64), intent(inout) :: n_turns                !< The number of turns. Without a turn, the area only grows or only
-                                                          !! falls.
+  integer(int64), intent(inout) :: n_turns                !< The number of such openings or sizes. If it is 0, the area only
+                                                          !! grows or only falls.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   character(len=len_trim(name) + 1, kind=c_char) :: c_name
   type(riis_area_search) :: search
@@ -5820,8 +5851,8 @@ subroutine riisf_find_by_area_64(valve, name, n_areas, areas, half_thickness, to
   n_turns = range%n_turns
 end subroutine riisf_find_by_area_64
 
-!> Finds the opening at which riisf_find_passage first finds a passage. Errors: the errors of riisf_surface_create and
-!! riisf_find_passage, with the opening. RIIS_INVALID_PARAMETER for a valve with only one state.
+!> Finds the opening at which riisf_find_passage first finds a passage. Errors: as riisf_surface_create and riisf_find_passage;
+!! the message also names the opening. RIIS_INVALID_PARAMETER for a valve with only one state.
 subroutine riisf_find_first_passage(valve, mesh, n_from, from_num, n_to, to_num, half_thickness, tolerance, scale, &
     rotation_axis, rotation_angle, translation, opening_tolerance, n_threads, state, opening, closed_opening, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_loc, c_ptr, c_sizeof
@@ -5838,7 +5869,7 @@ subroutine riisf_find_first_passage(valve, mesh, n_from, from_num, n_to, to_num,
                                                           !! Counted from 1.
   integer(int32), intent(in) :: n_to                      !< At least 1.
   integer(int32), intent(in) :: to_num(n_to)              !< (n_to): the ids of the nodes at which paths end, in any order. A
-                                                          !! node in both sets is a path by itself. Counted from 1.
+                                                          !! node that is in both sets is a path. Counted from 1.
   real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
                                                           !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
   real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
@@ -5848,16 +5879,17 @@ subroutine riisf_find_first_passage(valve, mesh, n_from, from_num, n_to, to_num,
   real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Refused for a
-                                                          !! valve if coordinates would be rounded by more than a thousandth of
-                                                          !! tolerance * half_thickness.
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse so
+                                                          !! large a shift of a valve that coordinates would be rounded by more
+                                                          !! than a thousandth of tolerance * half_thickness.
   real(c_double), intent(in) :: opening_tolerance         !< Tolerance of the opening, 1e-6 to 1. Usually 1e-3.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int32), intent(inout) :: state                  !< RIIS_FIRST_PASSAGE_*.
   real(c_double), intent(inout) :: opening                !< The first opening with a passage; 0 for ALWAYS, 1 for NEVER, 0 for
                                                           !! NONE.
   real(c_double), intent(inout) :: closed_opening         !< With RIIS_FIRST_PASSAGE_FOUND, the largest opening below `opening`
-                                                          !! that was found closed; otherwise the same as `opening`.
+                                                          !! at which the call found no passage; otherwise the same as
+                                                          !! `opening`.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   integer(int64), allocatable, target :: c_from_num(:)
   integer(int64), allocatable, target :: c_to_num(:)
@@ -5916,7 +5948,7 @@ subroutine riisf_find_first_passage_64(valve, mesh, n_from, from_num, n_to, to_n
                                                           !! Counted from 1.
   integer(int64), intent(in) :: n_to                      !< At least 1.
   integer(int64), intent(in) :: to_num(n_to)              !< (n_to): the ids of the nodes at which paths end, in any order. A
-                                                          !! node in both sets is a path by itself. Counted from 1.
+                                                          !! node that is in both sets is a path. Counted from 1.
   real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
                                                           !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
   real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
@@ -5926,16 +5958,17 @@ subroutine riisf_find_first_passage_64(valve, mesh, n_from, from_num, n_to, to_n
   real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Refused for a
-                                                          !! valve if coordinates would be rounded by more than a thousandth of
-                                                          !! tolerance * half_thickness.
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse so
+                                                          !! large a shift of a valve that coordinates would be rounded by more
+                                                          !! than a thousandth of tolerance * half_thickness.
   real(c_double), intent(in) :: opening_tolerance         !< Tolerance of the opening, 1e-6 to 1. Usually 1e-3.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int32), intent(inout) :: state                  !< RIIS_FIRST_PASSAGE_*.
   real(c_double), intent(inout) :: opening                !< The first opening with a passage; 0 for ALWAYS, 1 for NEVER, 0 for
                                                           !! NONE.
   real(c_double), intent(inout) :: closed_opening         !< With RIIS_FIRST_PASSAGE_FOUND, the largest opening below `opening`
-                                                          !! that was found closed; otherwise the same as `opening`.
+                                                          !! at which the call found no passage; otherwise the same as
+                                                          !! `opening`.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   integer(int64), allocatable, target :: c_from_num(:)
   integer(int64), allocatable, target :: c_to_num(:)
@@ -5985,7 +6018,8 @@ end subroutine riisf_find_first_passage_64
 ! a copy of the state. The rate is the derivative of the opening by time.
 ! -----------------------------------------------------------------------------------------------------------------
 
-!> Gives the opening of a table at a time. Errors: RIIS_INVALID_ARGUMENT naming the field, the key and its value.
+!> Gives the opening of a table at a time. Errors: RIIS_INVALID_ARGUMENT for a bad field or key; the message names it and its
+!! value.
 subroutine riisf_opening_from_table(n_keys, key_time, key_opening, period, interpolation, time, opening, rate, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32
@@ -5995,10 +6029,11 @@ subroutine riisf_opening_from_table(n_keys, key_time, key_opening, period, inter
   integer(int32), intent(in) :: n_keys                    !< 1 to 1,000,000.
   real(c_double), intent(in) :: key_time(*)               !< (n_keys), strictly ascending, magnitude at most 1e30.
   real(c_double), intent(in) :: key_opening(*)            !< (n_keys), 0 to 1.
-  real(c_double), intent(in) :: period                    !< A number above 0: the table repeats with this period. All keys lie
-                                                          !! within one period of the first key. If the last key is one period
-                                                          !! after the first key, both keys must have the same opening. 0: the
-                                                          !! opening is constant before the first key and after the last key.
+  real(c_double), intent(in) :: period                    !< If above 0, the table repeats with this period. All keys lie
+                                                          !! within one period of the first key. If the last key is exactly one
+                                                          !! period after the first key, the two keys must have the same
+                                                          !! opening. With 0, the default, the opening is constant before the
+                                                          !! first key and after the last key.
   integer(int32), intent(in) :: interpolation             !< RIIS_INTERPOLATION_*, usually RIIS_INTERPOLATION_LINEAR.
   real(c_double), intent(in) :: time                      !< Magnitude at most 1e30.
   real(c_double), intent(inout) :: opening                !< Written on success.
@@ -6015,13 +6050,15 @@ subroutine riisf_opening_from_table(n_keys, key_time, key_opening, period, inter
   status = riis_opening_from_table(table, time, opening, rate)
 end subroutine riisf_opening_from_table
 
-!> Gives the opening at a time by the times of the ramps. Errors: RIIS_INVALID_ARGUMENT naming the field and its value.
+!> Gives the opening at a time, from the times of the two ramps. Errors: RIIS_INVALID_ARGUMENT for a bad field; the message names
+!! the field and its value.
 subroutine riisf_opening_from_times(opening_start, opening_duration, closing_start, closing_duration, closed, open, &
     period, time, opening, rate, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use riis_c, only: RIIS_OK, riis_opening_from_times, riis_opening_times, riis_opening_times_init, riis_status
   implicit none
-  real(c_double), intent(in) :: opening_start             !< The time at which the valve begins to open.
+  real(c_double), intent(in) :: opening_start             !< The time at which the valve begins to open. This field and the
+                                                          !! next three have the default NaN, which is refused.
   real(c_double), intent(in) :: opening_duration          !< How long opening takes, > 0.
   real(c_double), intent(in) :: closing_start             !< The time at which the valve begins to close, at least
                                                           !! opening_start + opening_duration.
@@ -6030,8 +6067,8 @@ subroutine riisf_opening_from_times(opening_start, opening_duration, closing_sta
                                                           !! to 1. Usually 0 and 1.
   real(c_double), intent(in) :: open                      !< closed, open: the openings of the closed and of the open valve, 0
                                                           !! to 1. Usually 0 and 1.
-  real(c_double), intent(in) :: period                    !< A number above 0: the valve opens and closes once in each period.
-                                                          !! 0: only once.
+  real(c_double), intent(in) :: period                    !< If above 0, the valve opens and closes once in each period. With
+                                                          !! 0, the default, it opens and closes only once.
   real(c_double), intent(in) :: time                      !< Magnitude at most 1e30.
   real(c_double), intent(inout) :: opening                !< Written on success.
   real(c_double), intent(inout) :: rate                   !< Written on success.
@@ -6066,8 +6103,8 @@ subroutine riisf_opening_switch_init(state, phase, status)
   phase = the_state%phase
 end subroutine riisf_opening_switch_init
 
-!> Advances a switch to a time. The phase changes only at the end of a step, so the opening is accurate to first order in the
-!! step length. Errors: RIIS_INVALID_ARGUMENT naming the field or argument and its value.
+!> Advances a switch to a time. The phase changes only at the end of a step, so the error of the opening is of first order in the
+!! length of the step. Errors: RIIS_INVALID_ARGUMENT for a bad field or argument; the message names it and its value.
 subroutine riisf_opening_switch_advance(opening_duration, closing_duration, open_above, close_below, filter_time, &
     dwell_time, time, pressure_difference, flow, state, phase, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -6077,14 +6114,14 @@ subroutine riisf_opening_switch_advance(opening_duration, closing_duration, open
   implicit none
   real(c_double), intent(in) :: opening_duration          !< The time that the valve takes to open, > 0.
   real(c_double), intent(in) :: closing_duration          !< The time that the valve takes to close, > 0.
-  real(c_double), intent(in) :: open_above                !< Pressure difference. Usually 0.
-  real(c_double), intent(in) :: close_below               !< Flow. Usually 0.
+  real(c_double), intent(in) :: open_above                !< The pressure difference above which the valve opens. Usually 0.
+  real(c_double), intent(in) :: close_below               !< The flow below which the valve closes. Usually 0.
   real(c_double), intent(in) :: filter_time               !< The time constant of the filter for pressure difference and flow,
                                                           !! >= 0. 0: no filter.
   real(c_double), intent(in) :: dwell_time                !< The shortest time between two changes of phase, >= 0. Usually 0.
   real(c_double), intent(in) :: time                      !< At least state(1).
-  real(c_double), intent(in) :: pressure_difference       !< At that time, magnitude at most 1e30.
-  real(c_double), intent(in) :: flow                      !< At that time, magnitude at most 1e30.
+  real(c_double), intent(in) :: pressure_difference       !< The values at this time, at most 1e30 in magnitude.
+  real(c_double), intent(in) :: flow                      !< The values at this time, at most 1e30 in magnitude.
   real(c_double), intent(inout) :: state(7)               !< Time, opening, rate, progress, filtered pressure difference,
                                                           !! filtered flow, time of the last change of phase (NaN: none yet).
                                                           !! Written on success.
@@ -6117,7 +6154,7 @@ subroutine riisf_opening_switch_advance(opening_duration, closing_duration, open
   phase = now%phase
 end subroutine riisf_opening_switch_advance
 
-!> Fills state with a closed valve at rest, at time 0. Until the first step, the angle 0 of this state stands for angle_min.
+!> Fills state with a closed valve at rest, at time 0. In the first step, the angle 0 of this state stands for angle_min.
 subroutine riisf_opening_angle_init(state, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use riis_c, only: RIIS_OK, riis_opening_angle_state, riis_opening_angle_state_init, riis_status
@@ -6131,17 +6168,18 @@ subroutine riisf_opening_angle_init(state, status)
       the_state%pressure_difference, the_state%flow]
 end subroutine riisf_opening_angle_init
 
-!> Advances the angle law to a time. During a step, the pressure difference and the flow are linear in time, so the angle is
-!! accurate to second order in the step length. During the first step they are constant, because no earlier values are known.
-!! Errors: RIIS_INVALID_ARGUMENT naming the field or argument and its value. RIIS_LIMIT_EXCEEDED for a step whose integration
-!! needs more than a million smaller steps.
+!> Advances the angle law to a time. During a step, the law takes the pressure difference and the flow as linear in time. The
+!! error of the angle is therefore of second order in the length of the step. During the first step the law takes both as
+!! constant, because no earlier values are known. Errors: RIIS_INVALID_ARGUMENT for a bad field or argument; the message names it
+!! and its value. RIIS_LIMIT_EXCEEDED if the integration of the step needs more than a million smaller steps.
 subroutine riisf_opening_angle_advance(pressure_gain, flow_gain, friction, vortex_gain, angle_min, angle_max, time, &
     pressure_difference, flow, state, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use riis_c, only: RIIS_OK, riis_opening_angle, riis_opening_angle_advance, riis_opening_angle_init, &
       riis_opening_angle_state, riis_opening_angle_state_init, riis_status
   implicit none
-  real(c_double), intent(in) :: pressure_gain             !< K_p, >= 0.
+  real(c_double), intent(in) :: pressure_gain             !< K_p, >= 0. This field and the next three have the default NaN,
+                                                          !! which is refused.
   real(c_double), intent(in) :: flow_gain                 !< K_q, >= 0.
   real(c_double), intent(in) :: friction                  !< K_f, >= 0.
   real(c_double), intent(in) :: vortex_gain               !< K_v, >= 0.
@@ -6149,8 +6187,8 @@ subroutine riisf_opening_angle_advance(pressure_gain, flow_gain, friction, vorte
   real(c_double), intent(in) :: angle_max                 !< The angle of the open valve in degrees, above angle_min, at most
                                                           !! 90. Usually 75.
   real(c_double), intent(in) :: time                      !< At least state(1).
-  real(c_double), intent(in) :: pressure_difference       !< At that time, magnitude at most 1e30.
-  real(c_double), intent(in) :: flow                      !< At that time, magnitude at most 1e30.
+  real(c_double), intent(in) :: pressure_difference       !< The values at this time, at most 1e30 in magnitude.
+  real(c_double), intent(in) :: flow                      !< The values at this time, at most 1e30 in magnitude.
   real(c_double), intent(inout) :: state(7)               !< Time, opening, rate, angle in degrees, its rate, pressure
                                                           !! difference, flow (NaN: none yet). Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -6184,13 +6222,15 @@ end subroutine riisf_opening_angle_advance
 ! -----------------------------------------------------------------------------------------------------------------
 
 !> Sets a valve's sizes, in centimetres, to a patient's sizes, and finds the placement of the valve. Errors:
-!! RIIS_INVALID_ARGUMENT for landmarks that are missing, too many, in one place, collinear or mirrored, or that are too large or
-!! too small for a heart valve at this scale. Landmarks that do not show the direction of flow are also refused. The message
-!! names the landmarks. The axis of a tricuspid or mitral_coapting valve must be at most 20 degrees from the annulus' normal. A
-!! mitral valve must satisfy three conditions: - The posterior horn is on the posterior side of the annulus, and the trigones are
-!! on the anterior side. - The axis of the fitted valve is at most 20 degrees from the annulus' normal. - The fitted AP_diameter
-!! differs from the depth that the horns or the annulus show by at most a twelfth of this depth, or by five times the noise.
-!! RIIS_INVALID_PARAMETER for a valve from patches, an unknown name in held, and sizes that do not fit together.
+!! RIIS_INVALID_ARGUMENT if landmarks are missing, too many, in one place, collinear or mirrored, and if they do not show the
+!! direction of flow. RIIS_INVALID_ARGUMENT also if they are too large or too small for a heart valve at this scale. The message
+!! names the landmarks. The axis of a tricuspid or mitral_coapting valve must be at most 20 degrees from the normal of the
+!! annulus. A mitral valve must satisfy three conditions: - The posterior horn is on the posterior side of the annulus, and the
+!! trigones are on the anterior side. - The axis of the fitted valve is at most 20 degrees from the annulus' normal. - The fitted
+!! AP_diameter differs from the depth of the annulus by at most a twelfth of this depth, or by at most five times the noise. The
+!! depth is measured from the anterior horn to the posterior horn, or without a posterior horn to the farthest point of the
+!! annulus. RIIS_INVALID_PARAMETER for a valve from patches, for an unknown name in `held`, and for sizes that do not fit
+!! together.
 subroutine riisf_place(valve, n_landmarks, xyz, role, leaflet_id, scale, noise, flow, held, rotation_axis, &
     rotation_angle, translation, residual, size_state, status)
   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_sizeof
@@ -6199,27 +6239,28 @@ subroutine riisf_place(valve, n_landmarks, xyz, role, leaflet_id, scale, noise, 
   use riis_c, only: RIIS_OK, riis_landmarks, riis_landmarks_init, riis_place, riis_placement, riis_placement_arrays, &
       riis_placement_arrays_init, riis_status
   implicit none
-  integer(int64), intent(in) :: valve                     !< A valve of any kind with any parameters. Lengths without a
-                                                          !! landmark keep their proportions. Translation, opening and the open
-                                                          !! state of riisf_valve_set_open_state stay.
+  integer(int64), intent(in) :: valve                     !< A valve of any kind with any parameters. Lengths that no landmark
+                                                          !! determines keep their proportions. Translation, opening and the
+                                                          !! open state of riisf_valve_set_open_state do not change.
   integer(int32), intent(in) :: n_landmarks               !< 1 to 10,000.
   real(c_double), intent(in) :: xyz(3, *)                 !< (3, n_landmarks): the points, in mesh units.
   integer(int32), intent(in) :: role(*)                   !< (n_landmarks): RIIS_LANDMARK_*.
-  integer(int32), intent(in) :: leaflet_id(2, *)          !< (2, n_landmarks): the leaflets of each landmark. A nadir or
-                                                          !! attachment point has its cusp and -1, and a commissure has its two
-                                                          !! leaflets in any order. -1 and -1 stand for unknown leaflets. For
-                                                          !! an aortic or tricuspid valve, the known leaflets must determine
-                                                          !! the names of all leaflets. For other kinds, if all leaflets are
-                                                          !! unknown, the first nadir lies on cusp 0.
+  integer(int32), intent(in) :: leaflet_id(2, *)          !< (2, n_landmarks): the leaflets of each landmark. For a nadir or an
+                                                          !! attachment point, pass the id of its cusp, and -1. For a
+                                                          !! commissure, pass the ids of its two leaflets in any order. Pass -1
+                                                          !! and -1 if the leaflets are not known. For an aortic or tricuspid
+                                                          !! valve, the known leaflets must determine the names of all
+                                                          !! leaflets. For other kinds, if no leaflet is known, the cusp of the
+                                                          !! first nadir becomes cusp 0.
   real(c_double), intent(in) :: scale                     !< Mesh units in a centimetre: 10 for millimetres, 1 for centimetres,
                                                           !! or 0.01 for metres. Must be set.
-  real(c_double), intent(in) :: noise                     !< The scatter of the landmarks: the standard deviation of each
-                                                          !! coordinate, mesh units, >= 0. RIIS_AUTO: 0.03 * scale.
-  real(c_double), intent(in) :: flow(3)                   !< The direction of flow, of any length, usually 0: not known.
-                                                          !! bileaflet: must be set. mitral: needed unless both commissures or
-                                                          !! the horns show the atrium's side. mitral_coapting: needed unless
-                                                          !! the anterior horn and both commissures are given. tricuspid:
-                                                          !! needed unless the leaflets of two commissures are known.
+  real(c_double), intent(in) :: noise                     !< The standard deviation of each coordinate of the landmarks, mesh
+                                                          !! units, >= 0. RIIS_AUTO: 0.03 * scale.
+  real(c_double), intent(in) :: flow(3)                   !< The direction of flow, of any length. 0: not known. bileaflet:
+                                                          !! must be set. mitral: needed unless both commissures or the horns
+                                                          !! show the side of the atrium. mitral_coapting: needed unless the
+                                                          !! anterior horn and both commissures are given. tricuspid: needed
+                                                          !! unless the leaflets of two commissures are known.
   character(len=*), intent(in) :: held                    !< The names of the parameters whose values do not change, separated
                                                           !! by blanks or commas. '' stands for no name.
   real(c_double), intent(inout) :: rotation_axis(3)       !< Unit vector.
@@ -6256,9 +6297,9 @@ subroutine riisf_place(valve, n_landmarks, xyz, role, leaflet_id, scale, noise, 
   translation = placement%translation
 end subroutine riisf_place
 
-!> Makes a warp from landmarks on the valve at rest. The warp is the identity until riisf_warp_set_targets gives it targets.
-!! Errors: RIIS_INVALID_ARGUMENT naming the landmark or field and its value, also for two landmarks in one place, and for
-!! landmarks on a line.
+!> Makes a warp from landmarks on the unwarped valve. The map is the identity until riisf_warp_set_targets gives it targets.
+!! Errors: RIIS_INVALID_ARGUMENT for a bad landmark or field, if two landmarks are in one place, and if all landmarks lie on a
+!! line. The message names the landmark or field and its value.
 subroutine riisf_warp_create(n_landmarks, xyz, noise, scale, rotation_axis, rotation_angle, translation, warp, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_loc, c_null_ptr, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -6270,15 +6311,15 @@ subroutine riisf_warp_create(n_landmarks, xyz, noise, scale, rotation_axis, rota
   real(c_double), intent(in) :: xyz(3, *)                 !< (3, n_landmarks), mesh units: give the placement of
                                                           !! riisf_surface_create.
   real(c_double), intent(in) :: noise                     !< The standard deviation of each coordinate of the targets, 0 to
-                                                          !! 1e50. The map is smoothed until its distances from the targets are
-                                                          !! about this noise. 0: the map meets the targets exactly.
+                                                          !! 1e50. The map is smoothed until it misses the targets by about
+                                                          !! this noise. 0: the map takes the landmarks exactly to the targets.
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
   real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Refused for a
-                                                          !! valve if coordinates would be rounded by more than a thousandth of
-                                                          !! tolerance * half_thickness.
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse so
+                                                          !! large a shift of a valve that coordinates would be rounded by more
+                                                          !! than a thousandth of tolerance * half_thickness.
   integer(int64), intent(inout) :: warp                   !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_points) :: sources
@@ -6306,10 +6347,10 @@ subroutine riisf_warp_create(n_landmarks, xyz, noise, scale, rotation_axis, rota
   warp = handle_of(c_handle)
 end subroutine riisf_warp_create
 
-!> Makes the warp take the landmarks to the targets. The map is bitwise the same, whatever the earlier targets were. Errors:
-!! RIIS_INVALID_ARGUMENT naming the point. RIIS_INVALID_PARAMETER for a warp that folds. A warp folds if the determinant of the
-!! map's derivative is 0 or less half way between some landmark and its nearest landmark. A larger noise in the options smooths
-!! the map, and may prevent folds.
+!> Makes the warp take the landmarks to the targets. Earlier targets have no influence on the map, not even on its last bits.
+!! Errors: RIIS_INVALID_ARGUMENT for a bad point; the message names the point. RIIS_INVALID_PARAMETER for a warp that folds. For
+!! this test, the call computes the determinant of the map's derivative half way between each landmark and its nearest landmark.
+!! The warp folds if a determinant is 0 or less. A larger noise in the options smooths the map, and may prevent folds.
 subroutine riisf_warp_set_targets(warp, n_landmarks, xyz, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -6331,8 +6372,8 @@ subroutine riisf_warp_set_targets(warp, n_landmarks, xyz, status)
   status = riis_warp_set_targets(c_handle_of(warp), targets)
 end subroutine riisf_warp_set_targets
 
-!> Warps a valve by one or two maps. The maps move the valve's curves at every opening, before the placement. The valve copies
-!! the maps. Errors: RIIS_INVALID_ARGUMENT for `open` without `closed`. RIIS_INVALID_PARAMETER for a bileaflet valve, which is
+!> Warps a valve by one or two maps, which the valve copies. The maps move the valve's curves at every opening, before the
+!! placement. Errors: RIIS_INVALID_ARGUMENT for `open` without `closed`. RIIS_INVALID_PARAMETER for a bileaflet valve, which is
 !! rigid.
 subroutine riisf_valve_set_warp(valve, closed, open, status)
   use, intrinsic :: iso_fortran_env, only: int64

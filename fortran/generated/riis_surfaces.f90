@@ -24,19 +24,21 @@ module riis_surfaces
                                                             !! for a valve.
     integer(int32), pointer :: leaflet_id(:) => null()      !< (n_triangles): RIIS_LEAFLET_*, or the caller's from patches and
                                                             !! arrays.
-    integer(int32), pointer :: patch_id(:) => null()        !< (n_triangles). A surface from arrays has 0, and 1 for its skirt.
-                                                            !! Patches of the caller have their numbers from 0. A valve of n
-                                                            !! cusps has 4 * leaflet, plus 0 for the bottom, 1 for the top, 2 and
-                                                            !! 3 for their mirror images, plus 4 * n in a fused part. The
-                                                            !! anterior mitral leaflet has 0 for the triangle at the
-                                                            !! posteromedial commissure, 1 for the side, 2 for the middle, and 3,
-                                                            !! 4, 5 for the mirror images of 2, 1, 0. The posterior mitral
-                                                            !! leaflet has 6 for a side scallop, 7 for half of the middle
-                                                            !! scallop, and 8 and 9 for the mirror images of 7 and 6. A bileaflet
-                                                            !! valve has 2 * leaflet, plus 0 or 1 for the half, and 4 to 7 for
-                                                            !! the quarters of the ring. A skirt has the id of the patch that it
-                                                            !! continues, plus the number of patch ids without the skirt: 10 for
-                                                            !! mitral, 12 for three cusps without a fused commissure.
+    integer(int32), pointer :: patch_id(:) => null()        !< (n_triangles). In a surface from arrays, leaflets have 0 and a
+                                                            !! skirt has 1. Patches of the caller are numbered from 0. In a valve
+                                                            !! of n cusps, the bottom of a cusp has 4 * leaflet, the top has 1
+                                                            !! more, and the mirror images of bottom and top have 2 and 3 more. A
+                                                            !! patch in a fused part has a further 4 * n more. In the anterior
+                                                            !! mitral leaflet, the triangle at the posteromedial commissure has
+                                                            !! 0, the side has 1, and the middle has 2. The mirror images of 2, 1
+                                                            !! and 0 have 3, 4 and 5. In the posterior mitral leaflet, a side
+                                                            !! scallop has 6, and half of the middle scallop has 7. The mirror
+                                                            !! images of 7 and 6 have 8 and 9. In a bileaflet valve, the halves
+                                                            !! of a leaflet have 2 * leaflet and 2 * leaflet + 1, and the
+                                                            !! quarters of the ring have 4 to 7. A patch of a skirt has the id of
+                                                            !! the patch that it continues, plus the number of patch ids without
+                                                            !! a skirt. This number is 10 for mitral, and 12 for three cusps
+                                                            !! without a fused commissure.
   end type riis_triangles
 
   !> Pointers to the attachment of a valve's surface, by %get_attachment. The surface owns the arrays, which count from 1. Ids
@@ -45,7 +47,7 @@ module riis_surfaces
     real(c_double), pointer :: edges(:, :, :) => null()     !< (3, 2, n_edges): both ends of each edge, after placement.
     integer(int64), pointer :: vertex_id(:, :) => null()    !< (2, n_edges): the vertices at the ends, in riis_triangles%xyz.
     integer(int32), pointer :: leaflet_id(:) => null()      !< (n_edges): the leaflet that is attached there.
-    integer(int32), pointer :: patch_id(:) => null()        !< (n_edges): its patch, as in riis_triangles.
+    integer(int32), pointer :: patch_id(:) => null()        !< (n_edges): the patch of this leaflet, as in riis_triangles.
   end type riis_attachment
 
   !> A surface of triangles with a half thickness, which answers closest-point queries. It borrows nothing from the caller. It is

@@ -27,11 +27,11 @@ module riis_valves
     integer(int32), pointer, contiguous :: patch_id(:) => null() !< (n_patches): as in riis_triangles.
     integer(int32), pointer, contiguous :: attached(:) => null() !< (n_patches): the side that is attached, 0 to 3 in the order
                                                             !! of curve_id, or -1.
-    real(c_double), pointer, contiguous :: bulge(:) => null() !< (n_patches): 0 for a Coons patch. With another number, the line
-                                                            !! at each u is an arc from v = 0 to v = 1. W is the vector from v
-                                                            !! = 0 to v = 1 at this u, and T is the unit tangent of the side v
-                                                            !! = 0. The arc's middle control point lies bulge |W| unit(W x T)
-                                                            !! beside the middle of the straight line.
+    real(c_double), pointer, contiguous :: bulge(:) => null() !< (n_patches): 0 for a Coons patch. If the bulge is not 0, the
+                                                            !! line at each u is an arc from v = 0 to v = 1. Let W be the
+                                                            !! vector from v = 0 to v = 1 at this u, and T the unit tangent of
+                                                            !! the side v = 0. The middle control point of the arc is the
+                                                            !! middle of the straight line plus bulge |W| unit(W x T).
   end type riis_valve_patches
 
   !> The description of a parameter.

@@ -20,7 +20,7 @@ extern "C" {
 
 /* ---- Status, errors, log, version ---------------------------------------------------------------------- */
 
-/* The result of a call. Its values never change. A release may add new values at either end of this enum. */
+/* The result of a call. The number of each status never changes. A release may add numbers at either end of this enum. */
 typedef int32_t riis_status;
 /* Values of riis_status. */
 enum {
@@ -42,17 +42,19 @@ enum {
 /* Returns the name of a status, such as "RIIS_INVALID_ARGUMENT", or "unknown status". Static text. */
 RIIS_API const char *riis_status_name(riis_status status);
 
-/* Returns the message of the calling thread's last failed call. The message names the argument and its value. The message is ""
- * if no call has failed, and never NULL. The library owns the message, and keeps it until the thread's next failed call. */
+/* Returns the message of the calling thread's last failed call. The message names the argument and its value. If no call has
+ * failed, the message is "". The returned pointer is never NULL. The library owns the message, and keeps it until the thread's
+ * next failed call. */
 RIIS_API const char *riis_last_error(void);
 
 /* Returns the version of the linked library, not of this header, as static text such as "1.0.0". */
 RIIS_API const char *riis_version_string(void);
 
-/* Receives a message, in the thread whose call sends it. A log function must not call the library, throw or jump out.
+/* The type of a log function. The library calls the log function in the thread whose call sends the message. A log function must
+ * not call the library, throw an exception or leave by longjmp.
  *   `user_data`: the pointer that was passed to riis_set_log.
  *   `level`: RIIS_LOG_INFO or RIIS_LOG_WARNING.
- *   `message`: one line without a newline; valid during the call only. */
+ *   `message`: one line without a newline; valid only until the log function returns. */
 typedef void (*riis_log_function)(void *user_data, int32_t level, const char *message);
 /* The levels of a message. */
 enum {
@@ -62,14 +64,14 @@ enum {
 /* Sets the log function of the process. Any thread may call riis_set_log.
  *   `function`: receives the messages; NULL, the default, means no log.
  *   `user_data`: a pointer that the library passes to the function. The pointer must stay valid as long as the function is set.
- * If another thread is just sending a message, the previous log function may still receive it. With a log function, calls that
- * make or update a surface from a valve also search it for crossings (riis_find_crossings). Such a search takes longer than an
- * update. The library searches a shape only if the caller has chosen its parameters, patches or open state. The openings from 0
- * to 1 are divided into five ranges, which end at 0, 0.05, 1/3, 2/3 and 1. Each shape is searched once in each range, at its
- * first opening there. After a first warning, the shape is not searched again. */
+ * A message that another thread sends during the call may still go to the previous log function. While a log function is set,
+ * calls that make or update a surface from a valve also search the surface for crossings (riis_find_crossings). A search takes
+ * longer than an update, so searches are rare. The default shape of a kind is never searched. Other valves are searched
+ * in five ranges of openings, which end at 0, 0.05, 1/3, 2/3 and 1. The library searches a valve at its first opening in each
+ * range. After a warning, the library searches this valve again only if its parameters change. */
 RIIS_API void riis_set_log(riis_log_function function, void *user_data);
 
-/* RIIS_AUTO in a field stands for the value of another quantity, which the comment of the field names. */
+/* If a field is RIIS_AUTO, the library chooses its value. The comment of the field says which value. */
 #define RIIS_AUTO (-1.0)
 
 /* Points in the caller's arrays. A call copies these points, or reads them once. */

@@ -15,32 +15,34 @@ extern "C" {
 
 /* ---- Marking (paper, 4.2) ------------------------------------------------------------------------------ */
 
-/* The nodes that a marking found. Make one object and reuse it in every time step, because it keeps its memory. */
+/* The nodes that a marking found. Make one object and reuse it in every time step, because it keeps its memory for the next
+ * marking. */
 typedef struct riis_marks riis_marks;
 /* Makes empty marks, which belong to no mesh and no surface. */
 RIIS_API riis_status riis_marks_create(riis_marks **marks);
 RIIS_API void riis_marks_destroy(riis_marks **marks); /* destroys the marks and their lists */
 
-/* How nodes are searched. All searches except RIIS_SEARCH_PAPER find the same nodes (docs/theory/search.md). */
+/* How a marking searches for the nodes near the surface. All searches except RIIS_SEARCH_PAPER find the same nodes
+ * (docs/theory/search.md). */
 enum {
-  RIIS_SEARCH_AUTO = 0,       /* uses clusters or the exhaustive search, whichever is faster. The exhaustive search runs for
-                                 distances by sampling or minimisation. It also runs in the first marking of a mesh without
-                                 riis_mesh_prepare, if the distance limit is at most a fifth of the surface's extent. With a
-                                 larger limit, it runs if there are few nodes. A grid (riis_mesh_create_grid) is searched by
-                                 clusters from its first marking on */
+  RIIS_SEARCH_AUTO = 0,       /* uses clusters or the exhaustive search, whichever is expected to be faster. The exhaustive search
+                                 runs for distances by sampling or minimisation, and for few nodes with a distance limit above a
+                                 fifth of the surface's extent. With a smaller limit, the exhaustive search runs only in the first
+                                 marking of a mesh that riis_mesh_prepare has not prepared. A grid (riis_mesh_create_grid) is
+                                 searched by clusters from the first marking on */
   RIIS_SEARCH_EXHAUSTIVE = 1, /* queries every node (paper, algorithm "Exhaustive node iteration") */
-  RIIS_SEARCH_NEIGHBOR = 2,   /* walks from marked nodes to their neighbours (paper, algorithm "Recursive
-                                 neighbor search") and also queries every other node that may be near. The mesh must have an
-                                 adjacency, which need not be connected */
-  RIIS_SEARCH_PAPER = 3,      /* the paper's algorithm without any change, for comparison. This search misses nodes that are not
-                                 connected to its only starting node. The mesh must have an adjacency */
-  RIIS_SEARCH_CLUSTERS = 4    /* discards distant clusters of nodes in single precision, and decides about the other nodes in
-                                 double precision. The exhaustive search runs instead for 2^32 nodes or more, and if the size of
-                                 the mesh or its distance from the surface is a million times the size of the surface.
-                                 riis_mark_stats.search tells which search ran */
+  RIIS_SEARCH_NEIGHBOR = 2,   /* walks from marked nodes to their neighbours (paper, algorithm "Recursive neighbor search"), and
+                                 also queries all other nodes that may be near the surface. The mesh must have an adjacency, which
+                                 need not be connected */
+  RIIS_SEARCH_PAPER = 3,      /* the paper's algorithm without any change, for comparison. This search has only one starting node,
+                                 and misses nodes that are not connected to it. The mesh must have an adjacency */
+  RIIS_SEARCH_CLUSTERS = 4    /* discards distant clusters of nodes in single precision, and tests the other nodes in double
+                                 precision. The exhaustive search runs instead if there are 2^32 nodes or more. It also runs if
+                                 the mesh is a million times as large as the surface, or a million times the surface's size away
+                                 from it. riis_mark_stats.search tells which search ran */
 };
 
-/* The processor's instructions that a marking uses. All instruction sets give the same bits. */
+/* The processor's instructions that a marking uses. The results are bitwise the same for all instruction sets. */
 enum {
   RIIS_INSTRUCTIONS_AUTO = 0,     /* the best available */
   RIIS_INSTRUCTIONS_BASELINE = 1, /* available on every processor that the library was built for: SSE2 on x86-64, NEON
@@ -49,8 +51,8 @@ enum {
   RIIS_INSTRUCTIONS_AVX512 = 3    /* AVX-512 F, DQ, BW and VL */
 };
 
-/* Fields of the closest points that a marking stores on request. Add the values to request several fields. With distances by
- * sampling or minimisation, only RIIS_FIELD_POINT, RIIS_FIELD_NORMAL and RIIS_FIELD_PATCH are available. */
+/* Fields of the closest points that a marking stores on request. To request several fields, add their values. If distances are
+ * measured by sampling or minimisation, only RIIS_FIELD_POINT, RIIS_FIELD_NORMAL and RIIS_FIELD_PATCH are available. */
 enum {
   RIIS_FIELD_POINT = 1,      /* riis_mark_list.point */
   RIIS_FIELD_NORMAL = 2,     /* riis_mark_list.normal */
@@ -66,19 +68,19 @@ enum {
 
 /* How the band around the surface ends at its rim. */
 enum {
-  RIIS_RIM_ROUND = 0, /* half a tube around the rim: every node within the half thickness resists */
-  RIIS_RIM_CUT = 1    /* no half tube: nodes whose closest point is on the rim do not resist */
+  RIIS_RIM_ROUND = 0, /* the band ends in half a tube around the rim: K acts at every node within the half thickness */
+  RIIS_RIM_CUT = 1    /* there is no half tube: K is 0 at nodes whose closest point is on the rim */
 };
 
 /* The term K (u - u_surface) of the momentum equation, with the fluid velocity u and the surface velocity u_surface (paper, 2.1;
- * docs/theory/marks.md, "Resistance"). At a distance d < eps, K = (R / eps) delta(d) with
- * delta(d) = (1 + cos(pi d / eps)) / (2 eps). At larger distances K is 0. Here eps is the half thickness of this resistance. If
- * the surface has an offset o, d is |s - o eps|, the distance from the middle of the band. Here s is the signed distance
+ * docs/theory/marks.md, "Resistance"). Let d be the distance of a node from the surface, and eps the half thickness of this
+ * resistance. For d < eps, K = (R / eps) delta(d) with delta(d) = (1 + cos(pi d / eps)) / (2 eps). For d >= eps, K is 0. If the
+ * surface has an offset o, d is the distance from the middle of the band, |s - o eps|, with the signed distance s
  * (riis_surface_create). */
 typedef struct riis_resistance {
   int64_t struct_size;   /* set by the init function */
-  double R;              /* the resistance, 0 or 1e-300 to 1e60, in mass / (length time), such as kg/(m s). A flat closed valve in
-                            a flow of velocity u has a pressure drop of (R / eps) u. Default NaN, which is refused */
+  double R;              /* the resistance, 0 or 1e-300 to 1e60, in mass / (length time), such as kg/(m s). In a flow of velocity
+                            u, the pressure drop across a flat closed valve is (R / eps) u. Default NaN, which is refused */
   double half_thickness; /* eps, at least 1e-50. If the surface has an offset o, (1 + |o|) eps must be at most the distance limit.
                             Default RIIS_AUTO: the marking's half thickness */
   int32_t rim;           /* RIIS_RIM_*, default RIIS_RIM_ROUND */
@@ -89,40 +91,42 @@ RIIS_API riis_status riis_resistance_init(riis_resistance *resistance, int64_t s
 /* Options of a marking. */
 typedef struct riis_mark_options {
   int64_t struct_size;       /* set by the init function */
-  double distance_limit;     /* the search finds the nodes whose distance is at most this limit. The limit must be at least (1 +
-                                |o|) half thicknesses, with the offset o of the surface, and at most 1e60. Default RIIS_AUTO: the
-                                search finds the marked nodes only. The limit does not change which nodes are marked */
+  double distance_limit;     /* the search finds all nodes whose distance from the surface is at most this limit. If o is the
+                                offset of the surface, the limit must be at least (1 + |o|) half thicknesses, and at most 1e60.
+                                Default RIIS_AUTO: the search finds only the marked nodes. The limit has no influence on which
+                                nodes are marked */
   const uint8_t *node_mask;  /* (n_nodes): 0 leaves a node out of the search. The coordinates of the node must still be finite.
                                 NULL: all nodes */
-  const riis_resistance *resistance; /* requests riis_mark_list.K, and also riis_mark_list.K_u_surface if the surface has
-                                        velocities. Default NULL: neither */
+  const riis_resistance *resistance; /* requests riis_mark_list.K, and if the surface has velocities also
+                                        riis_mark_list.K_u_surface. Default NULL: no K */
   int32_t fields;            /* a sum of RIIS_FIELD_*, for the nodes of riis_mark_list. Default 0 */
   int32_t search;            /* RIIS_SEARCH_*, default RIIS_SEARCH_AUTO */
   int32_t n_threads;         /* default 0 */
-  int32_t instructions;      /* RIIS_INSTRUCTIONS_*, for tests and measurements; default RIIS_INSTRUCTIONS_AUTO. RIIS_UNAVAILABLE
-                                if the processor lacks these instructions. Distances by sampling or minimisation use
-                                RIIS_INSTRUCTIONS_BASELINE */
+  int32_t instructions;      /* RIIS_INSTRUCTIONS_*, for tests and measurements; default RIIS_INSTRUCTIONS_AUTO. If the processor
+                                lacks these instructions, the marking returns RIIS_UNAVAILABLE. Sampling and minimisation always
+                                use RIIS_INSTRUCTIONS_BASELINE */
 } riis_mark_options;
 RIIS_API riis_status riis_mark_options_init(riis_mark_options *options, int64_t struct_size); /* the defaults */
 
-/* Finds every node near the surface: the marked nodes, which lie within the half thickness, and the nodes within the distance
- * limit. The distance in double precision decides whether a node is near. If the surface has an offset, the marked nodes are the
- * nodes in the band (riis_surface_create).
+/* Finds the marked nodes, which lie in the band around the surface (riis_surface_create), and the nodes within the distance
+ * limit. Without an offset, the band holds the nodes within the half thickness of the surface. Distances in double precision
+ * decide which nodes are found.
  *   `marks`: its content is replaced.
- * The log warns if the mesh and the surface seem to have different units: the largest sides of their bounding boxes differ by
- * more than a factor of 50, or one of these sides is below the half thickness. This warning comes once for each pair of surface
- * and mesh, at most eight times for each mesh, and never for fewer than 1000 nodes.
- * Errors: RIIS_INVALID_MESH for a coordinate that became non-finite after it was given. */
+ * The log gets a warning if the mesh and the surface seem to have different units. In this case, the largest sides of their
+ * bounding boxes differ by more than a factor of 50, or one of these sides is below the half thickness. The warning comes once
+ * for each pair of surface and mesh, at most eight times for each mesh, and never for fewer than 1000 nodes.
+ * Errors: RIIS_INVALID_MESH if a coordinate has become non-finite since the mesh was created or updated. */
 RIIS_API riis_status riis_mark_nodes(const riis_surface *surface, const riis_mesh *mesh,
                                      const riis_mark_options *options, riis_marks *marks);
 
 /* The lists of a marking. */
 enum {
-  RIIS_LIST_MARKED = 0,      /* the nodes within the half thickness, or with an offset the nodes in the band */
-  RIIS_LIST_WITHIN_LIMIT = 1 /* the nodes within the distance limit, marked or not. Without a limit: the marked nodes */
+  RIIS_LIST_MARKED = 0,      /* the marked nodes, which lie in the band around the surface */
+  RIIS_LIST_WITHIN_LIMIT = 1 /* the nodes within the distance limit, marked or not. Without a distance limit, these are the marked
+                                nodes */
 };
-/* A list of nodes, ascending by node_id. Lengths are in mesh units. The array `point` and the arrays below it are NULL if
- * options.fields did not request them. The call riis_closest_point gives bitwise the same values. */
+/* A list of nodes, ascending by node_id. Lengths are in mesh units. The arrays from `point` on are NULL if options.fields did not
+ * request them. Their values are bitwise the same as those of riis_closest_point. */
 typedef struct riis_mark_list {
   int64_t n_nodes;            /* in the list */
   const int64_t *node_id;     /* (n_nodes) */
@@ -134,29 +138,34 @@ typedef struct riis_mark_list {
   const double *point;        /* (3, n_nodes): the closest point of the surface */
   const double *normal;       /* (3, n_nodes): the unit normal of its triangle */
   const double *barycentric;  /* (3, n_nodes): the point's weights for the triangle's vertices */
-  const double *uv;           /* (2, n_nodes): u and v of the point on its patch, in [0,1]. S_u x S_v points along the normal, and
-                                 on mirrored patches against the normal (cusps: patch_id % 4 >= 2; mitral: 3, 4, 5, 8, 9).
-                                 flip_normals reverses both cases */
+  const double *uv;           /* (2, n_nodes): u and v of the point on its patch, in [0,1]. S_u x S_v points along
+                                 the normal. On mirrored patches it points against the normal (cusps: patch_id % 4 >= 2; mitral:
+                                 3, 4, 5, 8, 9). With flip_normals, both directions are reversed */
   const double *velocity;     /* (3, n_nodes): the velocity of the surface at the closest point, from the surface's last update.
-                                 Several leaflets may be equally near (within 1e-6 half thicknesses), or several patches of one
-                                 leaflet (within 1e-9). The velocity is then the mean of the velocities at their closest points
-                                 (docs/theory/marks.md). Other fields come from the closest triangle */
+                                 If several leaflets are equally near (within 1e-6 half thicknesses), the velocity is the mean of
+                                 the velocities at their closest points (docs/theory/marks.md). The same holds for several patches
+                                 of one leaflet (within 1e-9). All other fields come from the closest triangle */
   const int32_t *side;        /* (n_nodes): as riis_closest.side */
   const int32_t *rim;         /* (n_nodes): 1 if the closest point lies on the rim of the surface, else 0. The rim of a valve
                                  consists of the sides that belong to only one patch, such as free edges and the annulus. Where
-                                 the free edges of a closed valve coincide, there is no rim. The rim of a surface from arrays
-                                 consists of edges of only one triangle; vertices with equal coordinates count as one */
+                                 free edges of a closed valve coincide, they are not part of the rim. The rim of a surface from
+                                 arrays consists of the edges that belong to only one triangle. Vertices with equal coordinates
+                                 count as one vertex */
   const int32_t *patch_id;    /* (n_nodes): as in riis_triangles */
-  int64_t n_directions;       /* the surface's directions during the marking; 0 without RIIS_FIELD_GRADIENT */
-  const double *distance_gradient; /* (n_directions, n_nodes): the derivative of the distance in each direction, which is -n.V.
-                                      The unit vector n points from the closest point to the node. V is the rate of the closest
-                                      point in the triangle triangle_id. On the surface the derivative is 0, because the distance
-                                      has a kink there. The distance also has a kink at nodes with several nearest places */
-  const double *K_gradient;   /* (n_directions, n_nodes): the derivative of K for constant R and half thickness. The derivative is
-                                 0 where K is 0. NULL without a resistance. With an offset, n at a node on the surface is the
-                                 surface's normal, and at a rim the derivative includes the rotation of the normal */
-  const double *height;       /* (n_nodes): the signed distance s of riis_surface_create for a surface with an offset. At a rim it
-                                 is n.(x - p), with the normal n, the node x and the closest point p. NULL without an offset */
+  int64_t n_directions;       /* the number of directions that the surface had during the marking; 0 without
+                                 RIIS_FIELD_GRADIENT */
+  const double *distance_gradient; /* (n_directions, n_nodes): the derivative of the distance in each direction. It is -n.V. The
+                                      unit vector n points from the closest point to the node, and V is the rate of the closest
+                                      point in the triangle triangle_id. At nodes on the surface the array has 0, because the
+                                      distance has a kink there. The distance also has a kink at nodes with several closest
+                                      points */
+  const double *K_gradient;   /* (n_directions, n_nodes): the derivative of K in each direction, for constant R and half
+                                 thickness. The derivative is 0 where K is 0. NULL without a resistance. If there is an offset,
+                                 the unit vector n of distance_gradient is the surface's normal at nodes on the surface. At a rim,
+                                 the derivative then includes the rotation of this normal */
+  const double *height;       /* (n_nodes): for a surface with an offset, the signed distance s of riis_surface_create. If the
+                                 closest point p is on a rim, the height of a node x is n.(x - p) with the normal n. NULL without
+                                 an offset */
 } riis_mark_list;
 /* Gives one of the two lists of the last marking. The list is valid until the marks are destroyed or passed to riis_mark_nodes
  * again.
@@ -164,38 +173,38 @@ typedef struct riis_mark_list {
 RIIS_API riis_status riis_marks_get_list(const riis_marks *marks, int32_t which, riis_mark_list *list,
                                          int64_t struct_size);
 
-/* The caller's arrays with an entry for each node of the mesh. NULL stands for an array that is not wanted. */
+/* The caller's arrays, which have an entry for each node of the mesh. Pass NULL for arrays that are not wanted. */
 typedef struct riis_dense_arrays {
   int64_t struct_size;  /* set by the init function */
   int64_t n_nodes;      /* the number of nodes of the marking, 0 for empty marks */
-  double far_distance;  /* the number that the array `distance` gets for nodes that are masked out or beyond the limit: NaN, or
-                           any value outside [0, distance limit]. Default RIIS_FAR_DISTANCE */
+  double far_distance;  /* the number that stands for the distance of nodes that are masked out or beyond the limit. It may be
+                           NaN, or any value outside [0, distance limit]. Default RIIS_FAR_DISTANCE */
   uint8_t *mark;        /* (n_nodes): 1 for marked nodes, 0 for others */
   double *distance;     /* (n_nodes): the distance of nodes within the distance limit, far_distance for others */
   int64_t *triangle_id; /* (n_nodes): the closest triangle of nodes within the distance limit, -1 for others */
   int32_t *leaflet_id;  /* (n_nodes): the leaflet of this triangle, -1 for others */
 } riis_dense_arrays;
 RIIS_API riis_status riis_dense_arrays_init(riis_dense_arrays *arrays, int64_t struct_size); /* the defaults */
-/* Writes the marks to every entry of the caller's arrays.
- * Errors: RIIS_INVALID_ARGUMENT naming the field. */
+/* Writes the marks of all nodes to the caller's arrays.
+ * Errors: RIIS_INVALID_ARGUMENT for a bad field; the message names the field. */
 RIIS_API riis_status riis_marks_get_dense(const riis_marks *marks, const riis_dense_arrays *arrays);
 
-/* How the last marking went. */
+/* Counts and times of the last marking. */
 typedef struct riis_mark_stats {
-  int64_t n_nodes;      /* of the mesh, masked out or not */
+  int64_t n_nodes;      /* the number of nodes of the mesh, masked out or not */
   int64_t n_marked;     /* the length of RIIS_LIST_MARKED */
   int64_t n_within_limit; /* nodes within the distance limit, marked or not */
   int64_t n_queries;    /* number of closest-point queries, of nodes and of parts of the mesh */
   double seconds;       /* wall time of riis_mark_nodes */
   int32_t search;       /* the search that ran, never RIIS_SEARCH_AUTO */
   int32_t n_threads;    /* the largest number of threads that any part of the marking used. If the caller limits the threads of
-                           TBB, the limit affects only the walks of the neighbour search */
-  int32_t complete;     /* 1: all nodes within the limit were found, for the coordinates that the mesh was last given; 0: this
-                           is not certain */
+                           TBB, this limit affects only the walks of the neighbour search */
+  int32_t complete;     /* 1: certainly all nodes within the limit were found, for the coordinates at the last creation or update
+                           of the mesh. 0: nodes may have been missed */
   int32_t instructions; /* the instructions that were used, never RIIS_INSTRUCTIONS_AUTO */
-  int64_t n_unreached;  /* nodes within the limit that the neighbour search found outside of its walks */
+  int64_t n_unreached;  /* the number of nodes within the limit that the neighbour search found outside of its walks */
 } riis_mark_stats;
-/* Tells how the last marking with these marks went. For empty marks all fields are 0. */
+/* Gives counts and times of the last marking with these marks. For empty marks all fields are 0. */
 RIIS_API riis_status riis_marks_get_stats(const riis_marks *marks, riis_mark_stats *stats, int64_t struct_size);
 
 #ifdef __cplusplus

@@ -2,11 +2,12 @@
  *
  * riis.h - the whole public interface of riis: heart valves as resistive immersed implicit surfaces.
  *
- * A riis_valve has named parameters. riis_surface_create makes a riis_surface of triangles from it. riis_mark_nodes then finds
- * the nodes in the band around this surface, and puts them into riis_marks.
+ * A riis_valve has named parameters. riis_surface_create turns the valve into a riis_surface, which consists of triangles.
+ * riis_mark_nodes then finds the mesh nodes near the surface, and stores them in riis_marks.
  *
  * A flow solver passes the nodes of its mesh, and gets the nodes near the valve's leaflets with their distances. At these nodes
- * the momentum equation has the term K (u - u_surface), which holds the blood back. No mesh has to follow the moving leaflets.
+ * the solver adds the term K (u - u_surface) to its momentum equation. This term holds the blood back. The mesh does not have to
+ * follow the moving leaflets.
  *
  * The shortest complete program:
  *
@@ -23,44 +24,45 @@
  *
  * - Units: lengths have one unit of the caller's choice, and angles are in degrees. The valves' default lengths are in
  *   centimetres. The scale of a placement converts centimetres to the mesh's unit (0.01 for metres).
- * - Ids: numbers called *_id count from 0, and so do the ids in messages. If a struct has a field index_base, the ids in this
- *   struct count from that base, 0 (default) or 1. A field id_bits gives the ids' width: 32 (default) or 64.
+ * - Ids: arguments and fields named *_id count from 0, and so do the ids in messages. If a struct has a field index_base, the ids
+ *   in this struct count from index_base, which is 0 (default) or 1. A field id_bits gives the number of bits of each id: 32
+ *   (default) or 64.
  * - Points: point i is x[i * stride], y[i * stride], z[i * stride]. Coordinates are finite, of magnitude at most 1e60. The stride
  *   counts numbers, not bytes, and is at least 1. Separate arrays have the stride 1. An array xyz(3,n) has the stride 3, with y =
  *   x + 1 and z = x + 2. Calls refuse arrays x, y and z that overlap. A field real_bits gives the width of the numbers: 64
  *   (default) or 32 bits. Without a field real_bits the numbers are doubles. The rules of points also hold for vectors.
- * - Order: the first argument is the object after which the function is named. The other arguments follow in this order: what the
- *   call reads, options, what the call writes. Functions with `get` in their names return the content of an object.
+ * - Order: the first argument is the object after which the function is named. The other arguments follow in this order: inputs,
+ *   options, outputs. Functions with `get` in their names return the content of an object.
  * - Status: a function that can fail returns a riis_status; 0 is success, and riis_last_error() gives the message of a failure.
  *   If the status is positive, the call has changed nothing, and pointers from earlier calls stay valid. If the status is
- *   negative, an object that the call writes may be damaged: destroy this object. No function aborts, prints or throws.
- * - Any function may return RIIS_INVALID_ARGUMENT for a forbidden NULL and for an argument or field out of range,
- *   RIIS_INVALID_STRUCT_SIZE for a struct of a wrong size, and RIIS_OUT_OF_MEMORY.
+ *   negative, the objects that the call writes may be damaged, so destroy them. No function aborts, prints or throws.
+ * - Any function may return RIIS_INVALID_ARGUMENT for a forbidden NULL, and for an argument or field out of range. It may also
+ *   return RIIS_INVALID_STRUCT_SIZE for a struct of a wrong size, and RIIS_OUT_OF_MEMORY.
  * - Handles: a new object is the last argument, and is written only on success. A destroy function takes a handle's address,
- *   accepts NULL, and sets the handle to NULL. A destroy function ignores a handle of another kind, and all other calls refuse
- *   it.
- * - Memory: a call reads its arguments and their arrays only while it runs. A call that borrows arrays for longer says so in its
- *   comment. Arrays that a call returns belong to the handle, and are valid until the handle's next update or destruction. A
- *   returned array without entries is NULL. The caller may also pass NULL for an array without entries.
+ *   accepts NULL, and sets the handle to NULL. If a handle has the wrong kind, a destroy function ignores the handle, and all
+ *   other functions return an error.
+ * - Memory: a call reads its arguments and their arrays only while it runs. If a call borrows arrays for longer, its comment says
+ *   so. Arrays that a call returns belong to the handle, and are valid until the handle's next update or destruction. An array
+ *   without entries is returned as NULL, and may be passed as NULL.
  * - If a call fills in a struct, the next argument is the struct's size, as in (&list, sizeof list). The call writes at most this
- *   number of bytes.
+ *   many bytes.
  * - Structs that a call reads begin with struct_size. The init function of a struct sets struct_size and the defaults, and sets
- *   all other fields to 0 or NULL. A NULL options pointer means all defaults. New fields are appended to a struct, or replace its
- *   field `reserved`, which must be 0.
- * - Threads: any number of threads may read a handle (const) at once. While a thread writes a handle, no other thread may use it.
- *   The library refuses most calls that break this rule. Different handles never interfere. Results are bitwise the same for any
- *   number of threads.
- * - n_threads: 1 to 1024, or 0, the default. By default a call takes one thread, and one more for each 4096 triangles of the
- *   surface, for each 16,384 nodes, cells or faces, or for each 2048 points. An update counts the triangles that the surface had
- *   before. The default never exceeds the number of processors in the calling thread's affinity mask. By default, a part of a
- *   call with little work takes only one thread. With n_threads 1, the library starts no thread. OMP_NUM_THREADS and
- *   omp_set_num_threads have no effect. If the system refuses a thread or its memory, OpenMP and TBB end the process
- *   (docs/building.md). The library's own threads block all signals except the signals of errors, such as SIGSEGV.
- * - fork(): after the library has used several threads, a child process may use only one thread. One thread is then its default.
- *   If a child requests more threads, the call returns RIIS_UNAVAILABLE. A child cannot make surfaces if another thread was
- *   inside the library during the fork.
+ *   all other fields to 0 or NULL. A NULL options pointer means all defaults. Later releases add fields at the end of a struct,
+ *   or in place of its field `reserved`. Until then `reserved` must be 0.
+ * - Threads: several threads may pass the same handle at once if all calls take it as const. While a call takes a handle that is
+ *   not const, no other thread may use this handle. The library refuses most calls that break this rule. Different handles never
+ *   interfere. Results are bitwise the same for any number of threads.
+ * - n_threads: 1 to 1024, or 0, the default. By default a call uses one thread, plus one thread for each 4096 triangles of the
+ *   surface, for each 16,384 nodes, cells or faces, or for each 2048 points. For an update, the triangles before the update
+ *   count. The default never exceeds the number of processors in the calling thread's affinity mask. By default, parts of a call
+ *   with little work use only one thread. With n_threads 1, the library starts no thread. OMP_NUM_THREADS and omp_set_num_threads
+ *   have no effect. If the system refuses a thread or its memory, OpenMP and TBB end the process (docs/building.md). The
+ *   library's own threads block all signals except signals of errors, such as SIGSEGV.
+ * - fork(): after the library has used several threads, a child process may use only one thread in each call. By default the
+ *   child then uses one thread. If the child requests more threads, the call returns RIIS_UNAVAILABLE. A child cannot make
+ *   surfaces if another thread was inside the library during the fork.
  * - Environment: calls and log functions run with the default floating-point environment. At its end, each call restores the
- *   caller's floating-point environment. The caller's OpenMP and TBB settings are not changed.
+ *   caller's floating-point environment. The caller's settings of OpenMP and TBB do not change.
  *
  * "Paper" is B. van der Vuurst, J. Kosinka, C. Bertoglio, "Fast generation of 3D flow obstacles from parametric surface
  * models: application to cardiac valves" (2025); docs/theory/departures.md lists every departure.

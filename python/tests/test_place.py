@@ -214,8 +214,8 @@ def test_too_few_landmarks_are_counted_before_the_unit_is_judged(n):
 
 def test_a_report_says_that_the_papers_aortic_valve_does_not_close():
     points = dict(zip(NAMES, patient(3)[2], strict=True))
-    text = ("The paper's aortic valve does not close at opening 0. The kinds coapting and trileaflet take the same landmarks, "
-            "and close.\n")
+    text = ("The paper's aortic valve does not close at opening 0. For a valve that closes, choose the kind coapting or "
+            "trileaflet with the same landmarks.\n")
     open_share = {}
     for kind in ("aortic", "coapting", "trileaflet"):
         found = riis.place(points, kind, unit="mm")

@@ -194,7 +194,7 @@ REFUSED = {
                          lambda o: riis.Surface.from_arrays(o.triangle, o.faces, attached=numpy.zeros(3, bool))),
     "skirt_lengths": (Argument, r"skirt_lengths: its shape is \(2,\); it must be \(3,\)",
                       lambda o: riis.Surface.from_arrays(o.triangle, o.faces, skirt_length=0.1, skirt_lengths=numpy.ones(2))),
-    "moved vertices of a valve": (Argument, "it has no faces to keep",
+    "moved vertices of a valve": (Argument, "the surface has no faces to keep",
                                   lambda o: riis.Surface(o.valve).update_from_arrays(o.triangle)),
     "leaflets without faces": (Argument, "leaflet_id: needs faces",
                                lambda o: riis.Surface(o.valve).update_from_arrays(o.triangle, leaflet_id=numpy.zeros(1, "i4"))),

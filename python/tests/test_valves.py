@@ -179,7 +179,7 @@ def test_aortic_cusps_turn_until_they_meet():
     ("mitral", "annulus", "its annulus is not round; set AP_diameter and ALPM_diameter"),
     ("mitral", "stj", "it has no sinotubular junction"),
     ("mitral", "effective_height", "only cusps have an effective height"),
-    ("bileaflet", "stj", "its housing has one radius"),
+    ("bileaflet", "stj", "its housing has only one radius"),
     ("bileaflet", "effective_height", "only cusps have an effective height"),
 ])
 def test_names_without_a_meaning_are_refused(kind, name, text):

@@ -374,7 +374,7 @@ TEST(test_refused_options) {
   RUN_REFUSED(2, "--series-table needs times: ", "mark", "--case", file, "--series-table", scratch_path("a.csv"));
   RUN_REFUSED(2, "--all-cells needs times: ", "mark", "--case", file, "--all-cells");
   RUN_REFUSED(2, "--valve excludes --case", "mark", "--case", file, "--valve", "mitral");
-  RUN_REFUSED(2, "--steps has no effect with --times and --case", "mark", "--case", file, "--steps", "2");
+  RUN_REFUSED(2, "--steps has no effect with --times or --case", "mark", "--case", file, "--steps", "2");
   RUN_REFUSED(2, "--half-thickness excludes --case", "mark", "--case", file, "--half-thickness", "1");
   RUN_REFUSED(2, "--prefix excludes --case", "mark", "--case", file, "--prefix", "x", "--output", "o.vtu");
   RUN_REFUSED(2, "is also the file of MESH", "mark", "--case", file, "--output", scratch_path("in.vtu"), "--replace");

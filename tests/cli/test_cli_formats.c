@@ -261,15 +261,15 @@ TEST(test_foam) {
   RUN_REFUSED(2,
               "box/7: OpenFOAM's K is divided by the density: write --density RHO, and R in kg/(m s) as --resistance",
               "mark", box, "--cells", "--resistance", "2", "--output", time);
-  RUN_REFUSED(2, "--k-unit has no effect on the fields of OpenFOAM, whose K has the unit 1/s", "mark", box, "--cells",
-              "--resistance", "2", "--density", "1060", "--k-unit", "1/s", "--output", time);
-  RUN_REFUSED(2, "--density has no effect: only the fields of an OpenFOAM case have K divided by the density", "mark",
+  RUN_REFUSED(2, "--k-unit has no effect on the fields of OpenFOAM, because their K has the unit 1/s", "mark", box,
+              "--cells", "--resistance", "2", "--density", "1060", "--k-unit", "1/s", "--output", time);
+  RUN_REFUSED(2, "--density has no effect: K is divided by the density only in the fields of an OpenFOAM case", "mark",
               box, "--cells", "--resistance", "2", "--density", "1060", "--output", scratch_path("out.vtu"));
   RUN_REFUSED(2, "box/7 takes fields of cells: write --cells", "mark", box, "--output", time);
   RUN_REFUSED(2, "--cells: --picture shows marks of nodes", "mark", box, "--cells", "--picture", "a.png");
   RUN_REFUSED(2, "--cells: --steps marks nodes, not centres", "mark", box, "--cells", "--steps", "3");
-  RUN_REFUSED(1, "box/7: is a time of a case, but the mesh was not read from this case", "mark", scratch_path("in.vtu"),
-              "--half-thickness", "0.3", "--cells", "--output", time);
+  RUN_REFUSED(1, "box/7: is a time folder of a case, but the mesh was not read from this case", "mark",
+              scratch_path("in.vtu"), "--half-thickness", "0.3", "--cells", "--output", time);
   RUN_REFUSED(2, "cell 0 is a vtkTriangle; centres are those of linear volume cells and polyhedra", "mark",
               scratch_path("skin.vtk"), "--cells");
 }
@@ -310,7 +310,7 @@ TEST(test_foam_flow) {
   RUN_FINE(FLOW("half.png"));
   assert_false(scratch_is_same("list.png", "half.png"));
   RUN_REFUSED(1, "box/8: there is no such time of the case; written are ", "mark", scratch_path("box/8"));
-  RUN_REFUSED(2, "is no array of the mesh; for a field of OpenFOAM, name a time in place of the case: ", "mark",
+  RUN_REFUSED(2, "is not an array of the mesh; for a field of OpenFOAM, name a time in place of the case: ", "mark",
               scratch_path("box"), "--valve", "aortic", "--half-thickness", "0.3", "--picture", scratch_path("no.png"),
               "--picture-velocity", "U");
   write_velocity("volScalarField", "uniform 3");
@@ -319,7 +319,7 @@ TEST(test_foam_flow) {
   RUN_REFUSED(1, "box/9/U: has 2 values, and the mesh has 1728 cells", FLOW("no.png"));
   write_velocity("volVectorField", "$start");
   RUN_REFUSED(1, "internalField begins with \"$start\", not uniform or nonuniform", FLOW("no.png"));
-  RUN_REFUSED(2, "--picture-velocity is \"U\", which is no array of the mesh", "mark", scratch_path("in.vtu"),
+  RUN_REFUSED(2, "--picture-velocity is \"U\", which is not an array of the mesh", "mark", scratch_path("in.vtu"),
               "--valve", "aortic", "--half-thickness", "0.3", "--picture", scratch_path("no.png"), "--picture-velocity",
               "U");
   free(list);

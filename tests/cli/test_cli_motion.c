@@ -95,7 +95,7 @@ TEST(test_usage) {
   RUN_REFUSED(2, "--time has no effect with --surface", "surface", "--surface", still, "--time", "0", "--output",
               moved);
   RUN_REFUSED(2, "--time requires --surface", "surface", "--valve", "mitral", "--time", "0", "--output", moved);
-  RUN_REFUSED(2, "--period needs something that repeats: --surface FILE.pvd or --cycle", "surface", "--period", "1",
+  RUN_REFUSED(2, "--period needs a motion that repeats: --surface FILE.pvd or --cycle", "surface", "--period", "1",
               "--output", moved);
   RUN_REFUSED(2, "it needs --time T", "surface", "--surface", motion, "--period", "1", "--output", moved);
   RUN_REFUSED(2, "--time: 'soon' is not a number", "surface", "--surface", motion, "--time", "soon", "--output", moved);

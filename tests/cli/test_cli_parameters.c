@@ -411,7 +411,7 @@ TEST(test_named_sizes) {
        "p.json: 'annulus' is not a parameter of the mitral valve: its annulus is not round; set AP_diameter and "
        "ALPM_diameter"},
       {"bileaflet", "{\"stj\": 3.5}",
-       "p.json: 'stj' is not a parameter of the bileaflet valve: its housing has one radius"},
+       "p.json: 'stj' is not a parameter of the bileaflet valve: its housing has only one radius"},
       {"trileaflet", "{\"stj\": -3.5}", "p.json: parameter 'stj' is -3.5; it must be from 2e-09 to 2e+09"},
   };
   for (size_t i = 0; i < sizeof refused / sizeof *refused; ++i) {

@@ -237,7 +237,7 @@ TEST(test_offset) {
   RUN_REFUSED(2, "--offset: 'aside' is not a number", "mark", mesh, "--offset", "aside");
   RUN_REFUSED(2, "--offset is 0.5, but options.measure is 1, which does not tell the sides of a surface apart", "mark",
               mesh, "--offset", "0.5", "--distance", "sampling");
-  RUN_REFUSED(2, "--offset: svMultiPhysics interpolates distances, and cannot use an offset", "export",
+  RUN_REFUSED(2, "--offset: svMultiPhysics interpolates distances, so it cannot use an offset", "export",
               scratch_path("uris"), "--valve", "trileaflet", "--resistance", "1", "--time-step", "0.001",
               "--opening-seconds", "0.1", "--closing-seconds", "0.1", "--offset", "0.5");
 }

@@ -361,7 +361,7 @@ TEST(test_collapsed_sides) {
   CHECK_NEAR(cell(0, "leaflet_0_edge"), sqrt(5), 1e-12);
   run_flat_triangle("\"v0\": \"slope\", \"v1\": \"origin\", \"u0\": \"-x\", \"u1\": \"-y\"");
   assert_false(has_column("leaflet_0_edge"));
-  expect_said("edges     not measured: a leaflet has no side v = 1 that is free\n");
+  expect_said("edges     not measured: the side v = 1 of a leaflet is not free\n");
 }
 
 /* Two patches above each other share a side. The common side is the side v = 1 of one patch, but it is not a free edge. The

@@ -140,8 +140,8 @@ TEST(test_folders) {
           "0.01", RAMPS);
   snprintf(text, sizeof text, "FOLDER: %s: the folder %s does not exist", scratch_path("no/uris"), scratch_path("no"));
   REFUSED(1, text, "export", scratch_path("no/uris"), "--resistance", "1", "--time-step", "0.01", RAMPS);
-  REFUSED(2, "has a blank, and svMultiPhysics cannot read such a path", "export", "my folder", "--resistance", "1",
-          "--time-step", "0.01", RAMPS);
+  REFUSED(2, "has a blank, but svMultiPhysics cannot read a path with blanks", "export", "my folder", "--resistance",
+          "1", "--time-step", "0.01", RAMPS);
   /* The export fills an empty folder. A folder's name may end in a slash. */
   const int n_files = scratch_n_files();
   assert_int_equal(mkdir(FOLDER, 0777), 0);

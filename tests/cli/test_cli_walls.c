@@ -118,10 +118,9 @@ TEST(test_other_axes) {
   skirt_to(write_tube("wall.stl", &wall), "1", "3,2,0");
   assert_int_equal(program_exit_code, 1);
   assert_non_null(strstr(program_err, "the wall is not within --skirt, 1, at "));
-  assert_non_null(
-      strstr(program_err,
-             "; after half a turn about z the wall would be within --skirt, so one of valve and wall is in LPS "
-             "and the other in RAS: give both the same axes\n"));
+  assert_non_null(strstr(program_err,
+                         "; after half a turn about z the wall would be within --skirt, so the valve and the wall are "
+                         "in different axes, LPS and RAS: give both the same axes\n"));
   scratch_write_text("placed.json",
                      "{\"valve\": \"coapting\", \"unit\": \"cm\", \"axes\": \"LPS\", \"rotate\": [0, 0, 1, 0], "
                      "\"translate\": [3, 2, 0], \"parameters\": {}}");

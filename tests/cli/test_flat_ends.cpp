@@ -263,7 +263,8 @@ void faults(random_source &random) {
   bad = whole;
   append(bad, whole, 0.8, {0, 0, 0.6}, true);
   write(bad, random);
-  expect_refused({"one lies within the other, as the two faces of a thick wall do, so export the blood alone"});
+  expect_refused(
+      {"one lies within the other, like the two faces of a thick wall: export only the surface of the blood"});
   bad = whole;
   append(bad, ball(4), 0.05, {0, 0, 3});
   write(bad, random);
@@ -376,7 +377,7 @@ void unclear_ends(random_source &random) {
       thick.corners.push_back(two);
     }
   write(thick, random);
-  expect_refused({"a flat ring shows that this wall has a thickness, so export the surface of the blood instead"});
+  expect_refused({"a flat part is a ring, so this wall has a thickness: export the surface of the blood instead"});
 }
 
 // The wall bulges and has a flat place. A flat place meets the wall at an angle that grows with its size. Below 30 degrees the

@@ -325,7 +325,7 @@ exec '{shutil.which("gmsh")}' "$@" $longer
             run.send_signal(signal.SIGINT)
             said = run.communicate()[1]
         self.assertEqual(run.returncode, -signal.SIGINT)
-        self.assertIn("riis: stopped before the folder was finished: the same command makes it anew\n", said)
+        self.assertIn("riis: stopped before the folder was finished: run the same command again\n", said)
         (case / "mine.txt").write_text("kept", encoding="utf-8")
 
         done = self.refused(1, r"\d+ edges? leaks? at 11 openings also in the second mesh, whose edges in the band have 0.855 "
@@ -376,7 +376,7 @@ exec '{shutil.which("gmsh")}' "$@" $longer
         moved("nadir_left", aside, -6)
         for words in ["--warp", "exact"], []:
             self.refused(1, r"the warp (folds|turns) .*\. It does not fold with --warp smoothed --noise '0.6 mm', but first look "
-                            "for a landmark that is not at its place", *words)
+                            "for a landmark in the wrong place", *words)
         self.assertEqual((place("--warp", "smoothed"), place("--warp", "smoothed", "--noise", "0.6")), (1, 0))
         moved("commissure_right_left", self.root.e3, -10)
         done = self.refused(1, "the landmarks give .* and then cusp . would fold .*--set")
@@ -455,7 +455,7 @@ exec '{shutil.which("gmsh")}' "$@" $longer
         self.refused(2, "--heart-rate needs --solver", "--heart-rate", "60")
         self.refused(2, "--heart-rate: 39.9 is not from 40 to 180 beats a minute", "--heart-rate", "39.9", "--solver", "openfoam")
         self.refused(2, "--hold needs --solver openfoam", "--hold", "0.5")
-        self.refused(2, "--hold: 1 is not below 1: write --hold 0.999", "--hold", "1", "--solver", "openfoam")
+        self.refused(2, "--hold: the opening 1 is not below 1: write --hold 0.999", "--hold", "1", "--solver", "openfoam")
         self.refused(2, "--valve: .* are those of an aortic valve, and mitral is a mitral valve: leave out --valve",
                      "--valve", "mitral")
         self.refused(2, "--valve: the aortic valve does not close: write --valve coapting", "--valve", "aortic")

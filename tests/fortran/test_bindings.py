@@ -160,7 +160,7 @@ class Fields(Planted):
                          r"    type\(c_ptr\) :: planted +!< integer\(c_int32_t\) or \(c_int64_t\), \(n_rows\)\n")
 
     def test_comments_of_the_header(self):
-        self.plant(HEADER, "/* How the last marking went. */", "/* Planted for\n * the struct. */")
+        self.plant(HEADER, "/* Counts and times of the last marking. */", "/* Planted for\n * the struct. */")
         self.plant(HEADER, "} riis_mark_stats;",
                    "  double a, b; /* planted for\n         the fields */\n  double c;\n} riis_mark_stats;")
         self.plant(TABLE, "riis_csr\n", "riis_mark_stats\n  seconds  -  planted here\n\nriis_csr\n")
@@ -459,7 +459,8 @@ class Subroutines(Planted):
         self.assertIn("  targets%n_points = n\n  targets%x = location_of(x)\n", self.text(EXTERNAL))
         self.assertIn("  targets%real_bits = 64\n  status = riis_warp_set_targets(c_handle_of(warp), targets)\n",
                       self.text(EXTERNAL))
-        self.assertIn("\n!> Planted. Errors: RIIS_INVALID_ARGUMENT naming the point.", self.text(EXTERNAL))
+        self.assertIn("\n!> Planted. Errors: RIIS_INVALID_ARGUMENT for a bad point; the message names the point.",
+                      self.text(EXTERNAL))
 
     def test_a_text_of_the_header(self):
         self.plant(HEADER, "double depth;", "double depth; /* planted, default 3. NULL: none */ double other_depth;")

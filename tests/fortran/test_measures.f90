@@ -107,7 +107,7 @@ contains
     call riis_get_gap(surface, wall, gap, distance(:1, :), status)
     call check_refused(status, RIIS_INVALID_ARGUMENT, 'the first extent of distance is 1')
     call riis_get_gap(wall, wall, gap, status=status)
-    call check_refused(status, RIIS_INVALID_ARGUMENT, 'a gap needs a valve')
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'its attached edges are not known')
     call riis_get_orifice_in_wall(surface, wall, orifice, rim=RIIS_RIM_CUT)
     call check(orifice%outline == RIIS_OUTLINE_WALL .and. abs(orifice%outline_area - 18) < 1d-9 .and. &
       orifice%area > 11 .and. orifice%area < 14, 'an orifice in a wall')

@@ -192,7 +192,7 @@ TEST(contradictions_are_refused) {
   REFUSED("landmark 17 (posterior_horn) is |behind landmark 16 (anterior_horn)|must be on the posterior side",
           mark(&m, &s, RIIS_LANDMARK_POSTERIOR_HORN, 100, 0));
   /* The anterior horn is given at the posterior point, which is wrong. */
-  REFUSED("landmark 17 (trigone) is |must be on the anterior side|anterior horn is not at its place",
+  REFUSED("landmark 17 (trigone) is |must be on the anterior side|anterior horn is in the wrong place",
           (--m.n, mark(&m, &s, RIIS_LANDMARK_ANTERIOR_HORN, 270, 0), mark(&m, &s, RIIS_LANDMARK_TRIGONE, 50, 0)));
   REFUSED("AP_diameter of the fitted valve is |but the horns are |apart, seen along the annulus' normal|worst residual",
           (mark(&m, &s, RIIS_LANDMARK_POSTERIOR_HORN, 270, 0), m.xyz[17][1] += 9));

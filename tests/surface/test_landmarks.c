@@ -1190,7 +1190,8 @@ TEST(test_refused_sectors_and_saddles) {
   REFUSED("mitral_coapting", left, "landmarks.flow is 0 0 0|anterior horn and both commissures",
           (p.n = 15, p.flow[2] = 0));
   REFUSED("mitral_coapting", left,
-          "landmarks.flow contradicts the commissures, which show that it points to the atrium", p.flow[2] = 1);
+          "landmarks.flow contradicts the commissures, which show that this direction leads to the atrium",
+          p.flow[2] = 1);
   REFUSED("mitral_coapting", left, "landmark 0 (trigone) has a role", p.role[0] = RIIS_LANDMARK_TRIGONE);
 #undef REFUSED
   /* The commissures may leave less than 50 degrees to a cusp, which is refused. */

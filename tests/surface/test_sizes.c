@@ -460,7 +460,7 @@ TEST(absent_names_are_refused) {
       {"mitral", "stj", "'stj' is not a parameter of the mitral valve: it has no sinotubular junction"},
       {"mitral", "effective_height",
        "'effective_height' is not a parameter of the mitral valve: only cusps have an effective height"},
-      {"bileaflet", "stj", "'stj' is not a parameter of the bileaflet valve: its housing has one radius"},
+      {"bileaflet", "stj", "'stj' is not a parameter of the bileaflet valve: its housing has only one radius"},
       {"bileaflet", "effective_height",
        "'effective_height' is not a parameter of the bileaflet valve: only cusps have an effective height"},
       {"patches", "annulus",

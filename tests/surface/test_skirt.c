@@ -635,7 +635,7 @@ TEST(skirts_reach_walls_and_no_farther) {
     CHECK_OK(riis_surface_update((riis_surface *)(uintptr_t)reaching, copy, NULL));
     CHECK_OK(riis_valve_set_scalar(copy, "skirt_length", longest));
     if (options.triangulation == RIIS_TRIANGULATION_FIXED)
-      CHECK_REFUSED(RIIS_INVALID_PARAMETER, "the skirt's lengths to the wall differ",
+      CHECK_REFUSED(RIIS_INVALID_PARAMETER, "the lengths of the skirt to the wall have changed",
                     riis_surface_update((riis_surface *)(uintptr_t)reaching, copy, NULL));
     CHECK_OK(riis_valve_set_scalar(valve, "skirt_length", 0));
     assert_int_equal(triangles_of(new_surface(valve, &options)).n_triangles, triangles_of(bare).n_triangles);
@@ -756,7 +756,7 @@ TEST(wrong_skirts_are_refused) {
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "wall is NULL", riis_surface_get_gap(bare, NULL, NULL, &gap, sizeof gap));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "gap is NULL", riis_surface_get_gap(bare, wall, NULL, NULL, sizeof gap));
   CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "gap is 8", riis_surface_get_gap(bare, wall, NULL, &gap, 8));
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "surface was made from arrays|a gap needs a valve",
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "surface was made from arrays|its attached edges are not known",
                 riis_surface_get_gap(wall, wall, NULL, &gap, sizeof gap));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "surface has no attachment",
                 riis_surface_get_gap(surface_of_kind("bileaflet", NULL), wall, NULL, &gap, sizeof gap));

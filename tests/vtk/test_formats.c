@@ -566,7 +566,7 @@ static const broken faults[] = {
     {"a.msh", msh41, "3 1 4 1", "3 1 4 77", "a block has 77 elements; 1 are left"},
     {"a.msh", msh41, "0 0 0 1", "0 0 0 1000000000", "claims 1000000000 entities"},
     {"a.xdmf", xdmf, "</Xdmf>", "", "is truncated: its XML has no end"},
-    {"a.xdmf", xdmf, "</Domain>", "</Grid>", "</Grid> is in the place of </Domain>"},
+    {"a.xdmf", xdmf, "</Domain>", "</Grid>", "</Grid> stands where there must be </Domain>"},
     {"a.xdmf", xdmf, "Dimensions=\"4 3\"", "Dimensions=\"1000000000000 3\"", "claims 3000000000000 numbers"},
     {"a.xdmf", xdmf, "Dimensions=\"4 3\"", "Dimensions=\"99999999999 99999999999\"", "has a DataItem with"},
     {"a.xdmf", xdmf, "Dimensions=\"4 3\"", "Dimensions=\"-4 3\"", "has a DataItem with the dimensions \"-4 3\""},

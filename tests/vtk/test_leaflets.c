@@ -229,7 +229,7 @@ TEST(test_cells) {
   expect_fine(riis_vtk_mesh_use_centers(mesh));
   expect_fine(riis_vtk_mesh_get_nodes(mesh, NULL, &n_cells, NULL));
   expect_refused(riis_vtk_mesh_copy_cells(mesh, n_cells, NULL, NULL, 0, NULL), RIIS_INVALID_ARGUMENT,
-                 "the nodes of mesh are centres of cells, which have no cells themselves");
+                 "the nodes of mesh are centres of cells, and no cells join them");
   riis_vtk_mesh_destroy(&mesh);
 }
 

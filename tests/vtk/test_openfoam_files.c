@@ -57,8 +57,8 @@ static const broken faults[] = {
     {0, "}\n//", "\n//", "points: is truncated: it ends within its header"},
     {0, "\n4\n(", "\n1000000000000\n(", "claims 1000000000000 points, but only"},
     {0, "\n4\n(", "\n-4\n(", "claims -4 points"},
-    {0, "\n4\n(", "\n5\n(", "\")\" is in the place of a \"(\""},
-    {0, "\n4\n(", "\n3\n(", "\"(\" is in the place of a \")\""},
+    {0, "\n4\n(", "\n5\n(", "\")\" stands where there must be a \"(\""},
+    {0, "\n4\n(", "\n3\n(", "\"(\" stands where there must be a \")\""},
     {0, "(1 0 0)", "(1 0)", "\")\" is not a number"},
     {0, "(1 0 0)", "(1 nan 0)", "y of node 1 is nan"},
     {0, "(1 0 0)", "(1 0 x)", "\"x\" is not a number"},
@@ -137,7 +137,7 @@ TEST(test_broken) {
                  "none: is a directory, but not a case of OpenFOAM: it lacks constant/polyMesh");
   run("mkdir mesh.bp && touch mesh.bp/md.idx");
   expect_refused(riis_vtk_mesh_read(scratch_path("mesh.bp"), &mesh), RIIS_FILE_ERROR,
-                 "mesh.bp: is a folder of ADIOS2, which is not read");
+                 "mesh.bp: is a folder of ADIOS2, which riis cannot read");
   expect_refused(riis_vtk_mesh_read(scratch_path("par"), &mesh), RIIS_FILE_ERROR,
                  "has no file pointProcAddressing; reconstructParMesh -constant joins the parts");
   run("mkdir -p collated/processors4");
@@ -327,7 +327,7 @@ static void test_centers(const char *name) {
   for (int64_t i = 0; i < 3 * n; ++i) K[i] = sqrt((double)i) / 3;
   snprintf(path, sizeof path, "%s/1", name);
   expect_refused(riis_vtk_mesh_write(mesh, scratch_path("tet/1")), RIIS_FILE_ERROR,
-                 "tet/1: is a time of a case, but the mesh");
+                 "tet/1: is a time folder of a case, but the mesh");
   expect_fine(riis_vtk_mesh_set_point_array(mesh, "riis_K", n, 1, K));
   expect_fine(riis_vtk_mesh_set_point_array(mesh, "riis_K_u_surface", n, 3, K));
   expect_fine(riis_vtk_mesh_write(mesh, scratch_path(path)));
@@ -352,7 +352,7 @@ static void test_centers(const char *name) {
   expect_fine(riis_vtk_mesh_read(scratch_path(name), &mesh));
   snprintf(path, sizeof path, "%s/1", name);
   expect_refused(riis_vtk_mesh_write(mesh, scratch_path(path)), RIIS_FILE_ERROR,
-                 "takes fields of cells, but the nodes of the mesh are its points");
+                 "holds only fields of cells, but the nodes of the mesh are its points");
   riis_vtk_mesh_destroy(&mesh);
 }
 

@@ -828,7 +828,7 @@ TEST(test_flow) {
   expect_picture("three.png", 640, 400);
   options.velocity = "calm";
   expect_refused(riis_vtk_draw(surface, box, &options, scratch_path("no.png")), RIIS_INVALID_ARGUMENT,
-                 "options->velocity is \"calm\", which is no array of the mesh");
+                 "options->velocity is \"calm\", which is not an array of the mesh");
   options.velocity = "flat";
   expect_refused(riis_vtk_draw(surface, box, &options, scratch_path("no.png")), RIIS_INVALID_ARGUMENT,
                  "options->velocity is \"flat\", whose number of components is 1, not 3");

@@ -57,7 +57,7 @@ void check_motion(const Command &command, const MarkOptions &options) {
   if (!moves && options.time)
     refuse_usage("--time has no effect with --surface " + options.surface + ": a motion is a .pvd or .dat file");
   if (command.has("--period") && !moves && options.series.cycle.empty())
-    refuse_usage("--period needs something that repeats: --surface FILE.pvd or --cycle");
+    refuse_usage("--period needs a motion that repeats: --surface FILE.pvd or --cycle");
 }
 
 void check_open_state(const ValveOptions &options) {
@@ -116,7 +116,7 @@ void finish_surface_in_place(const Command &command, MarkOptions &options, bool 
 
 void check_distance(const Command &command, const MarkOptions &options) {
   if (command.has("--distance-tolerance") && options.surface_options.measure == RIIS_MEASURE_TRIANGLES)
-    refuse_usage("--distance-tolerance has no effect with --distance triangles: see --tolerance");
+    refuse_usage("--distance-tolerance has no effect with --distance triangles, whose error --tolerance sets");
 }
 
 // Refuses options for the looks of pictures if there is neither a picture nor a movie. Also refuses options for looks that a
@@ -138,7 +138,7 @@ void check_style(const Command &command, const MarkOptions &options) {
   if (style.velocity.empty()) return;
   if (!movie.empty()) refuse_usage("--picture-velocity: " + style.velocity + " has one time, and a movie has many");
   if (style.panels == RIIS_VTK_PANELS_VALVE)
-    refuse_usage("--picture-velocity has no effect with --picture-panels valve, which leaves out the flow");
+    refuse_usage("--picture-velocity has no effect with --picture-panels valve, because this panel shows no flow");
 }
 
 bool has_output(const MarkOptions &options) {
@@ -150,7 +150,7 @@ bool has_output(const MarkOptions &options) {
 void check_folder_name(const std::string &folder) {
   const auto is_blank = [](unsigned char c) { return c <= ' ' || c == 127; };
   if (std::any_of(folder.begin(), folder.end(), is_blank))
-    refuse_usage("FOLDER: '" + folder + "' has a blank, and svMultiPhysics cannot read such a path");
+    refuse_usage("FOLDER: '" + folder + "' has a blank, but svMultiPhysics cannot read a path with blanks");
 }
 
 // The sizes of a kind of valve are in centimetres, so a valve's scale determines the unit of the mesh.
@@ -214,7 +214,7 @@ MarkOptions finish_mark(const Command &command, MarkOptions options) {
     options.series.all_cells = true;  // files of centres always have the whole mesh
   }
   if (options.n_steps > 0 && (has_case || !options.series.times.empty()))
-    refuse_usage("--steps has no effect with --times and --case, which move the valves themselves");
+    refuse_usage("--steps has no effect with --times or --case, because these options already move the valves");
   if (has_case) return options;
   apply_amounts(options);
   if (options.mesh.empty()) refuse_usage("nothing to do: a MESH is needed");
@@ -264,7 +264,9 @@ AreaOptions finish_from_area(const Command &command, AreaOptions options) {
   if (!options.areas.empty() && options.output.empty())
     refuse_usage("--areas needs --output, the file to which the cycle is written");
   if (options.solve == "opening" && sets_opening(options))
-    refuse_usage("an opening has no effect, because the command finds the opening; --solve scale or NAME finds a size");
+    refuse_usage(
+        "an opening has no effect, because the command finds the opening; with --solve scale or --solve NAME it finds "
+        "a size");
   finish_valve(command, options);
   finish_areas(options);
   return options;
@@ -297,7 +299,7 @@ PlaceOptions finish_place(const Command &command, PlaceOptions options) {
   use_named_valve(options);
   if (options.output != "-" && !options.output.empty() && !is_valve_file(options.output))
     refuse_usage("--output: " + options.output + " must end in .json, so that other commands accept the file");
-  check_set_opening(options, "has no effect, because landmarks belong to the closed valve");
+  check_set_opening(options, "has no effect, because landmarks are points of the closed valve");
   return options;
 }
 
@@ -309,8 +311,8 @@ PatientOptions finish_patient(const Command &command, PatientOptions options) {
   check_set_opening(options, "has no effect, because the command uses all openings of the valve");
   if (options.noise && options.noise->number < 0) refuse_usage("--noise: " + options.noise->text + " is below 0");
   if (options.hold && options.solver != "openfoam")
-    refuse_usage("--hold needs --solver openfoam: only its case holds a valve at an opening");
-  if (options.hold && *options.hold >= 1) refuse_usage("--hold: 1 is not below 1: write --hold 0.999");
+    refuse_usage("--hold needs --solver openfoam: only the case for OpenFOAM can hold a valve at an opening");
+  if (options.hold && *options.hold >= 1) refuse_usage("--hold: the opening 1 is not below 1: write --hold 0.999");
   if (options.heart_rate && options.solver == "none")
     refuse_usage("--heart-rate needs --solver: only the case of a solver has a heart rate");
   if (options.heart_rate && (*options.heart_rate < 40 || *options.heart_rate > 180))
@@ -340,7 +342,7 @@ void apply_units(ValveOptions &options) {
 void apply_amounts(MarkOptions &options) {
   const bool has_fields = is_foam_case(options.output) || is_foam_time(options.output);
   if (options.density && !has_fields)
-    refuse_usage("--density has no effect: only the fields of an OpenFOAM case have K divided by the density");
+    refuse_usage("--density has no effect: K is divided by the density only in the fields of an OpenFOAM case");
   if (!options.given_resistance) return;
   const Amount &given = *options.given_resistance;
   if (given.number < 0) throw Refusal{given.exit_code, given.subject + " is " + given.text + "; it must be at least 0"};
@@ -356,7 +358,7 @@ void apply_amounts(MarkOptions &options) {
                    ": OpenFOAM's K is divided by the density: write --density RHO, and R in " + a_resistance.si +
                    " as --resistance");
     if (options.chosen_K_unit)
-      refuse_usage("--k-unit has no effect on the fields of OpenFOAM, whose K has the unit 1/s");
+      refuse_usage("--k-unit has no effect on the fields of OpenFOAM, because their K has the unit 1/s");
     options.K_factor = 1 / in_mesh_units(*options.density, a_density, options.unit);
     options.K_unit = "1/s";
     options.K_u_surface_unit = options.unit ? std::string(name_of(*options.unit)) + "/s2" : "";

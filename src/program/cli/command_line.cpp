@@ -173,14 +173,14 @@ std::optional<Request> parse_command_line(int argc, char **argv) {
       MarkOptions());
   add(app, "size-field", "Write the edge lengths that a mesh needs near a valve, for gmsh", declare_size_field,
       finish_size_field, SizeFieldOptions());
-  add(app, "export", "Write the motion of leaflets as svMultiPhysics reads it", declare_export, finish_export,
+  add(app, "export", "Write the motion of leaflets in the format of svMultiPhysics", declare_export, finish_export,
       ExportOptions());
   add(app, "params", "Print the parameters of a valve", declare_params, finish_params, ParamsOptions());
   add(app, "place", "Find a valve's sizes and placement from a patient's landmarks", declare_place, finish_place,
       PlaceOptions());
   add(app, "patient", "Make a mesh with a valve from a patient's wall and landmarks, and a case that a solver runs",
       declare_patient, finish_patient, PatientOptions());
-  named(app, "view", "Show a valve in a mesh, in a browser (by the Python package riis)");
+  named(app, "view", "Show a valve in a mesh in a browser, with the Python package riis");
   CLI::App *help = named(app, "help", "Explain a topic, or list the topics");
   std::string topic;
   help->add_option("TOPIC", topic, "A topic from the list of riis help");

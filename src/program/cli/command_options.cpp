@@ -91,8 +91,8 @@ CLI::Option *declare_unit_of(Command &command, const char *name, const char *hel
 void declare_valve(Command &command, ValveOptions &options) {
   command.group("Valve");
   command.text("--valve", "KIND|DISEASE|FILE.json",
-               "Kind of valve, such as aortic (default) or mitral, a disease, or a file of patches; see riis help "
-               "valves and diseases",
+               "A kind of valve, such as aortic (default) or mitral; or a disease; or a file of patches (see riis help "
+               "valves and riis help diseases)",
                options.valve);
   command.text("--params,--params-closed", "FILE.json", "Parameters of the valve, or of its closed state",
                options.params);
@@ -161,7 +161,7 @@ void declare_file(Command &command, ValveOptions &options) {
                 [&how](const std::string &) { how.flip_normals = 1; });
   declare_tolerance(command, options);
   command.choice("--triangulation",
-                 "Make triangles that are adapted to each opening (default), or fixed, the same for all openings",
+                 "Choose the triangles: adapted to each opening (default), or fixed for all openings",
                  triangulation_names(), how.triangulation);
   for (const char *name : {"--tolerance", "--triangulation"}) surface->excludes(command.option(name));
   command.parsed("--time", "T", "Time to which the motion of --surface is interpolated", options.time, parse_number)
@@ -240,8 +240,7 @@ void declare_marking(Command &command, MarkOptions &options) {
       "--resistance", "R", "Write riis_K at each node: R/eps times the delta function, with R in kg/(m s)",
       options.given_resistance, amount_of(a_resistance));
   command
-      .parsed("--k-unit", "UNIT",
-              "Unit of riis_K (default in kg, m, s; in g, cm, s; or in g, mm, s, depending on the mesh's unit)",
+      .parsed("--k-unit", "UNIT", "Unit of riis_K (default kg/(m3 s), g/(cm3 s) or g/(mm3 s), by the mesh's unit)",
               options.chosen_K_unit, [](const std::string &text, const std::string &) { return text; })
       ->needs(resistance);
   command
@@ -417,10 +416,10 @@ void declare_mark(Command command, MarkOptions &options) {
   declare_surface_in_place(command, options);
   declare_marking(command, options);
   command.group("Output");
-  CLI::Option *const output = command.text("--output", "OUT",
-                                           "Write the marked mesh: .vtu or .xdmf, or .pvtu, .vti or .vtr like MESH; "
-                                           "with --cells also CASE/TIME",
-                                           options.output);
+  CLI::Option *const output = command.text(
+      "--output", "OUT",
+      "Write the marked mesh: .vtu or .xdmf; .pvtu, .vti or .vtr if MESH has this format; with --cells also CASE/TIME",
+      options.output);
   command
       .text("--prefix", "NAME", "Begin the names of the arrays with NAME, as in NAME_marked (default riis)",
             options.prefix)
@@ -574,7 +573,7 @@ void declare_from_area(Command command, AreaOptions &options) {
   declare_shape(command, options);
   declare_tolerance(command, options);
   command.choice("--triangulation",
-                 "Make triangles that are adapted to each opening (default), or fixed, the same for all openings",
+                 "Choose the triangles: adapted to each opening (default), or fixed for all openings",
                  triangulation_names(), options.surface_options.triangulation);
   declare_unit(command, options);
   declare_half_thickness(command, options);
@@ -582,7 +581,7 @@ void declare_from_area(Command command, AreaOptions &options) {
 
 void declare_export(Command command, ExportOptions &options) {
   command.text("FOLDER", "FOLDER", "A new or empty folder for the files of svMultiPhysics", options.folder)->required();
-  command.text("MESH", "FILE", "The mesh of the solver's run; the command then predicts what the solver will do in it",
+  command.text("MESH", "FILE", "The mesh of the solver's run; with it, the command predicts what the solver will do",
                options.mesh);
   declare_cells_where(command, options);
   command.option("--cells-where")->needs(command.option("MESH"));
@@ -608,16 +607,17 @@ void declare_export(Command command, ExportOptions &options) {
     command.option(name)->needs(command.option("--cycle"));
   for (const char *name : {"--opening-seconds", "--closing-seconds"})
     command.option(name)->excludes(command.option("--cycle"));
-  command.parsed("--largest-edge", "L", "Cut triangles until no edge is longer in any frame", options.largest_edge,
-                 parse_positive_finite);
-  command.text("--name", "NAME", "Name of the valve in the solver and in its files (default from FOLDER)",
+  command.parsed("--largest-edge", "L", "Cut triangles until no edge is longer than this in any frame",
+                 options.largest_edge, parse_positive_finite);
+  command.text("--name", "NAME", "Name of the valve in the solver and in its files (default the name of FOLDER)",
                options.name);
   command
       .text("--starts", "closed|open",
-            "State of the valve at the solver's first step (default closed, or as --cycle at time 0)", options.starts)
+            "State of the valve at the solver's first step (default closed, or with --cycle the state at time 0)",
+            options.starts)
       ->check(CLI::IsMember(std::vector<std::string>{"closed", "open"}));
   command.choice("--ring",
-                 "Export the ring of a bileaflet valve as a face beside the leaflets (default), or export none",
+                 "Export the ring of a bileaflet valve as a face beside the leaflets (default), or leave it out",
                  ring_names, options.ring);
   command.parsed("--density", "RHO", "Density of the fluid in kg/m3, used with MESH (default 1060, as blood)",
                  options.given_density, positive_amount_of(a_density));
@@ -639,7 +639,7 @@ void declare_place(Command command, PlaceOptions &options) {
       ->required();
   command.text("--output", "OUT.json", "Write the placed valve, a file for --valve of the other commands; - is stdout",
                options.output);
-  command.text("--foam", "OUT", "Write the placed valve as OpenFOAM reads it, in metres", options.foam_output);
+  command.text("--foam", "OUT", "Write the placed valve for OpenFOAM, in metres", options.foam_output);
   command
       .parsed("--skirt", "L", "The longest skirt that OpenFOAM accepts, in the mesh's unit (default 6 mm)",
               options.skirt, parse_positive_finite)
@@ -651,12 +651,12 @@ void declare_place(Command command, PlaceOptions &options) {
   command.text("--mesh", "MESH", "Refuse landmarks that are far from this mesh", options.mesh);
   declare_cells_where(command, options);
   command.option("--cells-where")->needs(command.option("--mesh"));
-  declare_unit_of(command, "--unit", "Unit of the mesh (default that of the landmarks)", options.unit);
-  command.text("--axes", "LPS|RAS", "Axes of the mesh (default those of the landmarks)", options.axes)
+  declare_unit_of(command, "--unit", "Unit of the mesh (default the unit of the landmarks)", options.unit);
+  command.text("--axes", "LPS|RAS", "Axes of the mesh (default the axes of the landmarks)", options.axes)
       ->check(CLI::IsMember(std::vector<std::string>{"LPS", "RAS"}));
   command.choice("--warp", "Warp the valve to the landmarks: none (default), exact, or smoothed by their noise",
                  warp_names, options.warp_choice);
-  command.value("--noise", "L", "Standard deviation of each coordinate (default 0.3 mm)",
+  command.value("--noise", "L", "Standard deviation of each coordinate of the landmarks (default 0.3 mm)",
                 [&options](const std::string &text) {
                   options.noise = parse_number(text, "--noise");
                   if (!(*options.noise >= 0)) refuse_usage("--noise: " + text + " is below 0");
@@ -664,10 +664,10 @@ void declare_place(Command command, PlaceOptions &options) {
   command.value("--flow", "X,Y,Z", "Direction of flow through the valve, in the mesh's axes",
                 [&options](const std::string &text) { options.flow = parse_list(text, "--flow", 3, "X,Y,Z"); });
   command.group("Valve");
-  command.text("--valve", "KIND", "aortic, coapting, mitral, trileaflet or bileaflet (default that of the file)",
+  command.text("--valve", "KIND", "Kind of valve, such as aortic or mitral (default the kind in the file)",
                options.valve);
   command.text("--params", "FILE.json", "Parameters of the valve before it is fitted to the landmarks", options.params);
-  declare_settings(command, "Set one parameter, in cm, which then does not change; may be repeated", options);
+  declare_settings(command, "Set one parameter, in cm, and keep it during the fit; may be repeated", options);
 }
 
 void declare_patient(Command command, PatientOptions &options) {
@@ -686,13 +686,15 @@ void declare_patient(Command command, PatientOptions &options) {
       .text("--solver", "NAME", "Also write a case: openfoam, svmultiphysics, fenicsx or none (default)",
             options.solver)
       ->check(CLI::IsMember(solver_names));
-  command.flag("--replace", "Replace the files that an earlier riis patient wrote to FOLDER, and computed results",
+  command.flag("--replace",
+               "Replace the files that an earlier riis patient wrote to FOLDER, and remove computed results",
                options.replace);
   declare_loudness(command, options);
   command.group("Landmarks and wall (points, and lengths without a unit, are in the unit of WALL)");
-  declare_unit_of(command, "--wall-unit", "Unit of WALL (default the unit that puts the landmarks at the wall)",
+  declare_unit_of(command, "--wall-unit", "Unit of WALL (default the unit in which the landmarks lie at the wall)",
                   options.wall_unit);
-  command.text("--axes", "LPS|RAS", "Axes of WALL (default the axes that put the landmarks at the wall)", options.axes)
+  command
+      .text("--axes", "LPS|RAS", "Axes of WALL (default the axes in which the landmarks lie at the wall)", options.axes)
       ->check(CLI::IsMember(std::vector<std::string>{"LPS", "RAS"}));
   declare_unit_of(command, "--unit",
                   "Unit of the files in FOLDER (default the solver's unit, or WALL's unit without a solver)",
@@ -716,9 +718,10 @@ void declare_patient(Command command, PatientOptions &options) {
       ->allow_extra_args(false);
   command.group("Valve");
   command.text("--valve", "KIND|DISEASE",
-               "Kind of valve, such as coapting or mitral, or a disease (default from the landmarks)", options.valve);
+               "Kind of valve, such as coapting or mitral, or a disease (default the kind in the file of landmarks)",
+               options.valve);
   command.text("--params", "FILE.json", "Parameters of the valve before it is fitted to the landmarks", options.params);
-  declare_settings(command, "Set one parameter, in cm, which then does not change; may be repeated", options);
+  declare_settings(command, "Set one parameter, in cm, and keep it during the fit; may be repeated", options);
   command.parsed("--skirt", "L", "The longest acceptable skirt from the valve to the wall (default 6 mm)",
                  options.given_skirt, positive_amount_of(a_length));
   command.group("Mesh and flow");

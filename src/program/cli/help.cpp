@@ -101,11 +101,12 @@ The marked mesh is a copy of the input. Its nodes keep the input's order. It has
 1), riis_distance (Float64) and riis_leaflet (Int32: -1 for none). --prefix NAME names them NAME_marked and so on, so a mesh
 can have the marks of several valves. An array that the mesh already has is replaced only with --replace.
 A .vti or .vtr is read as three axes, and --output may have the same ending. The nodes of such a grid are its points, and inside
-the grid each node has six neighbours. Other structured grids, such as .vts or a turned image, become hexahedra with points.
+the grid each node has six neighbours. Other structured grids, such as .vts files or turned images, become points and hexahedra.
 --cells-where NAME=VALUES takes only the cells with these values of a cell array. For example, --cells-where region=1,2 may take
 the fluid of a mesh that also has the wall. All other cells of the file are ignored, and are not written. The arrays
 riis_node_id and riis_cell_id then have the ids in the whole mesh, counted from 0. The physical groups of gmsh are in the array
-gmsh:physical, and VALUES may be names of groups. If domains touch and you choose none, a line on stderr says so.
+gmsh:physical, and VALUES may be names of groups. If the mesh has several domains that touch, and --cells-where chooses none, a
+line on stderr says so.
 )"},
     {"pieces", "meshes larger than memory, and MPI",
      R"(
@@ -133,7 +134,7 @@ not known, plain numbers and K are in the units of the mesh. OpenFOAM's fields o
 aortic           the paper's three cusps, which do not close
 trileaflet       three equal cusps that close in straight lines
 coapting         three cusps with a zone of coaptation
-bicuspid         two such cusps, and quadricuspid four
+bicuspid         two such cusps; quadricuspid has four
 mitral           the paper's two leaflets
 mitral_coapting  two leaflets with a zone of coaptation
 tricuspid        three leaflets with a zone of coaptation: anterior, septal, posterior
@@ -151,7 +152,7 @@ riis from-area --solve bump_0.closed finds the bump that makes a gap of a given 
 that are narrower than two half thicknesses. With --offset O, it closes gaps narrower than 2 (1 - O) half thicknesses. A line on
 stderr warns of such a gap.
 )"},
-    {"diseases", "sick valves by the names of diagnoses",
+    {"diseases", "diseased valves by the names of diagnoses",
      R"(
 --valve takes these names in all commands, and in a case. Each name is a kind of valve with parameters, and riis params --valve
 NAME prints them. --params and --set change these parameters, and riis place takes the sizes from landmarks.
@@ -173,7 +174,7 @@ valves with cusps. annulus also sets the size of a bileaflet valve. riis params 
 
 Some parameters follow from others unless they are set. riis params --describe prints these rules after "unless set", and one
 line for parts that are alike. riis params prints the present values of all parameters. Bumps without a place do nothing, and
-only bump_0 of them is printed.
+riis params prints only bump_0 of them.
 A file with the output of riis params sets all parameters, so that none of them follows from others.
 )"},
     {"opening", "closed and open states",
@@ -241,8 +242,8 @@ LPS and RAS differ by half a turn about z, which landmarks cannot show; "mesh" s
 landmarks that are far from the mesh are refused. The message says whether other axes or another unit would bring them to the
 mesh.
 Sizes from "proportion" have no landmark: they keep the proportions of --params or of the defaults. A size is NOT DETERMINED if
-its standard error at the noise moves the valve by more than a fifteenth of its radius. The proportion then largely determines
-the size.
+a change by its standard error moves the valve by more than a fifteenth of the valve's radius. The proportion then largely
+determines the size.
 Landmarks are those of the closed valve. The report's residuals are distances from landmarks to the valve.
 )"},
     {"patient", "from a wall and landmarks to a mesh with a valve",
@@ -250,13 +251,13 @@ Landmarks are those of the closed valve. The report's residuals are distances fr
 riis patient WALL LANDMARKS --output FOLDER makes all files for a patient's valve: an aortic valve in its root, or a mitral
 valve in a ventricle with the ends of the atrium and of the aorta. The command finds the sizes and the place of the valve, warps
 it to the landmarks, adds a skirt to the wall, makes a mesh by gmsh, and marks the mesh. Each of these steps is a command. The
-file commands.sh in FOLDER has them, and you can also run them one by one in FOLDER. The unit and the axes of WALL are those with
-which the landmarks lie at the wall. If two possibilities fit, riis patient stops, and an option must choose. The flat ends of
-the wall become the boundaries inlet, outlet, outlet_2 and so on, and the rest becomes wall. --inlet and --outlet name ends by
-points near them.
+file commands.sh in FOLDER has them, and you can also run them one by one in FOLDER. The unit and the axes of WALL are those
+with which the landmarks lie at the wall. If several units or axes fit, riis patient stops, and you must choose them by options.
+The flat ends of the wall become the boundaries inlet, outlet, outlet_2 and so on, and the rest becomes wall. --inlet and
+--outlet name ends by points near them.
 The command stops, and says what to do, if WALL has a fault or is not within --skirt of the valve, if leaflets go through each
 other, if an edge leaks at one of 11 openings, or if the closed valve does not seal. If an edge leaks, riis patient first makes
-another mesh with shorter edges. FOLDER has the file UNFINISHED.txt until all steps are done. A sick valve that never closes
+another mesh with shorter edges. FOLDER has the file UNFINISHED.txt until all steps are done. A diseased valve that never closes
 need not seal.
 --replace removes what riis patient wrote to FOLDER before, and also what a solver computed in the case there. A line on stdout
 says so. While a solver runs there, nothing is removed.
@@ -287,18 +288,18 @@ an opening from 0 to 1. Times ascend. The first line may name the columns. --out
 on, and beat.pvd, which ParaView plays. --surface-output writes the triangles in the same way. With --triangulation fixed all
 times have the same triangles, so changes of the triangles cause no jumps of K.
 Each mesh has the point arrays of a marked mesh, and riis_normal, riis_side and riis_velocity of the closest point. With
---resistance, each mesh also has riis_K, and riis_K_u_surface, which is K times riis_velocity. Velocities are means since the
-previous time. At the first time, velocities are means over a step that is as long as the first step. A series of one time has
-no velocities. Without --all-cells the meshes have only the cells near the valve's whole motion. The arrays riis_node_id and
-riis_cell_id of these meshes have the ids of the input, counted from 0. All times have the same cells.
+--resistance, each mesh also has riis_K, and riis_K_u_surface, which is K times riis_velocity. Velocities are means over the
+step from the previous time. At the first time, they are means over an earlier step of the length of the first step. A series of
+one time has no velocities. Without --all-cells the meshes have only the cells near the valve's whole motion. The arrays
+riis_node_id and riis_cell_id of these meshes have the ids of the input, counted from 0. All times have the same cells.
 A line on stderr gives the size of all files before they are written. Ctrl-C ends a series after the present step. A line then
 gives the number of steps written, and the .pvd lists these steps. If the process is killed, the list lacks at most one file. If
-an earlier run of riis wrote further steps under the same name, the files of these steps are removed. The run is refused if such a
-file is named by no list, or by a list that riis did not write. --series-table has a line for each time: opening, marked nodes,
-the largest speed of the surface, and the seconds for surface and marks. --picture draws the first time. --movie draws all times
-with one camera, and needs the program ffmpeg. The check for leaks runs at the time when the valve is least open. With --surface
-the check runs at the first time. The numbers of --stats belong to the time of this check, and "times" has the openings, marks and
-speeds of all times. Orifices are measured at the largest opening.
+an earlier run of riis wrote further steps under the same name, the files of these steps are removed. If no list names such a
+file, or only a list that riis did not write, the run is refused. --series-table has a line for each time: opening, marked
+nodes, the largest speed of the surface, and the seconds for surface and marks. --picture draws the first time. --movie draws
+all times with one camera, and needs the program ffmpeg. The check for leaks runs at the time when the valve is least open. With
+--surface the check runs at the first time. The numbers of --stats belong to the time of this check, and "times" has the
+openings, marks and speeds of all times. Orifices are measured at the largest opening.
 )"},
     {"cases", "several valves in one mesh, from a file",
      R"(
@@ -349,11 +350,11 @@ the valve does not fit its vessel. --quiet does not silence warnings, because wr
 for valves that are sometimes near no node.
 A warning is also printed if more than 2 % of the leaflets' area is farther than the half thickness outside the mesh. Skirts and
 the housing of a bileaflet valve do not count. A series is judged where each valve is least and most open.
-One fault may cause other faults. Their order is units, half thickness, places, leaks. Only the first warning in this order has
-advice. Correct this fault and run the program again. A unit that you name by --unit or --scale counts as known, if the sizes
-allow it. If the sizes allow two units, the advice names both. The next run says how many nodes each unit marks. With --strict
-the status is 4 after a warning of any kind. Coordinates in warnings are in the unit of --unit. They have enough digits to find
-an edge of the mesh.
+One fault may cause other faults, so the warnings have an order: units, half thickness, places, leaks. Only the first warning in
+this order has advice. Correct this fault and run the program again. A unit that you name by --unit or --scale counts as known,
+if the sizes allow it. If the sizes allow two units, the advice names both. The next run says how many nodes each unit marks.
+With --strict the status is 4 after a warning of any kind. Coordinates in warnings are in the unit of --unit. They have enough
+digits to find an edge of the mesh.
 )"},
     {"leaks", "edges and passages through the band",
      R"(
@@ -378,10 +379,10 @@ leaks, or if leaks are unknown.
 riis check crossings checks a valve's triangles at 101 openings from 0 to 1. The check ends with status 4 at the first opening
 at which two triangles go through each other. A line on stderr gives this opening, the number of pairs, the length of their
 intersections, and the depth and place of the deepest pair. The depth is the distance by which one triangle must move so that
-the two triangles only touch. A depth up to 1e-6 half thicknesses counts as touching. A valve that does not open, a surface from
-a file and a valve with --opening are checked as they are. With --case each valve of a case is checked. The command needs no
-MESH. riis mark checks only openings 0, 0.5 and 1, and only a valve whose shape is set by --set, --params, --params-open or a
-file. This check ignores contacts between leaflets, and contacts between a housing and its hinges.
+the two triangles only touch. Pairs with a depth up to 1e-6 half thicknesses count as touching. A valve that does not open, a
+surface from a file and a valve with --opening are checked in one state only. With --case each valve of a case is checked. The
+command needs no MESH. riis mark checks only openings 0, 0.5 and 1, and only a valve whose shape is set by --set, --params,
+--params-open or a file. This check ignores contacts between leaflets, and contacts between a housing and its hinges.
 )"},
     {"states", "what the table of riis states has",
      R"(
@@ -402,12 +403,12 @@ riis from-area finds the opening at which the orifice has an area, such as an ar
 in riis states. With --effective they are effective areas, as in the column effective_area of riis states. A plain number is in
 the mesh's unit squared; '2.5 cm2' has a unit. --solve scale finds the factor for --scale, and --solve NAME finds a parameter
 that is one number, such as cusp_0.open_radius_ratio, commissure_0.fusion or bump_0.open. If a size is searched, the valve is
-open, or it has the opening of --opening. With --opening 0 the area is the gap of the closed valve, which bump_0.closed changes.
-The area is first measured at 33 openings or sizes, from --from to --to: by default from 0 to 1 for the opening, a tenth to ten
-times the present scale, and half to twice a parameter. A parameter that is a share is searched over its whole range if it is 0
-now. An area out of reach is refused, and the message has the range. If the area grows in one part of the range and falls in
-another, a line on stderr says where it turns. Of several solutions, the least opening is taken, or the size nearest to the
-present size.
+open, unless --opening gives another opening. With --opening 0 the area is the gap of the closed valve, which bump_0.closed
+changes. The area is first measured at 33 openings or sizes, from --from to --to: by default from 0 to 1 for the opening, a
+tenth to ten times the present scale, and half to twice a parameter. If a parameter that is a share is 0 at present, its whole
+range is searched. If no value gives the area, the area is refused, and the message has the range of areas. If the area grows in
+one part of the range and falls in another, a line on stderr says where it turns. Of several solutions, the least opening is
+taken, or the size nearest to the present size.
 --areas FILE has the columns time and area. --output writes a file of openings for --cycle, with the columns time and opening.
 The area 0 stands for the closed valve. With --period the first and the last area must be equal if they are a period apart.
 Adapted triangles are the default, and with them the area jumps by up to 1e-4 of the largest area. --triangulation fixed has no
@@ -424,10 +425,9 @@ its least opening to the next key of its largest opening. It closes from the las
 its least opening. --opening-span and --closing-span set other times. The solver measures distances to the middles of triangles.
 With a --largest-edge of 0.15 half thicknesses its sum of K is within 1 % of the exact sum. Triangles without area in some frame
 are left out, and a line on stderr says so. The files are in cm and R is in g/(cm s): lengths of --unit m or mm are converted.
-Without --unit, lengths and R are taken as they are. The valve's name in the solver is the name of the folder, or --name. The
-solver starts with the closed valve, or with the state of --cycle at time 0. --starts chooses another state. The ring of a
-bileaflet valve is a face beside the leaflets, so that no point has the K of both the ring and a leaflet. --ring none leaves the
-ring out.
+Without --unit, lengths and R are not converted. The valve's name in the solver is the name of the folder, or --name. The solver
+starts with the closed valve, or with the state of --cycle at time 0. --starts chooses another state. The ring of a bileaflet
+valve is a face beside the leaflets, so that no point has the K of both the ring and a leaflet. --ring none leaves the ring out.
 
 riis export FOLDER MESH also computes what the solver will do in MESH, by the solver's own rules: its box, its distances, their
 interpolation to Gauss points, and the bands in which it takes pressures. The comment in the block has the expected drop of the
@@ -444,14 +444,15 @@ at most 2 sqrt(1 - O^2) half thicknesses long (riis help leaks). riis size-field
 valve only: --band-edge half thicknesses in the band of every state of the valve, and larger outside it. With --offset O the
 lengths beside rims are shorter by the factor sqrt(1 - O^2). The states are openings from 0 to 1, whose number is --count, or
 the times of --times or of a case. The file is a grid, which gmsh's field "Structured" reads with TextFormat = 1. The lines for
-the .geo file go to stdout. gmsh makes some edges longer than the field says, so --band-edge should stay below 1. The default
-algorithm of gmsh in space, Delaunay, keeps closer to the field than HXT does. The number of nodes grows with the cube of 1 /
---band-edge. For riis size-field, a case needs no mesh. Check the mesh by riis check leaks, or by riis mark at several openings.
+the .geo file go to stdout. gmsh makes some edges longer than the grid requires, so --band-edge should stay below 1. The lengths
+of gmsh's default algorithm in space, Delaunay, are closer to the grid than those of HXT. The number of nodes grows with the
+cube of 1 / --band-edge. For riis size-field, a case needs no mesh. Check the mesh by riis check leaks, or by riis mark at
+several openings.
 )"},
     {"searches", "how nodes are found",
      R"(
 exhaustive  queries the distance of every node near the valve
-neighbor    walks from marked nodes to their neighbours and then proves that the rest is far
+neighbor    walks from marked nodes to their neighbours and then queries all other nodes that may be near
 clusters    handles nearby nodes together
 paper       the published search, for comparison: from one start, through marked nodes only
 exhaustive, neighbor and clusters give the same marks. neighbor needs the mesh's adjacency, which lists the neighbours; clusters
@@ -468,7 +469,8 @@ from the paper. They are slow, and serve only for comparison.
     {"running", "progress, Ctrl-C, locks",
      R"(
 On a terminal, a line on stderr announces a stage that takes longer than a second, and counts the steps of a series. If stderr
-is a file or a pipe, such a line comes after half a minute, and steps are counted each half minute. --quiet silences both.
+is a file or a pipe, such a line comes after half a minute, and steps are counted each half minute. --quiet silences both kinds
+of lines.
 While a file is written, the first Ctrl-C waits until the file is complete; the second does not wait.
 During a run, an empty file .riis-NAME.lock beside each output NAME keeps other runs from writing that output. A run that is
 killed leaves the lock behind, and the next run takes it over.

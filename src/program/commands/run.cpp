@@ -18,13 +18,13 @@ namespace {
 std::string advice_on_band(const std::string &kind) {
   if (kind == "bileaflet") return "band: leave --offset at 0, because the flow passes on both sides of the leaflets\n";
   std::string advice =
-      "band: with a cut rim and a skirt, --offset 0.75 gives the flow the full width of an open valve. The half\n"
-      "thickness must be at least twice the gap of the closed valve. Take 0.5 for a half thickness between the gap\n"
-      "and twice the gap, and 0 for a smaller half thickness (docs/choosing.md)\n";
+      "band: with a cut rim and a skirt, --offset 0.75 gives the flow the full width of an open valve. It\n"
+      "needs a half thickness of at least twice the gap of the closed valve. If the half thickness is between the gap\n"
+      "and twice the gap, take --offset 0.5. If it is smaller than the gap, leave --offset at 0 (docs/choosing.md)\n";
   if (kind == "coapting")
     advice +=
-        "A half-open coapting valve still has 5 % less area than walls at a half thickness of 1 mm "
-        "(docs/validation.md)\n";
+        "With a half thickness of 1 mm, a half-open coapting valve still leaves 5 % less area than its leaflets would\n"
+        "leave as thin walls (docs/validation.md)\n";
   return advice;
 }
 

@@ -129,7 +129,7 @@ States frame_of(const StatesOptions &options, const Measured &valve) {
     states.names.push_back(name_of_leaflet(options, info, leaflet.leaflet_id));
     if (leaflet.free_edge == 0 && leaflet.leaflet_id != info.skirt_leaflet_id)
       states.why_no_edges =
-          is_valve ? "a leaflet has no side v = 1 that is free" : "a leaflet has no open edges except on the outline";
+          is_valve ? "the side v = 1 of a leaflet is not free" : "all open edges of a leaflet lie on the outline";
   }
   // A rigid leaflet only rotates, so its lengths do not change.
   if (info.housing_leaflet_id >= 0) states.why_no_edges = "the leaflets are rigid";

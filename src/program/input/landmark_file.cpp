@@ -179,7 +179,7 @@ class Collector {
     names.insert(names.end(), {"nadir_right", "nadir_left", "nadir_non_coronary"});
     const std::string kind = file_.wanted.empty() ? file_.valve : file_.wanted;
     const std::string aortic = joined_by(names_of_cusps("coapting"), ", ");
-    const std::string mitral = "annulus_1, annulus_2, ... in their order around it, and anterior_horn";
+    const std::string mitral = "annulus_1, annulus_2, ... in their order around the annulus, and anterior_horn";
     std::string expected = "; an aortic valve has " + aortic + "; a mitral valve has other names";
     if (const std::vector<std::string> own = names_of_cusps(kind); !own.empty())
       expected = "; the " + kind + " valve has " + joined_by(own, ", ");

@@ -166,10 +166,9 @@ Warp unfolded_warp(const Placed &placed, riis_valve *valve, double noise, Reader
 // Returns advice for a warp that meets the landmarks but folds. For the advice, tries a warp that is smoothed according to the
 // landmarks' noise.
 std::string cure_of_folds(const Placed &placed, const riis_valve *valve, Reader reader) {
-  const std::string smoothed = option_text(reader, "warp", "smoothed"),
-                    look = "look for a landmark that is not at its place";
+  const std::string smoothed = option_text(reader, "warp", "smoothed"), look = "look for a landmark in the wrong place";
   if (!(placed.noise > 0))
-    return "; the landmarks' noise is 0: if the file states their noise, " + smoothed + " bends less";
+    return "; the noise of the landmarks is 0: if the file states a larger noise, " + smoothed + " bends less";
   try {
     unfolded_warp(placed, create<Valve>(riis_valve_copy, valve), placed.noise, reader);
   } catch (const Refusal &) {
@@ -498,24 +497,25 @@ std::string place_report(const Placed &placed, Reader reader) {
             (placed.warp_noise > 0 ? "; smoothed by the noise of " + digits(mm * placed.warp_noise, 3) + " mm" : "") +
             "\n";
   else if (placed.kind != "bileaflet" && at.worst > 3 * std::max(placed.noise, 1e-6 * at.scale))
-    text += "The valve misses the landmarks. " + option_text(reader, "warp", "exact") + " takes it to them, " +
-            option_text(reader, "warp", "smoothed") + " as near as their noise.\n";
+    text += "The valve misses the landmarks. " + option_text(reader, "warp", "exact") +
+            " takes the valve exactly to them, and " + option_text(reader, "warp", "smoothed") +
+            " takes it to within about their noise.\n";
   if (at.n_as_annulus > 0)
     text += std::string(at.n_as_annulus == 1 ? "The trigone lies" : "The trigones lie") +
-            " behind the anterior horn, where the valve has none: " +
+            " behind the anterior horn, where the valve has no trigones: " +
             (at.n_as_annulus == 1 ? "it counts as a point" : "they count as points") +
-            " of the annulus, and IT_distance does not follow from trigones.\n";
+            " of the annulus, and IT_distance does not depend on trigones.\n";
   if (placed.n_trigones_left_out > 0)
     text += "The trigones are left out, because the " + placed.kind + " valve has none.\n";
   if (placed.kind == "aortic")
     text +=
-        "The paper's aortic valve does not close at opening 0. The kinds coapting and trileaflet take the same "
-        "landmarks, and close.\n";
+        "The paper's aortic valve does not close at opening 0. For a valve that closes, choose the kind coapting or "
+        "trileaflet with the same landmarks.\n";
   text += undetermined.empty()
-              ? "\nThe landmarks suffice: they determine all sizes that are fitted to them.\n"
+              ? "\nThe landmarks determine all sizes that are fitted to them, so no more landmarks are needed.\n"
               : "\nThe landmarks do not determine " + joined_by(undetermined, ", ") +
-                    ".\nTheir values in the table are guesses from the usual proportions of the kind. Each guess may "
-                    "move the valve by more than a\nfifteenth of its radius. Add landmarks" +
+                    ".\nThe table has guesses of these sizes, from the usual proportions of the kind. The error of a "
+                    "guess may move the valve by more\nthan a fifteenth of its radius. Add landmarks" +
                     (reader == Reader::program
                          ? ", or give known sizes in cm, for example by --set " + undetermined.front() + "=VALUE"
                          : ", or give known sizes") +

@@ -63,8 +63,8 @@ std::string hint_of_change(const ValveOptions &options, const SurfaceFile &file,
     if (!change.is_turned)
       return std::string("; with its lengths times ") + change.factor +
              " the wall would be within --skirt: save the wall in the mesh's unit";
-    return "; after half a turn about z the wall would be within --skirt, so one of valve and wall is in LPS and the "
-           "other in RAS: " +
+    return "; after half a turn about z the wall would be within --skirt, so the valve and the wall are in different "
+           "axes, LPS and RAS: " +
            axes_advice(options);
   }
   return "";

@@ -156,7 +156,7 @@ class EndChoice {
                            : "only the flat end at " + place(chosen_[0].part) + " is clear") +
           ", but the blood needs two ends: " +
           (has_ring
-               ? "a flat ring shows that this wall has a thickness, so export the surface of the blood instead"
+               ? "a flat part is a ring, so this wall has a thickness: export the surface of the blood instead"
                : "cut the vessels flat, for example by Plane Cut in the Dynamic Modeler of 3D Slicer, or choose flat "
                  "parts by --inlet=X,Y,Z --outlet=X,Y,Z") +
           "; " + listed());

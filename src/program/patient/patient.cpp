@@ -318,10 +318,10 @@ class PatientRun {
       const double tried = rounded_mm(factor * own) * millimetre_;
       if (is_placed({"--warp", "smoothed", "--noise", shortest(tried), "--output", "placed.json"}))
         return ". It does not fold with --warp smoothed --noise " + option_mm(tried) +
-               ", but first look for a landmark that is not at its place";
+               ", but first look for a landmark in the wrong place";
     }
     return is_placed({"--warp", "none", "--output", "placed.json"})
-               ? ". --warp none places the valve without a warp, but first look for a landmark that is not at its place"
+               ? ". --warp none places the valve without a warp, but first look for a landmark in the wrong place"
                : "";
   }
 
@@ -335,7 +335,7 @@ class PatientRun {
   void check_valve() {
     const StepEnd end = steps_.run("crossings", with_valve({"check", "crossings"}, {"--stats", "logs/crossings.json"}));
     if (end.status == exit_warned)
-      refuse_data(end.reason() + ". Look for a landmark near there that is not at its place" +
+      refuse_data(end.reason() + ". Look for a landmark near there that is in the wrong place" +
                   (options_.warp_choice == no_warp ? "" : "; --warp none shows whether the warp is the cause"));
     if (!end.is_fine()) steps_.refuse("crossings", end, cure_of_missed_wall(end));
     show_warnings(end);
@@ -513,7 +513,7 @@ class PatientRun {
     const Disease *const disease = disease_named(options_.disease);
     std::string text = "the closed valve seals";
     if (closed["passage"]["state"] != "closed")
-      text = "the closed valve leaves a gap, because the valve is sick";
+      text = "the closed valve leaves a gap, because the valve is diseased";
     else if (disease != nullptr && disease->opening == 0 && disease->area > 0)
       text +=
           ", because the band closes the gap of " + options_.disease + ", which a smaller --half-thickness leaves open";
@@ -745,7 +745,8 @@ class PatientRun {
     const std::string path = options_.folder + "/" + options_.solver;
     if (options_.solver != "none")
       steps_.say("beats",
-                 "the blood moves the valve of the case, at other times than in the prescribed beat.pvd and beat.mp4");
+                 "in the case, the blood moves the valve, so it opens and closes at other times than in beat.pvd and "
+                 "beat.mp4");
     if (options_.solver == "openfoam")
       steps_.say("once", "in the top folder of riis: ./run openfoam plugin (docs/patient_openfoam.md)");
     if (options_.solver == "fenicsx")

@@ -136,14 +136,14 @@ std::string taken_folder(const std::string &path, bool replace, const std::vecto
 
 PatientFolder::PatientFolder(const std::string &path, bool replace, const std::vector<std::string> &inputs)
     : path_(taken_folder(path, replace, inputs, removed_)), locks_({(fs::path(path_) / marker_file).string()}) {
-  say_if_ended("\nriis: stopped before the folder was finished: the same command makes it anew\n");
+  say_if_ended("\nriis: stopped before the folder was finished: run the same command again\n");
   remove_own_files(path_, path);
   std::error_code error;
   fs::current_path(path_, error);
   if (error) refuse_folder(path, "cannot be entered: " + error.message());
   write_text(
       marker_file,
-      "riis patient has not finished this folder. If riis patient no longer runs, the same command makes it anew.\n");
+      "riis patient has not finished this folder. If riis patient is no longer running, run the same command again.\n");
   fs::create_directory("logs", error);
   if (error) refuse_folder(path, "cannot be written to: " + error.message());
 }

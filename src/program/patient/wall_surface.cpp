@@ -187,10 +187,12 @@ class WallRepair {
     const Piece &largest = pieces[0], &second = pieces[1];
     if (second.area > island_share * largest.area) {
       const bool is_inside = largest.box.contains(second.box.lower) && largest.box.contains(second.box.upper);
-      refuse("the surface has " + std::to_string(pieces.size()) + " pieces, the two largest of " + text_of(largest) +
-             " and " + text_of(second) + " triangles, but the blood has one outer surface: " +
-             (is_inside ? "one lies within the other, as the two faces of a thick wall do, so export the blood alone"
-                        : "keep one piece, for example by Islands in the Segment Editor of 3D Slicer"));
+      refuse(
+          "the surface has " + std::to_string(pieces.size()) + " pieces, the two largest of " + text_of(largest) +
+          " and " + text_of(second) + " triangles, but the blood has one outer surface: " +
+          (is_inside
+               ? "one lies within the other, like the two faces of a thick wall: export only the surface of the blood"
+               : "keep one piece, for example by Islands in the Segment Editor of 3D Slicer"));
     }
     std::int64_t n_left_out = 0;
     for (std::size_t i = 1; i < pieces.size(); ++i) n_left_out += pieces[i].n_triangles;

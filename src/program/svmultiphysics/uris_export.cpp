@@ -388,14 +388,14 @@ std::string mesh_block(const ExportOptions &options, const std::string &named_fo
   };
   const std::string half_thickness = shortest(leaflets.half_thickness());
   const double edges = leaflets.longest_edge() / leaflets.half_thickness();
-  std::string text =
-      "<!-- riis, " + title_of(options) + " valve\n     opening: " + frames(motion.opening) +
-      "\n     closing: " + frames(motion.closing) + "\n     one frame is one time step: Time_step_size must be " +
-      shortest(options.time_step) + "\n     " + counted(leaflets.n_triangles(), "triangle") + ", the longest edge " +
-      shown(leaflets.longest_edge()) + ", " + shown(edges) + " half thicknesses" +
-      "\n     the face box widens the box of nodes in which svMultiPhysics looks; Mesh_scale_factor of this "
-      "block must stay 1" +
-      "\n     " + text_of_units(options);
+  std::string text = "<!-- riis, " + title_of(options) + " valve\n     opening: " + frames(motion.opening) +
+                     "\n     closing: " + frames(motion.closing) +
+                     "\n     one frame is one time step: Time_step_size must be " + shortest(options.time_step) +
+                     "\n     " + counted(leaflets.n_triangles(), "triangle") + ", the longest edge " +
+                     shown(leaflets.longest_edge()) + ", " + shown(edges) + " half thicknesses" +
+                     "\n     the face box widens the box in which svMultiPhysics looks for nodes near the valve; "
+                     "Mesh_scale_factor of this block must stay 1" +
+                     "\n     " + text_of_units(options);
   if (edges > fine_edges) {
     text +=
         "\n     svMultiPhysics measures distances to the middles of triangles; for errors below 1 %, export with "
@@ -431,7 +431,7 @@ std::string mesh_block(const ExportOptions &options, const std::string &named_fo
 
 UrisExport write_uris(const ExportOptions &options, const std::string &named_folder) {
   if (options.surface_options.offset != 0)
-    refuse_usage("--offset: svMultiPhysics interpolates distances, and cannot use an offset");
+    refuse_usage("--offset: svMultiPhysics interpolates distances, so it cannot use an offset");
   check_whole_folder(options.folder, "FOLDER");
   const UrisMotion motion = uris_motion_of(options);
   std::optional<Stage> stage(std::in_place, "making the leaflets of all frames", options.quiet);

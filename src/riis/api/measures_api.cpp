@@ -191,10 +191,9 @@ riis_status riis_surface_get_gap(const riis_surface *surface, const riis_surface
     riis::check_struct_size<riis_gap>(struct_size, "gap");
     require(gap, "gap");
     if (!content.has_attachment())
-      riis::fail(
-          RIIS_INVALID_ARGUMENT,
-          "surface was made from arrays, which do not tell attached edges from free ones: a gap needs a valve, a "
-          "skirt or arrays.attached");
+      riis::fail(RIIS_INVALID_ARGUMENT,
+                 "surface was made from arrays without a skirt, so its attached edges are not known: name the attached "
+                 "vertices by arrays.attached");
     const riis::Gap made = riis::gap_of(content.attachment(), {of_wall.triangles(), of_wall.scene()},
                                         riis::threads_for(0, content.attachment().n_edges(), 2048));
     if (distance) std::copy(made.distance.begin(), made.distance.end(), distance);

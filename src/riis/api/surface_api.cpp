@@ -114,8 +114,7 @@ void check_can_add_direction(const riis_surface &surface) {
   const riis::Surface &content = surface.updatable.surface();
   if (!content.patches())
     riis::fail(RIIS_INVALID_ARGUMENT,
-               "surface was made from arrays, which have no parameters: a direction needs a surface that was made from "
-               "a valve");
+               "surface was made from arrays, which have no parameters: a direction needs a surface from a valve");
   if (content.n_directions() == max_directions)
     riis::fail(RIIS_LIMIT_EXCEEDED, "surface has ", max_directions, " directions, the largest number");
 }
@@ -306,8 +305,8 @@ riis_status riis_surface_get_attachment(const riis_surface *surface, riis_attach
     const riis::Surface &content = riis::content_of(surface);
     if (!content.has_attachment())
       riis::fail(RIIS_INVALID_ARGUMENT,
-                 "surface was made from arrays, which do not tell attached edges from free ones: give edges of your "
-                 "own, or name the attached vertices by arrays.attached");
+                 "surface was made from arrays without a skirt, so its attached edges are not known: give edges of "
+                 "your own, or name the attached vertices by arrays.attached");
     const riis::Attachment &made = content.attachment();
     const auto array = [](const auto &values) { return values.empty() ? nullptr : values.data(); };
     riis::write_struct(attachment, struct_size, "attachment",

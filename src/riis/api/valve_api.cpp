@@ -89,7 +89,7 @@ riis_status riis_valve_set_skirt_to_wall(riis_valve *valve, const riis_surface *
     riis::check_options(whole);
     if (content.kind().skirt_axis == riis::SkirtAxis::none)
       riis::fail(RIIS_INVALID_PARAMETER, "the ", content.kind().name,
-                 " valve has no skirt: it has a ring that closes the gap to the wall; ring_height sets the ring");
+                 " valve has no skirt: its ring closes the gap to the wall; ring_height sets the height of the ring");
     riis::Valve closed = content;
     const double zero = 0;
     closed.set("opening", 1, &zero);
@@ -116,7 +116,7 @@ riis_status riis_valve_set_warp(riis_valve *valve, const riis_warp *closed, cons
     require_handle(valve, "valve");
     if (open && !closed)
       riis::fail(RIIS_INVALID_ARGUMENT,
-                 "open is a warp, but closed is NULL: if one warp serves for all openings, pass this warp as closed");
+                 "open is a warp, but closed is NULL: to use one warp for all openings, pass this warp as closed");
     valve->valve.set_warp(closed ? &require_handle(closed, "closed")->map : nullptr,
                           open ? &require_handle(open, "open")->map : nullptr);
   });

@@ -63,8 +63,8 @@ class ArcRefinement {
     if (depth == max_depth) {
       const Vec3 where = bulge_.on_base(from);
       fail(RIIS_INVALID_PARAMETER, "near (", where.x, ", ", where.y, ", ", where.z,
-           "), before the translation, the line from annulus to free edge runs along the annulus, so a "
-           "surface_angle has no meaning: look at the leaflets' lengths and at the annulus there");
+           "), before the translation, the line from annulus to free edge runs along the annulus, so surface_angle has "
+           "no meaning there: look at the lengths of the leaflets and at the annulus");
     }
     const double u = cut(from, to.middle);
     add_up_to({u, u, u}, bulge_.place(u), depth + 1);

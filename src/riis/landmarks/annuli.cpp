@@ -162,9 +162,9 @@ Vec3 atrial_side(const Landmarks &landmarks, Vec3 normal, Vec3 forward) {
   const Vec3 by_commissures = side > 0 ? normal : -normal;
   if (landmarks.has_flow() && dot(found, by_commissures) < 0)
     fail(RIIS_INVALID_ARGUMENT,
-         "landmarks.flow contradicts the commissures, which show that it points to the atrium. Seen along the flow "
-         "with the anterior horn above, the posteromedial commissure must be on the right: the landmarks or their "
-         "names are mirrored");
+         "landmarks.flow contradicts the commissures, which show that this direction leads to the atrium. Seen along "
+         "the flow with the anterior horn above, the posteromedial commissure must be on the right. The flow is "
+         "reversed, or the landmarks or their names are mirrored");
   return by_commissures;
 }
 
@@ -173,7 +173,7 @@ std::string advice_for(const LandmarkFit &fit, const Landmarks &landmarks) {
   const auto worst = std::max_element(fit.residuals.begin(), fit.residuals.end());
   return std::string("the worst residual is ") + Message(rounded(landmarks.scale * *worst, 3)).text() + " at " +
          words_for(landmarks, static_cast<std::size_t>(worst - fit.residuals.begin())) +
-         ": look for a landmark that is not at its place, or that has another's name";
+         ": look for a landmark in the wrong place, or that has another's name";
 }
 
 // Returns the angle between the axis of a fitted valve and the annulus' normal, in degrees.
@@ -291,7 +291,7 @@ std::string cause_of(const LandmarkFit &fit, const Landmarks &landmarks, Vec3 no
   };
   return Message("the horns' heights make the valve lean: ", words(heights.anterior_landmark, heights.anterior),
                  " and ", words(heights.posterior_landmark, heights.posterior),
-                 " the annulus' sides, along the annulus' normal; look for a horn that is not at its place")
+                 " the annulus' sides, along the annulus' normal; look for a horn in the wrong place")
       .text();
 }
 
@@ -320,7 +320,7 @@ void check_sides(const Landmarks &landmarks, std::size_t horn, double depth, con
         fail(RIIS_INVALID_ARGUMENT, words_for(landmarks, i), " is ", rounded(landmarks.scale * (depth - y_of(i)), 3),
              " behind ", words_for(landmarks, horn), ", and the annulus reaches ", rounded(landmarks.scale * depth, 3),
              " behind it: it must be on the ", is_anterior ? "anterior" : "posterior",
-             " side, or the anterior horn is not at its place");
+             " side, or the anterior horn is in the wrong place");
   };
   check(RIIS_LANDMARK_POSTERIOR_HORN, false);
   check(RIIS_LANDMARK_TRIGONE, true);

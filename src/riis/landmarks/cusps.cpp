@@ -45,12 +45,11 @@ Vec3 turned(double radius, double degrees, double height) {
 
 LeafletsAround cusps_of(const char *kind, std::size_t n_cusps) {
   const bool needs_names = std::strcmp(kind, "aortic") == 0;
-  LeafletsAround made{
-      {},
-      "clockwise",
-      needs_names
-          ? "which nadirs belong to the right, the left and the non_coronary cusp: the aortic valve's cusps differ"
-          : nullptr};
+  LeafletsAround made{{},
+                      "clockwise",
+                      needs_names ? "which nadirs belong to the right, the left and the non_coronary cusp, because the "
+                                    "cusps of an aortic valve differ"
+                                  : nullptr};
   for (std::size_t cusp = 0; cusp < n_cusps; ++cusp)
     made.names.push_back(n_cusps == n_of_three ? names_of_three[cusp] : "cusp_" + std::to_string(cusp));
   return made;

@@ -75,15 +75,15 @@ std::optional<double> distance_along(const Wall &wall, Vec3 point, Vec3 directio
 
 Gap gap_of(const Attachment &attachment, const Wall &wall, int n_threads) {
   const std::int64_t n_edges = attachment.n_edges();
-  if (n_edges == 0) fail(RIIS_INVALID_ARGUMENT, "surface has no attachment, from which a gap could be measured");
+  if (n_edges == 0) fail(RIIS_INVALID_ARGUMENT, "surface has no attachment, so there is no gap to measure");
   std::vector<Start> starts;
   starts.reserve(static_cast<std::size_t>(2 * n_edges));
   for (std::int64_t i = 0; i < 2 * n_edges; ++i) {
     const double *p = attachment.edges.data() + 3 * i, *d = attachment.outwards.data() + 3 * i;
     starts.push_back({{p[0], p[1], p[2]}, {d[0], d[1], d[2]}});
     if (starts.back().direction == Vec3{0, 0, 0})
-      fail(RIIS_INVALID_ARGUMENT, "surface has an attachment that encloses no area, or that reaches its axis at (",
-           p[0], ", ", p[1], ", ", p[2], "): nothing tells which way is outwards");
+      fail(RIIS_INVALID_ARGUMENT, "the attachment of surface encloses no area, or reaches its axis at (", p[0], ", ",
+           p[1], ", ", p[2], "), so its outward direction is not known");
   }
   const std::vector<std::optional<double>> found = distances_along(wall, starts, n_threads);
   Gap gap{{}, {0, 0, 0, {0, 0, 0}, 2 * n_edges, 0}};

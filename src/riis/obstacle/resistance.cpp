@@ -148,7 +148,7 @@ void check_closest_triangles(const Marks &marks, const TriangleSet &triangles, c
 }
 
 Edges edges_of(const riis_reaction &reaction) {
-  if (reaction.n_edges < 1) fail(RIIS_INVALID_ARGUMENT, "reaction.n_edges is 0; a force by edge needs at least 1");
+  if (reaction.n_edges < 1) fail(RIIS_INVALID_ARGUMENT, "reaction.n_edges is 0; forces at edges need at least 1 edge");
   return checked_edges("reaction", reaction.n_edges, reaction.edges, reaction.edge_leaflet_id);
 }
 

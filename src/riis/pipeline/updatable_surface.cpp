@@ -81,12 +81,13 @@ void UpdatableSurface::update_from_arrays(const riis_surface_arrays &arrays, boo
   }
   if (faces_.leaflet_id.empty())
     fail(RIIS_INVALID_ARGUMENT,
-         "arrays.vertex_ids is NULL, but the last call did not make the surface from arrays: it has no faces to keep");
+         "arrays.vertex_ids is NULL, but the surface has no faces to keep, because the last call did not make it from "
+         "arrays");
   if (arrays.leaflet_id) fail(RIIS_INVALID_ARGUMENT, "arrays.leaflet_id is given without faces: it must be NULL");
   if (arrays.skirt_length != 0 || arrays.attached || arrays.skirt_lengths)
     fail(RIIS_INVALID_ARGUMENT,
-         "arrays.skirt_length, arrays.attached or arrays.skirt_lengths is given without faces: the skirt stays, so "
-         "they must be 0, NULL and NULL");
+         "without faces the skirt does not change: arrays.skirt_length must be 0, and arrays.attached and "
+         "arrays.skirt_lengths must be NULL");
   replace_by_faces(faces_, arrays, skip_zero_area, request);
 }
 

@@ -38,14 +38,14 @@ ValveKind make_kind() {
     {"gap", length, "width of the slit between the closed leaflets", 1, {0}, 0, longest},
     {"closed_angle", degree, "angle of the closed leaflets from the orifice plane", 1, {30}, 0, 80},
     {"open_angle", degree, "angle of the open leaflets from the orifice plane", 1, {85}, 0, 90},
-    {"ring_height", length, "height of the housing's wall, which the orifice plane halves; 0 means no wall",
+    {"ring_height", length, "height of the housing's wall, half of it above the orifice plane; 0 means no wall",
      1, {0}, 0, longest},
     opening_spec("from 0 (closed) to 1 (open); the leaflets turn from closed_angle to open_angle", 0),
   }, opening, true, check_values, make_patches, check_states};
   kind.housing = RIIS_LEAFLET_HOUSING;
   kind.absent = {
-    {"stj", "its housing has one radius, and it has no commissures at a sinotubular junction"},
-    {"skirt_length", "it has a ring that closes the gap to the wall; ring_height sets the ring"},
+    {"stj", "its housing has only one radius, and no sinotubular junction"},
+    {"skirt_length", "its ring closes the gap to the wall; ring_height sets the height of the ring"},
     {"effective_height", "only cusps have an effective height; hinge_height and closed_angle determine the height "
                          "of rigid leaflets"},
   };

@@ -33,7 +33,13 @@ std::array<ParameterSpec, n_parameters> specs_of_one(std::size_t n_leaflets) {
        0,
        1},
       {"open", "1", "opening of the leaflet at the bump in the open valve, from 0 (closed) to 1 (open)", 1, {1}, 0, 1},
-      {"lift", "length", "how much higher than healthy the bump lies in the closed valve", 1, {0}, -longest, longest},
+      {"lift",
+       "length",
+       "how much higher the bump lies in the closed valve than in a healthy valve",
+       1,
+       {0},
+       -longest,
+       longest},
   }};
 }
 

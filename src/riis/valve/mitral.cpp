@@ -32,7 +32,8 @@ ValveKind make_kind() {
   constexpr double shortest = 1e-9, longest = 1e9;
   const char *length = "length", *degree = "degree", *number = "1";
   ValveKind kind{"mitral", {
-    {"anterior_ratio", number, "share of the annulus that the anterior leaflet and its triangles have", 1, {0.41}, 0.05, 0.95},
+    {"anterior_ratio", number, "share of the annulus that belongs to the anterior leaflet and its triangles",
+     1, {0.41}, 0.05, 0.95},
     {"AP_diameter", length, "depth of the annulus, from the posterior to the anterior point", 1, {3.0}, shortest, longest},
     {"ALPM_diameter", length, "largest width of the annulus", 1, {4.0}, shortest, longest},
     {"ALPM_position_ratio", number, "position of the annulus' widest part, from 0 (posterior point) to 1 (anterior point)",
@@ -49,8 +50,8 @@ ValveKind make_kind() {
     {"leaflet_arc_angle", degree, "angle of the arc that the free edges follow", 1, {120}, 1, 300},
     {"leaflet_inward_angle", degree, "direction of the open leaflets: 0 is inwards, 90 is straight down", 1, {75}, 0, 180},
     {"surface_angle", degree,
-     "angle by which a leaflet bulges outwards at its ends, from the line between annulus and free edge", 1, {20}, -80, 80},
-    {"triangle_size_ratio", number, "share of the annulus that each commissure's triangle has", 1, {0.1}, 0.001, 0.45},
+     "angle at which a leaflet leaves the straight line from annulus to free edge; above 0 it bulges outwards", 1, {20}, -80, 80},
+    {"triangle_size_ratio", number, "share of the annulus that belongs to each commissure's triangle", 1, {0.1}, 0.001, 0.45},
     opening_spec("0 closed to 1 open", 1),
     {"translation", length, "shift of the valve", 3, {0, 0, 1}, -longest, longest},
   }, opening_, true, check_values, make_patches, nullptr};

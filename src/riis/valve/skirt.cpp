@@ -438,7 +438,7 @@ Vec3 SkirtDirections::at(std::size_t side, double share, Vec3 point) const {
 double attachment_radius(const PatchSet &set, const Vector<HeldSide> &sides) {
   if (sides.empty())
     fail(RIIS_INVALID_PARAMETER,
-         "a skirt needs an attachment, but the valve has none: no side v = 0 belongs to only one patch");
+         "a skirt needs an attachment, but the valve has none: each side v = 0 belongs to several patches");
   double sum = 0;
   for (const HeldSide &held : sides) {
     const AxisLine &axis = set.patches[held.patch].axis;

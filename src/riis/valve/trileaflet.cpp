@@ -60,8 +60,8 @@ ValveKind make_kind() {
     {"bending_power", number, "exponent of the bending curve's profile", 1, {1.8}, 1, 20},
     {"t0_bending", length, "start tangent of the bending curve", 1, {0.25}, 0, longest, {"0.2 root_radius", tangent_rule}},
     {"t3_bending", length, "end tangent of the bending curve", 1, {0.25}, 0, longest, {"0.2 root_radius", tangent_rule}},
-    {"xq", number, "radial place of the symmetry curve's first inner control point", 1, {-0.22}, -10, 10},
-    {"zq", number, "vertical place of the symmetry curve's first inner control point", 1, {-0.35}, -10, 10},
+    {"xq", number, "radial position of the first inner control point of the symmetry curve", 1, {-0.22}, -10, 10},
+    {"zq", number, "vertical position of the first inner control point of the symmetry curve", 1, {-0.35}, -10, 10},
     {"translation", length, "shift of the valve", 3, {0, 0, -1.2}, -longest, longest},
     opening_spec("0 closed to 1 open", 0),
   }, opening, true, check_values, make_patches, nullptr};

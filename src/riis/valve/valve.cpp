@@ -319,8 +319,8 @@ void Valve::check_same_but_for_opening(const Valve &other) const {
   check_same_state(*kind_, state_, other.state_, "");
   if (skirt_lengths_ != other.skirt_lengths_)
     fail(RIIS_INVALID_PARAMETER,
-         "the skirt's lengths to the wall differ from the lengths in the surface's fixed triangulation: only opening "
-         "and placement may change");
+         "the lengths of the skirt to the wall have changed since the surface got its fixed triangulation: only "
+         "opening and placement may change");
   if (open_.has_value() != other.open_.has_value())
     fail(RIIS_INVALID_PARAMETER, "the valve has ", other.open_ ? "an" : "no", " open state", fixed_for,
          other.open_ ? "none" : "one");

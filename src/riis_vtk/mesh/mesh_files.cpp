@@ -234,7 +234,7 @@ void set_unit(riis_vtk_mesh *mesh, const std::string &name, const std::string &u
   if (unit.empty() || unit.size() > longest || !std::all_of(unit.begin(), unit.end(), is_printed))
     refuse_argument("unit is \"", unit.substr(0, longest), "\"; it must be 1 to ", longest, " printed characters");
   vtkAbstractArray *const array = mesh->node_data()->GetAbstractArray(name.c_str());
-  if (!array) refuse_argument("name is \"", name.substr(0, longest), "\", which is no point array of the mesh");
+  if (!array) refuse_argument("name is \"", name.substr(0, longest), "\", which is not a point array of the mesh");
   array->GetInformation()->Set(vtkDataArray::UNITS_LABEL(), unit.c_str());
 }
 
@@ -421,7 +421,7 @@ RIIS_API riis_status riis_vtk_mesh_copy_cells(const riis_vtk_mesh *mesh, int64_t
                                               uint8_t *types, int64_t n_node_ids, int64_t *node_ids) {
   return guarded([&](const CaughtOutput &) {
     require(mesh, "mesh");
-    if (mesh->centers) refuse_argument("the nodes of mesh are centres of cells, which have no cells themselves");
+    if (mesh->centers) refuse_argument("the nodes of mesh are centres of cells, and no cells join them");
     vtkUnstructuredGrid *const grid = mesh->grid();
     const int64_t n_all = grid->GetNumberOfCells();
     if (n_cells != n_all) refuse_argument("n_cells is ", n_cells, "; the mesh has ", n_all, " cells");

@@ -175,7 +175,7 @@ RIIS_API riis_status riis_vtk_mesh_extract(const riis_vtk_mesh *mesh, int64_t n_
                                            riis_vtk_mesh **part) {
   return guarded([&](const CaughtOutput &) {
     vtkUnstructuredGrid *grid = require(mesh, "mesh")->grid();
-    if (mesh->centers) refuse_argument("mesh has no parts, because its nodes are the centres of cells");
+    if (mesh->centers) refuse_argument("no part of mesh can be made, because its nodes are the centres of cells");
     require(part, "part");
     auto made = std::make_unique<riis_vtk_mesh>();
     Chosen chosen = chosen_nodes(grid, n_ids, node_ids);

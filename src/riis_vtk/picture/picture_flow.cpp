@@ -192,7 +192,7 @@ Flow flow_of(const riis_vtk_mesh &mesh, const std::string &name) {
   vtkDataArray *const found = at_points ? at_points : in_cells;
   if (!found) {
     const std::string &foam_case = mesh.foam_case;
-    refuse_argument("options->velocity is \"", name, "\", which is no array of the mesh",
+    refuse_argument("options->velocity is \"", name, "\", which is not an array of the mesh",
                     foam_case.empty() ? "" : "; for a field of OpenFOAM, name a time in place of the case: ",
                     foam_case.empty() ? "" : foam_times_of(foam_case));
   }

@@ -228,7 +228,7 @@ void check_magic(const std::string &path) {
 vtkSmartPointer<vtkUnstructuredGrid> read_exodus(const std::string &path, const CaughtOutput &caught) {
   check_magic(path);
   vtkNew<vtkExodusIIReader> reader;
-  if (!reader->CanReadFile(path.c_str())) fail_file(path, "is not an Exodus file, is damaged or truncated");
+  if (!reader->CanReadFile(path.c_str())) fail_file(path, "is not an Exodus file, or it is damaged or truncated");
   reader->SetFileName(path.c_str());
   // Each block gets all points of the file. Therefore the blocks have the node numbers of the file, and shared nodes stay one
   // node.

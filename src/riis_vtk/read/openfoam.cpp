@@ -230,7 +230,8 @@ class FoamFile {
     const std::string_view found = token();
     if (found.empty()) fail_file(path_, "is truncated: it ends before a \"", std::string(wanted), "\"");
     if (found != wanted)
-      in_->refuse("\"", std::string(found.substr(0, 40)), "\" is in the place of a \"", std::string(wanted), "\"");
+      in_->refuse("\"", std::string(found.substr(0, 40)), "\" stands where there must be a \"", std::string(wanted),
+                  "\"");
   }
 
   void read_header() {
@@ -667,9 +668,9 @@ vtkSmartPointer<vtkUnstructuredGrid> read_openfoam(const std::string &path) {
   } else if (const std::vector<fs::path> parts = parts_of(root); !parts.empty()) {
     is_single = read_parts(path, parts, mesh);
   } else if (has_collated_parts(root)) {
-    fail_file(path, "has all its parts in one folder; the program reconstructParMesh -constant joins the parts");
+    fail_file(path, "has all its parts in one folder; OpenFOAM's program reconstructParMesh -constant joins the parts");
   } else if (fs::exists(root / "md.idx")) {
-    fail_file(path, "is a folder of ADIOS2, which is not read");
+    fail_file(path, "is a folder of ADIOS2, which riis cannot read");
   } else {
     fail_file(path, "is a directory, but not a case of OpenFOAM: it lacks constant/polyMesh");
   }

@@ -57,7 +57,7 @@ class XmlParser {
           skip_past(">");
         }
       } else {
-        if (!rest_.empty() && rest_[0] != '<') refuse("text is in the place of an element");
+        if (!rest_.empty() && rest_[0] != '<') refuse("text stands where there must be an element");
         return;
       }
     }
@@ -118,7 +118,7 @@ class XmlParser {
         rest_.remove_prefix(2);
         const std::string closed = name();
         if (closed != made.name)
-          refuse("</", closed.substr(0, 40), "> is in the place of </", made.name.substr(0, 40), ">");
+          refuse("</", closed.substr(0, 40), "> stands where there must be </", made.name.substr(0, 40), ">");
         skip_past(">");
         return made;
       } else {

@@ -191,7 +191,8 @@ class XdmfFile {
     const std::string kind = lower_case(item.attribute("ItemType")), format = lower_case(item.attribute("Format"));
     if (!kind.empty() && kind != "uniform")
       fail_file(path_, "has a DataItem of the kind ", shortened(kind), "; only Uniform is read");
-    if (!item.attribute("Reference").empty()) fail_file(path_, "has a DataItem that refers to another DataItem");
+    if (!item.attribute("Reference").empty())
+      fail_file(path_, "has a DataItem with a Reference to another DataItem, and references are not read");
     if (format.empty() || format == "xml") return numbers_of_text<Number>(item, n);
     if (format == "hdf" || format == "h5") return numbers_of_hdf5<Number>(item, n);
     if (format == "binary") return numbers_of_binary<Number>(item, n);

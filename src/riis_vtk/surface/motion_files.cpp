@@ -32,7 +32,8 @@ double time_of(const std::string &path, const std::string &which, const std::str
   text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
   double time = 0;
   if (!read_number(text, time) || !is_time(time))
-    fail_file(path, which, " has the timestep '", timestep.substr(0, 40), "', which is no number from -1e30 to 1e30");
+    fail_file(path, which, " has the timestep '", timestep.substr(0, 40),
+              "', which is not a number from -1e30 to 1e30");
   return time;
 }
 
