@@ -40,12 +40,13 @@ struct Block {
 constexpr int smallest_class = 6, largest_class = 22;
 constexpr std::size_t largest_block = std::size_t{1} << largest_class;
 
-// Each thread takes from its own pool first, so threads seldom wait for each other. A thread may give back memory that another
-// thread took. A thread with an empty pool therefore looks into the other pools before it asks the system.
+// Each thread takes from its own pool first, so threads seldom wait for each other. Memory may be given back by another thread
+// than took it, so one pool can run empty while others fill. A thread with an empty pool therefore looks into the other pools
+// before it asks the system.
 constexpr unsigned n_pools = 16;
 
-// A lock that a thread holds for a few instructions. Two threads seldom need it at the same time. Locking a mutex would take half
-// of the time of an allocation.
+// A lock that threads hold only for a few instructions, so a thread that finds it locked just tries again. Locking a mutex would
+// take half of the time of an allocation.
 class ShortLock {
  public:
   void lock() noexcept {

@@ -17,8 +17,8 @@
 namespace riis {
 namespace {
 
-// Ball arithmetic: bounds a vector or a number on a range by a middle value and the largest distance from it. Each operation
-// gives a range that holds every possible value. Rounding of the bounds is ignored, because it is far smaller than the bounds.
+// Ball arithmetic describes all values of a vector or a number by a middle value and the largest distance from it. Each operation
+// gives a ball that holds every possible result. Rounding of the bounds is ignored, because it is far smaller than the bounds.
 
 // A ball of numbers: all numbers within `radius` of `middle`.
 struct Interval {
@@ -230,8 +230,8 @@ Bulge::Place Bulge::place(double u) const {
 OffsetBounds bound_offset(const ArcRange &range, double factor) {
   const Vec3 start = range.edge.front().first() - range.base.front().first();
   const Vec3 end = range.edge.back().last() - range.base.back().last();
-  // On the range, a point of a curve moves by at most the length of the curve's part. The distance of W from its nearer end value
-  // is therefore at most half the sum of the two parts' lengths.
+  // Along the range, a point moves on each curve by at most the length of that curve's part. The distance of W from its nearer
+  // end value is therefore at most half the sum of the two parts' lengths.
   const double w_ends = std::max(length(start), length(end));
   const double w_far = w_ends + 0.5 * range.du * (range.base_length + range.edge_length);
   const OffsetBounds unknown{infinity, 2 * std::abs(factor) * w_far};

@@ -72,8 +72,8 @@ class ArcRefinement {
   }
 
  private:
-  // Returns the place at which a range is cut. A cut at a joint removes a kink. The cut is therefore at a joint, if a joint is
-  // far enough from both ends. Otherwise the cut is in the middle.
+  // Returns where to cut a range: at a joint that is far enough from both ends, or else in the middle. A cut at a joint removes a
+  // kink.
   double cut(double from, double to) const {
     for (const double joint : bulge_.joints())
       if (joint > 0.875 * from + 0.125 * to && joint < 0.125 * from + 0.875 * to) return joint;

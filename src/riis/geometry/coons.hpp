@@ -1,6 +1,6 @@
-// SPDX-License-Identifier: Apache-2.0
-// Turns patches into grids of quads (paper, 3.3 "Surface structure", and the appendix, "Leaflet surfaces"). Boundary polylines
-// that meet at their ends give grid points at the union of the polylines' parameters.
+// SPDX-License-Identifier: Apache-2.0 Turns patches into grids of quads (paper, 3.3 "Surface structure", and the appendix,
+// "Leaflet surfaces"). The four sides of a patch are polylines that meet at their ends. The grid has a line at each parameter of
+// a vertex on these sides.
 #pragma once
 
 #include <cstddef>
@@ -17,11 +17,11 @@ struct PatchSides {
   const Polyline *side_v0, *side_v1, *side_u0, *side_u1;
 };
 
-// A line of the grid. Two vertices on opposite sides whose parameters nearly agree share a line, so no sliver quads arise. Both
-// vertices keep their places. Neighbouring patches therefore meet without cracks.
+// A line of the grid. If the parameters of two vertices on opposite sides nearly agree, one line joins the vertices, so no sliver
+// quads arise. Both vertices keep their places. Neighbouring patches therefore meet without cracks.
 struct GridLine {
   double t0, t1;                                // the line's parameters on the first and the second of its two sides
-  double middle;                                // the mean of both, which is the line's u (or v) in the grid
+  double middle;                                // the mean of t0 and t1, which is the line's u (or v) in the grid
   bool is_vertex0 = false, is_vertex1 = false;  // whether the line ends on a vertex of that side
 };
 

@@ -14,8 +14,8 @@ namespace {
 
 // A curve has at most 2^20 parts, because more parts would make more triangles than the library can hold.
 constexpr int max_depth = 20;
-// The velocity halves only parts that are wider than `narrowest_for_velocity`. If a curve's derivative is nearly 0 somewhere,
-// such halving would not end.
+// Only parts wider than `narrowest_for_velocity` are halved because of their velocity. Otherwise halving would not end where a
+// curve's derivative is nearly 0.
 constexpr double narrowest_for_velocity = 1.0 / 32;
 
 // Collects the chords of parts. Each part is within max_error of its chord.
@@ -72,9 +72,9 @@ class Flattening {
     return bend_ && t1 - t0 > narrowest_for_velocity && bend_->off_linear(t0, t1) > max_bend_;
   }
 
-  // Compares the point of the part with the point of the chord at each share of their lengths. The distance of two such points is
-  // at most length^2 / 8 times the largest curvature, as for linear interpolation. Joints do not change this bound, because the
-  // direction is continuous there. If the curve's derivative may be 0, the distance is at most the length.
+  // The error of a part compares it with its chord, point by point at equal shares of their lengths. As for linear interpolation,
+  // the error is at most length^2 / 8 times the largest curvature. Joints do not change this bound, because the direction is
+  // continuous there. If the curve's derivative may be 0, the length bounds the error.
   template <class LargestCurvature>
   bool accept(Vec3 last, double distance_to_chord, double part_length, const LargestCurvature &largest_curvature,
               double t1) {

@@ -63,8 +63,8 @@ Quad without_shortest_edge(const Quad &quad, double &shortest) {
   return {corner[0], corner[1], corner[2], corner[3]};
 }
 
-// Returns the quad's planned level, with the error at this level. At a collapsed side, rounding may fold a quad at one opening
-// and not at the next. A bound for the quad without the collapsed edge ignores the fold.
+// Returns the quad's planned level, with the error at this level. At some openings, rounding folds a quad at a collapsed side.
+// The bound for the quad without the collapsed edge does not see this fold.
 Level planned_level(const QuadGrid &grid, std::size_t i, std::size_t j, double max_error, int level) {
   const Quad quad = quad_of(grid, i, j);
   const double left = max_error - grid.error(i, j);
@@ -93,8 +93,8 @@ void count(const Level &level, LevelledGrid &made) {
   if (n > 1) made.n_vertices += (n + 1) * (n + 1);
 }
 
-// Counts the triangles with two equal corners. Most such triangles lie along a collapsed side of the patch, so only quads at the
-// sides are counted.
+// Counts the triangles with two equal corners, in the quads at the patch's sides only. Most such triangles lie along a collapsed
+// side.
 void count_collapsed(LevelledGrid &made) {
   const QuadGrid &grid = made.grid;
   const std::size_t n_u = grid.u.size() - 1, n_v = grid.v.size() - 1;

@@ -46,7 +46,7 @@ struct PairSpread {
 Bounds bounds_of(const StridedPoints &points, double &sum) {
   const double *const x = points.x, *const y = points.y, *const z = points.z;
   const std::int64_t stride = points.stride;
-  // Two separate bounds are faster, because each comparison waits for the previous comparison of the same bounds.
+  // The loop keeps two separate bounds, because each comparison has to wait for the previous comparison of the same bounds.
   PairSpread pairs[2];
   std::int64_t i = 0;
   for (; i + 4 <= points.n; i += 4)

@@ -1,7 +1,7 @@
-// SPDX-License-Identifier: Apache-2.0
-// Computations in double precision for eight triangles at a time. The decision kernel repeats geometry/point_triangle.cpp
-// operation by operation, so every lane has the bits of that file. The file also makes the triangles' frames for the filter. This
-// file is compiled for each instruction set, and never with contracted multiplications and additions.
+// SPDX-License-Identifier: Apache-2.0 Computations in double precision for eight triangles at a time. The decision kernel repeats
+// geometry/point_triangle.cpp operation by operation, so every lane has the bits of that function. Here are also the functions
+// that make the triangles' frames for the filter. This file is compiled for each instruction set, and never with contracted
+// multiplications and additions.
 #include "kernels/lanes.hpp"
 #include "kernels/table.hpp"
 
@@ -72,8 +72,8 @@ RIIS_INLINE Doubles root(Doubles a) {
 // on the instruction set, so no result for a caller may depend on these bits.
 RIIS_INLINE Doubles inverse_root(Doubles a) {
 #if defined(__AVX512F__)
-  // The estimate has 14 correct bits, and two steps of Newton's method double this number twice. Two steps of Newton's method
-  // take less time than a root and a division.
+  // The estimate has 14 correct bits. Each of two steps of Newton's method doubles this number, and both steps take less time
+  // than a root and a division.
   count(&Counts::operations, Doubles::n);
   Doubles r{{(DoubleRegister)_mm512_rsqrt14_pd((__m512d)a.part[0])}};
   const Doubles half = Doubles::all(0.5) * a;
@@ -354,8 +354,8 @@ RIIS_INLINE void put(Doubles3 v, float (*to)[triangles_per_group], int from) {
   put(v.z, to[2] + from);
 }
 
-// Stores an axis in single precision. The origin is chosen so that `middle` has the coordinate 0. The origin is computed for the
-// rounded axis, so the error by rounding is proportional to the distance from `middle`.
+// Stores an axis in single precision, and the origin at which `middle` has the coordinate 0. The origin is computed for the
+// rounded axis. The rounding error of a coordinate is therefore proportional to the distance from `middle`.
 RIIS_INLINE void put_axis(Doubles3 axis, Doubles3 middle, float (*to)[triangles_per_group], float *origin, int from) {
   put(axis, to, from);
   const auto rounded = [](Doubles x) RIIS_LAMBDA {
@@ -389,7 +389,7 @@ RIIS_INLINE float round_down(double x) {
 }
 
 void frame_leaf(const PlainFrame &frame, const double *xyz, Leaf &leaf, float *lower, float *upper) {
-  // Eight nodes have 24 coordinates, so the pattern of centres repeats every three registers.
+  // The centre is subtracted from three registers at a time, which hold the x, y, z of eight nodes one after another.
   constexpr int n_in_turn = 3;
   alignas(64) double turn[n_in_turn * Doubles::n];
   for (int i = 0; i < n_in_turn * Doubles::n; ++i) turn[i] = frame.centre[i % 3];
@@ -468,7 +468,7 @@ RIIS_INLINE void choose_axes(Doubles3 across, Doubles3 along, Axes &axes) {
   const Doubles::Mask has_edge = normalize(along);
   const Doubles::Mask steep = magnitude(across.x) < Doubles::all(0.6);
   along = choose(has_edge, along, {choose(steep, one, zero), choose(steep, zero, one), zero});
-  // Removes the part along `across` that rounding has left. The removed part is large if the edge runs nearly along `across`.
+  // Rounding has left a part along `across`, which is large if the edge runs nearly along `across`. This loop removes it.
   for (int i = 0; i < 2; ++i) {
     along = take_across_away(along);
     normalize(along);
@@ -551,8 +551,8 @@ RIIS_INLINE void make_frames(const GroupCorners &corners, TriangleGroup &group,
     // Returns the part of v at right angles to e. If the triangle is needle-shaped, rounding leaves a part along e, which a
     // second call removes.
     const auto across = [&](Doubles3 v) RIIS_LAMBDA { return v - dot(v, e.unit) * e.unit; };
-    // If rounding left nothing of the triangle's height, the part at right angles to e is only rounding error, and may again run
-    // along e.
+    // If the triangle's height is lost in rounding, the part at right angles to e is only rounding error. It may again run along
+    // e.
     Doubles3 over = across(ac);
     const Doubles over_sq = dot(over, over);
     const Doubles::Mask has_height = both(over_sq > Doubles::all(0x1p-88) * dot(ac, ac), over_sq > Doubles::all(1e-59));

@@ -40,8 +40,8 @@ RIIS_INLINE ToGroup measure_to_group(const TriangleGroup &group, Floats3 p, Floa
   const Floats past_ab = beyond(e, Floats::load(group.half_ab));
   Floats in_plane = multiply_add(past_ab, past_ab, f * f), inside = f;
 
-  // Takes an edge into account. The edge is given by its direction, the place of its middle, its place across and its half
-  // length.
+  // Includes the distance to an edge. Given are the edge's direction, the coordinate of its middle along this direction, its
+  // coordinate across, and its half length.
   const auto offer_edge = [&](Floats x, Floats y, const float *unit_x, const float *unit_y, const float *middle,
                               const float *side, const float *half) RIIS_LAMBDA {
     const Floats to_x = Floats::load(unit_x), to_y = Floats::load(unit_y);
@@ -89,8 +89,8 @@ bool near_boxes(const FilterTask &task, const Boxes &boxes, const int32_t *candi
   return found != 0;
 }
 
-// Along an axis, a box extends from its middle by the sum of its half sides, each multiplied by the axis's component along this
-// side.
+// The half extent of a box along an axis is a sum over its half sides. Each half side is multiplied by the axis's component along
+// this side.
 template <bool is_one_sided>
 RIIS_INLINE bool near_rotated_boxes(const FilterTask &task, const Boxes &boxes, const int32_t *candidates,
                                     int32_t n_candidates, uint16_t *near) {
@@ -221,7 +221,7 @@ RIIS_INLINE uint32_t leaf_of(int32_t node) { return static_cast<uint32_t>(node) 
 
 // Takes a leaf to the surface's frame. For every group and every node, computes the square of a lower bound on their distance.
 // Lists each node that may be within reach, with the group that has the least bound. If only one side of the surface counts, a
-// listed node must also be kept by a group within reach.
+// node is listed only if a group within reach keeps it.
 template <bool is_one_sided>
 RIIS_INLINE void begin_leaf(const FilterTask &task, LeafTask &leaf, ClusterTask &cluster, float *lower_bounds) {
   const int32_t first_node = first_node_of(leaf), n_before = cluster.n_listed;
@@ -282,8 +282,8 @@ RIIS_INLINE void begin_leaf(const FilterTask &task, LeafTask &leaf, ClusterTask 
   leaf.may_be_near = cluster.n_listed > n_before;
 }
 
-// Lists nodes of a leaf. Each node is listed with every group that may be as near as the best triangle so far, except the node's
-// first group. The list begins with the group cluster.next_group. Returns false if the list is full before the last group.
+// Lists the nodes of a leaf with their groups, from the group cluster.next_group on. A group is listed if it may be as near as
+// the node's best triangle so far, and is not the node's first group. Returns false if the list is full before the last group.
 RIIS_INLINE bool list_others(const LeafTask &leaf, ClusterTask &cluster, const float *lower_bounds) {
   const int32_t first_node = first_node_of(leaf);
   Floats limit[halves], first_group[halves];
@@ -384,8 +384,8 @@ void begin_cluster(const FilterTask &task, ClusterTask &cluster) {
   task.one_side.end_of_band ? begin_leaves<true>(task, cluster) : begin_leaves<false>(task, cluster);
 }
 
-// Leaves a node out if each triangle that may be the closest one leaves the node out of the band. All groups near the node must
-// be in the list, so only the first n_leaves leaves are judged.
+// Drops a node if it is out of the band at every triangle that may be its closest one. Only the first n_leaves leaves are judged,
+// because all groups near their nodes are in the list.
 RIIS_INLINE void leave_out(ClusterTask &cluster, int32_t n_leaves) {
   uint32_t stays[leaves_per_cluster] = {};
   for (int32_t i = 0; i < cluster.n_listed; ++i) {
@@ -405,8 +405,8 @@ RIIS_INLINE void leave_out(ClusterTask &cluster, int32_t n_leaves) {
   }
 }
 
-// Compares the nodes with their first groups if no earlier call has done so. Then lists other groups for as many nodes as there
-// is room for, and compares the nodes with these groups.
+// Compares the nodes with their first groups, unless an earlier call has done so. Then lists other groups until the list is full,
+// and compares the nodes with these groups.
 template <bool is_one_sided>
 RIIS_INLINE void compare_all(const FilterTask &task, ClusterTask &cluster) {
   const bool is_first = cluster.next_leaf < 0;

@@ -80,8 +80,9 @@ struct OneSide {
   float twice_shift;  // twice the distance of the band's middle from the surface
   float least_depth;  // a node with less depth may be in front of the triangle
   float least_sum;    // a node is out of the band if distance^2 + twice_shift * depth exceeds this number
-  // For each group, a place along the group's first axis, multiplied by `behind`. Beyond this place the whole group leaves a node
-  // out. The place is infinite if the group never leaves a node out. The pointer is null if nodes on both sides are wanted.
+  // For each group, a limit along the group's first axis, multiplied by `behind`. A node beyond the limit is out of the band at
+  // each triangle of the group. The limit is infinite if there is no such place. The pointer is null if nodes on both sides are
+  // wanted.
   const float *end_of_band = nullptr;
 };
 
@@ -121,7 +122,7 @@ struct LinesAhead {
 };
 
 // Leaves of one cluster, which are filtered together. The filter lists nodes with groups, and computes the distances of the whole
-// list. If the nodes or pairs do not fit into the list or the caller's arrays, the filter continues in another call.
+// list. If the list or the caller's arrays are full, the filter continues in the next call.
 constexpr int32_t most_listed = 2 * nodes_per_cluster;
 struct ClusterTask {
   int32_t n_leaves;
@@ -141,7 +142,7 @@ struct ClusterTask {
   FilterLimits limits[leaves_per_cluster];  // the limits of each leaf, by its position
   alignas(64) float xyz[3][nodes_per_cluster];
   float best[nodes_per_cluster];         // the least of reach_sq and of all computed squares of distances
-  float limit[nodes_per_cluster];        // groups up to the root of this number are near; -1 if no group is near
+  float limit[nodes_per_cluster];        // a group is near up to the root of this number; -1: no group is near
   float first_group[nodes_per_cluster];  // the group that the node was compared with first
 };
 
@@ -201,13 +202,13 @@ struct FilterKernels {
   // For each candidate group, writes a bit for each box within the group's reach. Returns false if no box is within any reach.
   bool (*near_boxes)(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
                      uint16_t *near);
-  // Each group also has a box along its own axes. Clears the bits of boxes beyond the reach of this box. If only one side of the
-  // surface counts, also clears all bits of a box that all groups leave out. Returns false if no box is left. `near` comes from
-  // near_boxes, so lanes without a box have no bits.
+  // Clears the bits of boxes that are out of reach of the group's box along its own axes. If only one side of the surface counts,
+  // a box that all groups leave out loses all its bits. Returns false if no bit is left. `near` comes from near_boxes, so lanes
+  // without a box have no bits.
   bool (*near_own_boxes)(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
                          uint16_t *near);
-  // Copies, without gaps, those of n numbers whose entry in `marks` has the given bit. Returns the number of copied numbers. `to`
-  // must have room for n numbers.
+  // From n numbers, copies those whose entry in `marks` has the given bit, without gaps. Returns the number of copied numbers.
+  // `to` must have room for n numbers.
   int32_t (*select)(const int32_t *numbers, const uint16_t *marks, int32_t n, int32_t bit, int32_t *to);
   // Finds, for each of 16 boxes, the candidate group whose corner is nearest to the middle of the box. Writes the group's
   // position among the candidates. The number n_candidates is above 0.
@@ -220,7 +221,7 @@ struct FilterKernels {
   void (*begin_cluster)(const FilterTask &task, ClusterTask &cluster);
   // Compares the nodes with the triangles of groups that may be near. Writes at most `room` pairs of a node and a triangle, and
   // returns their number. The pairs include the closest triangles of every node within the limit. Each call continues where the
-  // previous call stopped, until is_done is true. For progress, a call needs room for triangles_per_group pairs.
+  // previous call stopped, until is_done is true. `room` must be at least triangles_per_group, or no call would make progress.
   int32_t (*filter_cluster)(const FilterTask &task, ClusterTask &cluster, const PairArrays &pairs, int32_t room);
   // Computes the squares of the distances of a point to the triangles of a group, in single precision. The point is in the
   // surface's frame.

@@ -1,8 +1,7 @@
-// SPDX-License-Identifier: Apache-2.0
-// This file computes with sixteen floats or eight doubles at once. The code uses the registers of the instruction set for which
-// the including file is compiled. Everything has internal linkage. Files for different instruction sets must not share a
-// function, because the linker could take the function from the wrong file. This file also includes no header whose inline
-// functions the compiler may emit as separate functions.
+// SPDX-License-Identifier: Apache-2.0 This file computes with sixteen floats or eight doubles at once. The code uses the
+// registers of the instruction set for which the including file is compiled. Everything has internal linkage. Files for different
+// instruction sets must not share a function, because the linker could take the function from the wrong file. For the same
+// reason, this file includes no header with inline functions that the compiler may emit as separate functions.
 #pragma once
 
 // RIIS_PORTABLE_LANES selects the code for processors without SSE2 or NEON. Tests also run this code on processors with SSE2 or
@@ -168,8 +167,8 @@ struct Lanes {
     for (int i = 0; i < n_registers; ++i) lanes.part[i] = x - Register{};
     return lanes;
   }
-  // load and store need memory aligned to 64 bytes. Both functions move each register as a whole. GCC would copy larger objects
-  // in parts of another size. A register that is read from two of these parts has to wait until both parts are written.
+  // load and store need memory aligned to 64 bytes. Both functions move one register at a time. GCC would copy a whole object in
+  // parts of another size. Reading a register that spans two parts has to wait until both parts are written.
   static RIIS_INLINE Lanes load(const Scalar *from) {
     Lanes lanes;
     for (int i = 0; i < n_registers; ++i) lanes.part[i] = reinterpret_cast<const InMemory *>(from)[i];
@@ -265,9 +264,8 @@ RIIS_INLINE Row high_halves(Row a, Row b) { return _mm256_permute2f128_pd(a, b, 
 template <int n, class Address>
 RIIS_INLINE void gather_points(const Address &address, Doubles (&xyz)[n][3]) {
 #if defined(__AVX2__)
-  // A load takes four numbers: the three numbers of a point and the next number. The array ends after the last point, so the last
-  // load begins with the number before that point. The first point of the array has no number before it, so a mask leaves out the
-  // fourth number of its load.
+  // A load takes four numbers, but a point has three. The fourth number is the one after the point, or, for the last point, the
+  // one before it. A single point has neither, so a mask leaves the fourth number out.
   constexpr int last = n - 1;
   const auto load = [](const double *from, int k) __attribute__((always_inline)) {
     if constexpr (n == 1) return _mm256_maskload_pd(from, _mm256_setr_epi64x(-1, -1, -1, 0));
@@ -448,7 +446,8 @@ RIIS_INLINE uint32_t lanes_with_bit(const uint16_t *from, int32_t bit) {
 }
 
 #if defined(__AVX2__) && !defined(__AVX512F__)
-// For each set of lanes among eight lanes, the numbers of the lanes in the set, in ascending order. Unused entries are 0.
+// A table of all sets of eight lanes. Each row lists the numbers of the lanes in one set, in ascending order. Unused entries are
+// 0.
 struct LanesOfSets {
   alignas(64) uint8_t lane[256][8] = {};
   constexpr LanesOfSets() {

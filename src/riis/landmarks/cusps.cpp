@@ -18,7 +18,7 @@ namespace {
 
 // The limit of 900 leaves room for other landmarks, because a warp has at most 1000 landmarks.
 constexpr std::size_t most_along_attachment = 900;
-// Three cusps have the order of leaflet ids, which is counter-clockwise about the valve's axis z.
+// The names of three cusps are in the order of the leaflet ids, counter-clockwise about the valve's axis z.
 constexpr std::size_t n_of_three = 3;
 const char *const names_of_three[n_of_three] = {"right", "left", "non_coronary"};
 
@@ -27,7 +27,7 @@ struct CuspsOnCircles {
   const char *kind;
   std::size_t n_cusps;
   const char *radius, *commissure_radius, *height;
-  bool has_sectors;  // cusps have sectors of their own, and commissures have heights
+  bool has_sectors;  // each cusp has its own sector, and each commissure its own height
 };
 constexpr CuspsOnCircles cusps_on_circles[] = {
     {"trileaflet", 3, "root_radius", "leaflet_radius_out", "leaflet_height", false},
@@ -252,8 +252,9 @@ class CircleSizes {
     for (double &sector : own_) sector *= 360 / sum;
   }
 
-  // If the caller holds all sectors, they stay as in the template. If the caller holds some sectors, the other sectors take part
-  // in the fit. If the caller holds no sector, the landmarks decide.
+  // Returns whether models fit the sectors. If the caller holds all sectors, they stay as in the template. If the caller holds
+  // only some, the other sectors are fitted. If the caller holds none, there is a model for each choice, and the landmarks
+  // decide.
   std::vector<bool> fits_sectors() const {
     if (!has_sectors()) return {false};
     const std::size_t n_held = count_held([](std::size_t cusp) { return of_cusp(cusp, "sector"); });
@@ -361,7 +362,7 @@ void set_proportion(const Valve &own, Valve &valve, const std::string &name, dou
   valve.set(name, 1, std::array{value_of(own, name) / own_measure * measure}.data());
 }
 
-// Sizes that follow from other sizes by a rule of the valve keep that rule.
+// Sets the sizes that follow from other sizes, in the template's proportions.
 void finish_trileaflet(const Valve &own, Valve &valve) {
   const auto middle_radius = [](const Valve &of) {
     return 0.5 * (value_of(of, "root_radius") + value_of(of, "leaflet_radius_out"));
@@ -390,7 +391,7 @@ void finish_aortic(const Valve &own, Valve &valve) {
     set_proportion(own, valve, of + "bending_radius_out", middle_radius(own), middle_radius(valve));
     valve.set(of + "rotation", 3, std::array{0.0, 0.0, turns[cusp]}.data());
     valve.set(of + "translation", 3, shift.data());
-    // Lowers the power if the free edge would otherwise bulge into the next cusp, beyond the plane of the commissure.
+    // Lowers the power until the free edge does not bulge into the next cusp, beyond the plane of the commissure.
     const double x = value_of(valve, of + "leaflet_radius_out") * sine_cosine_degrees(angle).cosine;
     const double radius_in = value_of(valve, of + "leaflet_radius_in");
     if (x > radius_in && value_of(valve, of + "leaflet_power") > x / (x - radius_in))

@@ -13,8 +13,8 @@ namespace riis {
 namespace {
 
 // Landmarks determine a size if its standard error, at the stated noise, moves the valve by at most `determined_share` of the
-// valve's radius. Residuals do not count here. A patient who differs from the model has large residuals, but the best sizes are
-// still well defined.
+// valve's radius. Residuals do not count here. They are large for a patient who differs from the model, although the best sizes
+// are still well defined.
 constexpr double determined_share = 1.0 / 15;
 
 // Additional sizes also lower residuals that are only noise. The sum of squares then decreases by a number with a chi-squared
@@ -199,7 +199,7 @@ LandmarkFit fit(LandmarkModel &model, const Landmarks &landmarks, const std::vec
     problem.has_differences = true;
     std::vector<double> x = problem.start();
     const double cost = problem.minimize(x).cost;
-    // If a later start lowers the sum of squares by less than the noise, it has found the same minimum up to rounding.
+    // A later start that lowers the sum of squares by less than the noise has found the same minimum up to rounding.
     if (!(cost < least - landmarks.noise * landmarks.noise)) continue;
     least = cost;
     best = problem.pose_at(x);
@@ -238,7 +238,8 @@ LandmarkFit fit(LandmarkModel &model, const Landmarks &landmarks, const std::vec
   }
   std::vector<double> r(problem.n_residuals());
   problem.residuals(x, r);
-  // Exact landmarks show less noise than was stated. With less noise, the expected values have less weight.
+  // Exact landmarks show less noise than the caller stated. The fit is then repeated with less noise, which gives the expected
+  // values less weight.
   for (int i = 0; i < 12 && minimum.converged && model.n_equations() > n; ++i) {
     std::vector<double> unused(n_landmarks), before = x;
     const double seen = std::sqrt(sum_of_squares(problem, unused) / static_cast<double>(model.n_equations() - n));

@@ -139,8 +139,8 @@ struct LandmarkFit {
 // Fits the model's sizes and the pose. Begins with the model's sizes and each of the poses in turn, and keeps the best result.
 LandmarkFit fit(LandmarkModel &model, const Landmarks &landmarks, const std::vector<Pose> &starts);
 
-// Returns whether the general model fits the landmarks better than the simple model only by chance. The sizes of the simple model
-// are among the sizes of the general model.
+// Returns whether the simple model is as good as the general one, which then fits the landmarks better only by chance. The sizes
+// of the simple model are among the sizes of the general model.
 bool is_as_good(const LandmarkFit &simple, const LandmarkFit &general, const LandmarkModel &general_model,
                 const Landmarks &landmarks);
 
@@ -162,8 +162,8 @@ Vec3 vector_of(const Valve &valve, const char *name);
 using IsHeld = std::function<bool(const std::string &name)>;
 
 struct KindOfLandmarks {
-  // Models in the order of their numbers of sizes. The first model that agrees with the landmarks counts, or the last model if no
-  // model agrees.
+  // The models, from the fewest sizes to the most. The fit takes the first model that agrees with the landmarks. If no model
+  // agrees, it takes the last one.
   std::vector<std::unique_ptr<LandmarkModel>> models;
   std::vector<Pose> starts;
   const char *size_name;  // the parameter that stands for the valve's size

@@ -29,7 +29,7 @@ struct Order {
   std::vector<std::size_t> commissure;  // between a leaflet and the next leaflet
 };
 
-// Refuses ids that no leaflet has, and numbers of ids that do not fit a landmark's role.
+// Refuses ids that no leaflet has, and more or fewer ids than a landmark's role needs.
 void check_leaflet_ids(const Landmarks &landmarks, const LeafletsAround &leaflets);
 
 // Returns whether the names fit the order around the axis, which points along z.

@@ -136,7 +136,7 @@ struct OnAttachment {
 };
 
 // Returns the point of the attachment that the map takes nearest to `wanted`. If the landmark names a cusp, only this cusp
-// counts. Returns nothing for a cusp without an attachment, or without a finite distance.
+// counts. Returns nothing if the cusp has no attachment, or if no distance is finite.
 std::optional<OnAttachment> nearest_on(const Vector<AttachmentPart> &parts, const WarpMap &map, Vec3 wanted,
                                        std::int32_t leaflet_id) {
   double least = std::numeric_limits<double>::infinity(), at = 0;
@@ -165,7 +165,7 @@ std::optional<OnAttachment> nearest_on(const Vector<AttachmentPart> &parts, cons
 // Two landmarks are in one place if their distance is at most `one_place_share` of the valve's radius.
 constexpr double one_place_share = 0.02;
 
-// The landmarks that are left when landmarks in one place are merged, as a warp needs them.
+// The pairs of points that make a warp. Of several landmarks in one place, only the first is kept.
 struct WarpPairs {
   WarpPairs(const Landmarks &landmarks, const std::vector<Vec3> &local, double radius, bool with_attachment,
             const std::vector<Vec3> &places) {
@@ -189,8 +189,8 @@ struct WarpPairs {
   Vector<std::size_t> landmark;  // the numbers of the landmarks
 };
 
-// Slides the places along the attachment, so that the warp that meets all landmarks bends least (F. L. Bookstein 1997).
-// Neighbouring places then keep suitable distances, and the warp has no folds between them.
+// Slides the places along the attachment until the warp through all landmarks bends least (F. L. Bookstein 1997). Neighbouring
+// places then keep suitable distances, and the warp has no folds between them.
 void slide_along_attachment(const Vector<AttachmentPart> &parts, const Landmarks &landmarks,
                             const std::vector<Vec3> &local, double radius, std::vector<Vec3> &places) {
   constexpr int most_slides = 8;
@@ -240,7 +240,7 @@ void slide_along_attachment(const Vector<AttachmentPart> &parts, const Landmarks
   }
 }
 
-// Separates equal places of different landmarks. Equal places occur beside a commissure that differs from the valve's commissure.
+// Separates equal places of different landmarks. Such places occur near a commissure where the patient differs from the valve.
 void separate_places(const Vector<AttachmentPart> &parts, const Landmarks &landmarks,
                      const std::vector<std::size_t> &along, const std::vector<Vec3> &local, double radius,
                      std::vector<Vec3> &places) {

@@ -25,8 +25,8 @@ class KeyTimes {
   // the values of both keys must be equal.
   bool is_closed() const { return is_closed_; }
 
-  // The keys around a time, and how far these keys are apart. The value at the time follows from both. A key is given by its
-  // position in the arrays, so a time one period later has the same keys.
+  // The keys around a time, and the times between these keys. The value at the time follows from them and from the keys' values.
+  // A key is given by its position in the arrays, so a time one period later has the same keys.
   struct KeysAround {
     std::array<std::int64_t, 4> key;  // before the interval, at its two ends, after it
     std::array<double, 3> width;      // the time from each of these keys to the next key; infinite without a next key

@@ -146,8 +146,7 @@ struct AngleState {
 AngleState operator+(AngleState a, AngleState b) { return {a.angle + b.angle, a.rate + b.rate}; }
 AngleState operator*(double s, AngleState a) { return {s * a.angle, s * a.rate}; }
 
-// The law of Korakianitis and Shi. A pressure difference and a flow drive the valve. Pressure difference and flow are linear in
-// time during a step.
+// The law of Korakianitis and Shi. The pressure difference and the flow drive the valve. During a step, both are linear in time.
 class AngleLaw {
  public:
   struct Drive {

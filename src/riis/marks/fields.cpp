@@ -34,9 +34,9 @@ void for_each_array(const FieldSet &fields, const Visit &visit) {
   if (has(field_height) && has(RIIS_FIELD_GRADIENT)) visit(&NodeFields::height_gradient, fields.n_directions);
 }
 
-// The mean of the velocities of the leaflets that are equally near to a node. A leaflet's velocity is the mean over its tied
-// points. The constructor takes the velocity at the closest triangle. After the constructor, the caller adds the tied points of
-// the other leaflets, leaflet by leaflet.
+// The velocity of a node to which several leaflets are equally near: the mean over these leaflets. A leaflet's velocity is the
+// mean over its closest points, the ties. The constructor takes the velocity at the closest triangle. The caller then adds the
+// ties of the other leaflets, leaflet by leaflet.
 class MeanOfLeaflets {
  public:
   MeanOfLeaflets(std::int32_t closest_leaflet, Vec3 velocity) : closest_leaflet_(closest_leaflet) {
@@ -188,8 +188,8 @@ class TriangleFields {
     for (std::int64_t lane = 0; has(RIIS_FIELD_GRADIENT) && lane < n; ++lane)
       for (std::int64_t k = 0; k < n_directions(); ++k) {
         const std::int64_t at = n_directions() * (first + lane) + k;
-        // At an edge or a vertex, the normal is the direction from the closest point to the node, unless rounding decides this
-        // direction.
+        // At an edge or a vertex, the normal is the direction from the closest point to the node. If the two are so close that
+        // rounding decides this direction, the normal of the surface is used.
         const bool has_way = (eight.on.at_border >> lane & 1) != 0 && !is_on_rim[lane] && distance[lane] > least_way_;
         view(made_.height_gradient)[at] = has_way ? (height[lane] > 0 ? 1 : -1) * view(made_.distance_gradient)[at]
                                                   : height_rate(eight, lane, k, is_on_rim[lane] != 0);
@@ -351,8 +351,8 @@ void FieldScratch::prepare(const SearchRequest &request, std::int32_t fields, co
   const auto is_one_leaflet = [&](const Tie &a, const Tie &b) {
     return rule.leaflet_id[a.triangle.triangle] == rule.leaflet_id[b.triangle.triangle];
   };
-  // Keeps the closest triangle of each leaflet. On each other patch of the leaflet, the list also keeps a triangle that ties with
-  // the closest triangle.
+  // Keeps the closest triangle of each leaflet. If other patches of the leaflet have triangles that are equally near, keeps one
+  // on each patch.
   auto closest = ties.begin(), end = ties.begin();
   for (const Tie &tie : ties) {
     const bool is_first = end == ties.begin() || tie.point != closest->point || !is_one_leaflet(*closest, tie);

@@ -67,8 +67,7 @@ struct NodeList {
   }
 };
 
-// Fields. A field is a number or vector at a node's closest point. An example is the velocity, which a solver needs for its
-// force.
+// Fields. A field is a number or vector at a node's closest point, such as the velocity, which a solver needs for its force.
 // Each requested field becomes an array over the nodes within the limit, for the closest triangles that the search found.
 
 // The field NodeFields::height, which every marking with an offset has, and which no caller can request.
@@ -130,9 +129,9 @@ void select_fields(const FieldSet &fields, const NodeList &all, const NodeFields
 // One list has the nodes within the limit. If the limit is wider than the half thickness, the marked nodes have a list of their
 // own.
 
-// A bin is a range of node numbers. The set has a bit for each number of one bin, and contains nodes of this bin. The set gives
-// each node a rank: the number of nodes with lower numbers in the set. A block of bits is 64 words. Only blocks with nodes are
-// written and read.
+// A set of nodes whose numbers lie in one range, a bin. The set has a bit for each number of the bin. The rank of a node is the
+// number of nodes with lower numbers in the set. A stretch of the bits is 64 words. Only stretches with nodes are written and
+// read.
 class NodeRanks {
  public:
   // Makes room for bins of n_numbers. Only this function allocates memory.
@@ -164,7 +163,7 @@ struct OrderScratch {
     std::vector<std::int64_t> end;  // for each bin, the end of its nodes
   };
   std::vector<List> lists;
-  std::int64_t n_lists = 0;      // the number of lists with nodes, which come first
+  std::int64_t n_lists = 0;      // the number of lists that have nodes; these lists come first
   std::vector<Counts> first;     // each bin's first position in each result, then the sizes of both results
   std::vector<NodeRanks> ranks;  // one for each thread
 };
@@ -174,8 +173,8 @@ struct OrderScratch {
 OrderScratch::Counts prepare_order(const Surface &surface, const FoundNodes &found, bool limit_is_wider, int n_threads,
                                    OrderScratch &scratch);
 
-// Fills the lists. Fills `marked` only if the limit is wider than the half thickness. `numbers` is the range of numbers of the
-// found nodes. Call prepare_order with the same arguments before this function.
+// Fills the lists. Fills `marked` only if the limit is wider than the half thickness. `numbers` is the range that contains the
+// numbers of all found nodes. Call prepare_order with the same arguments before this function.
 void put_in_order(const Surface &surface, bool limit_is_wider, const Range &numbers, int n_threads,
                   OrderScratch &scratch, NodeList &within, NodeList &marked);
 

@@ -29,7 +29,7 @@ class Bins {
  private:
   static std::int64_t number(const FoundNode &found) { return static_cast<std::int64_t>(found.node); }
 
-  int shift_ = 12;  // a bin has at least one stretch
+  int shift_ = 12;  // a bin has at least 2^12 numbers: the bits of one stretch
   std::int64_t n_ = 0;
 };
 static_assert(bits_per_word * words_per_stretch == 1 << 12);

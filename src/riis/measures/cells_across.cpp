@@ -52,8 +52,8 @@ EdgeLengths<double> lengths_along(const Adjacency &adjacency, const MeshNodes &n
   return all;
 }
 
-// Visits only rows near the surface. The blocks of rows are those of a mesh of points with the same numbers, so the sums have the
-// same bits.
+// Visits only rows near the surface. The blocks of rows are the same as in a mesh of points with these numbers, so both meshes
+// give the same bits.
 EdgeLengths<double> lengths_along(const GridEdges &edges, const MeshNodes &nodes,
                                   const std::vector<std::int64_t> &marked, int) {
   std::vector<std::int64_t> rows = marked, others;

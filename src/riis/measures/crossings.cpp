@@ -27,15 +27,15 @@ struct CommonSegment {
 
 // Finds the least overlap of two triangles over the directions that are passed to along(). A face of the Minkowski difference of
 // two triangles either has the normal of one triangle or is spanned by one edge of each triangle. The least overlap over the
-// normals of these faces is the distance from the origin to the boundary of the difference. The distance from the origin to this
-// boundary is the penetration depth.
+// normals of these faces is the distance from the origin to the boundary of the difference. This distance is the penetration
+// depth.
 class Overlap {
  public:
   Overlap(const Triangle &a, const Triangle &b, double limit) : a_(a), b_(b), limit_(limit) {}
 
   double least() const { return least_; }
 
-  // Also takes the overlap along w into account. Returns whether the least overlap is still above the limit.
+  // Includes the overlap along w. Returns whether the least overlap so far is above the limit.
   bool along(Vec3 w) {
     const auto [a_low, a_high] = extent(w, a_);
     const auto [b_low, b_high] = extent(w, b_);
@@ -72,9 +72,8 @@ bool are_parallel(Vec3 w, Vec3 e, Vec3 f) { return dot(w, w) <= 1e-16 * dot(e, e
 // at most `limit`. Triangles that only touch, or that lie in one plane, have depth 0. The error is at most 2^-24 of the longest
 // edge plus 2^-48 of the largest coordinate.
 double penetration_depth(const Triangle &a, const Triangle &b, double limit) {
-  // The function dismisses most pairs of triangles here, because one triangle does not cut the plane of the other. The corners of
-  // each triangle are relative to a corner of the other triangle, so that the plane of the other triangle passes exactly through
-  // the origin.
+  // Most pairs of triangles are dismissed here, because one triangle does not cut the plane of the other. Each triangle's corners
+  // are relative to a corner of the other triangle, whose plane thus passes exactly through the origin.
   const Vec3 normal_a = cross(a[1] - a[0], a[2] - a[0]), normal_b = cross(b[1] - b[0], b[2] - b[0]);
   const Triangle b_from_a = moved(b, a[0]);
   if (!cuts_plane(b_from_a, normal_a, limit) || !cuts_plane(moved(a, b[0]), normal_b, limit)) return 0;
@@ -160,7 +159,7 @@ void for_each_bit(std::uint32_t bits, const Visit &visit) {
 }
 
 // A tree of boxes. The lowest level has the boxes of groups, and each higher level has boxes around several boxes of the level
-// below. The order of groups follows the surface, so these boxes are small.
+// below. Successive groups are neighbours on the surface, so these boxes are small.
 class BoxTree {
  public:
   explicit BoxTree(Vector<Box> groups) {

@@ -187,8 +187,8 @@ double share_until_pieces_meet(const std::vector<PieceVertex> &vertices, double 
   return share;
 }
 
-// Returns, for each vertex, the nearest vertex of another piece. The distance is below a share of the vertex's distance from its
-// centroid. A vertex without such a neighbour has its own number.
+// Returns, for each vertex, the nearest vertex of another piece, or the vertex's own number if no other piece is near. Near means
+// within a share of the vertex's distance from its centroid.
 std::vector<std::size_t> nearest_of_other_pieces(const std::vector<PieceVertex> &vertices, double share) {
   std::vector<std::size_t> nearest;
   for (std::size_t i = 0; i < vertices.size(); ++i) {
@@ -201,9 +201,9 @@ std::vector<std::size_t> nearest_of_other_pieces(const std::vector<PieceVertex> 
   return nearest;
 }
 
-// Leaflets that end short of each other have no common attachment. Returns triangles whose pieces have grown about their
-// centroids until neighbours meet, with one place for vertices that are close to each other. Returns nothing if pieces touch
-// anyway, or if the boundary has too many vertices to compare each with each.
+// Leaflets with gaps between them have no common attachment. Returns triangles whose pieces have grown about their centroids
+// until neighbours meet. Vertices that are then close together get one place. Returns nothing if pieces already touch, or if the
+// boundary has too many vertices to compare all pairs.
 std::optional<TriangleSet> joined_pieces(const TriangleSet &set, const std::vector<OpenEdge> &edges,
                                          const std::vector<std::int64_t> &piece, const LeafletBoundary &boundary) {
   constexpr double most_growth = 0.05, closeness = 1e-3;
@@ -230,7 +230,7 @@ std::optional<TriangleSet> joined_pieces(const TriangleSet &set, const std::vect
   for (std::size_t i = 0; i < vertices.size(); ++i)
     if (const std::size_t other = nearest[i]; nearest[other] == i)
       view(at_place)[view(place)[vertices[i].vertex]] = vertices[std::min(i, other)].at;
-  // Vertices inside a piece grow too, so that a vertex on the edge of a neighbouring triangle stays on this edge.
+  // Vertices inside a piece also move, so that a vertex on the edge of a neighbouring triangle stays on this edge.
   TriangleSet joined = set;
   for (std::int64_t i = 0; i < set.n_vertices(); ++i) {
     const std::int64_t where = view(place)[i], of = view(piece_at)[where];

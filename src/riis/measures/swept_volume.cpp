@@ -86,8 +86,8 @@ void add_swept(const PatchSet &from, const PatchSet &to, const Vector<double> &s
       const PatchImage &image = before.images[i];
       const double volume =
           swept_by_grid(placed(image, points_before), placed(now.images[i], points_now), shares.size());
-      // The triangles of a mirror image are turned over, so their normals also point downstream. The volume that triangles of a
-      // mirror image sweep therefore gets the opposite sign.
+      // In a mirror image, the triangles are turned over so that their normals also point downstream. The volume that they sweep
+      // therefore changes its sign.
       sums[image.leaflet_id] += points_upstream(image) ? -volume : volume;
     }
   }

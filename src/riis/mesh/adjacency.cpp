@@ -48,7 +48,7 @@ class PlainMemory {
 // Makes the rows. An entry says that a node is in an item. The entries of a block of nodes are stored together, node by node.
 // Later the rows of the block overwrite the entries. Lists is a type with these members:
 //   `n_nodes`, `n_items`: the numbers of nodes and items.
-//   `most_neighbors`: the most different nodes that for_each_neighbor visits.
+//   `most_neighbors`: the largest number of different nodes that one call of for_each_neighbor visits.
 //   `for_each_entry(range, visit)`: calls visit(node, entry) for every node of every item in a range.
 //   `for_each_neighbor(entry, node, visit)`: calls visit(other) for the neighbours that an entry gives its node, in any order.
 //   `prefetch(entry)`: requests the memory that for_each_neighbor reads.
@@ -212,7 +212,7 @@ class RowMaker {
   std::vector<PlainMemory> blocks_;  // the blocks hold entries first, and columns later
 };
 
-// For lists within NarrowLimits.
+// Makes the adjacency of lists that are within NarrowLimits.
 template <class Lists>
 OwnAdjacency narrow_adjacency_of_lists(const Lists &lists, int n_threads) {
   OwnAdjacency made;

@@ -39,8 +39,9 @@ Bounds bounds_of(const StridedPoints &nodes) {
   return bounds;
 }
 
-// Asks the system for large pages for the memory of leaves. A search reads leaves in random order, and the processor looks up the
-// page of each leaf. The request concerns only whole large pages within the memory, so the process takes no more memory.
+// Asks the system for large pages for the memory of leaves. A search reads leaves in random order, and with small pages the
+// processor would look up a page for nearly each leaf. Only whole large pages inside the memory are requested, so the process
+// takes no more memory.
 void ask_for_large_pages(void *memory, std::size_t n_bytes) {
 #if defined(MADV_HUGEPAGE)
   constexpr std::uintptr_t size = std::uintptr_t{1} << 21;
@@ -98,7 +99,7 @@ void sort_into_clusters(const StridedPoints &nodes, const Bounds &bounds, int n_
 }
 
 void place_clusters(const StridedPoints &nodes, const Bounds &bounds, int n_threads, Clusters &clusters) {
-  // Each leaf is read and written in place. A node's number is read before it is overwritten.
+  // Each leaf is overwritten in place, but each number in it is read before it is overwritten.
   const Leaf *leaves = clusters.leaves.get();
   const auto place = [&](const Bounds &around) {
     clusters.frame = frame_around(around);

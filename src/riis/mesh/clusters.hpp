@@ -48,7 +48,8 @@ struct Clusters {
 // The limit exists because a leaf stores the numbers of its nodes in 32 bits.
 inline constexpr std::int64_t max_clustered_nodes = INT64_C(0xffffffff);
 
-// The next two functions fail with RIIS_INVALID_MESH for an unusable coordinate. If clusters were never made, n_nodes is 0.
+// The next two functions fail with RIIS_INVALID_MESH for an unusable coordinate. Until clusters are made for the first time,
+// their n_nodes is 0.
 //   `bounds`: the box of the nodes at the time when the caller gave them.
 void sort_into_clusters(const StridedPoints &nodes, const Bounds &bounds, int n_threads, Clusters &clusters);
 // Keeps the order, and updates coordinates and boxes to the nodes' new positions.

@@ -127,7 +127,7 @@ class NodeSorter {
 
  private:
   static constexpr int n_bins = 256, most_parts = 16;
-  // Smaller parts have fewer bins, because clearing and summing many bins would take longer than counting the nodes.
+  // A part of at most this size has fewer bins, because clearing and summing many bins would take longer than counting its nodes.
   static constexpr std::int64_t small_size = 1024;
   static constexpr int n_small_bins = 64, n_small_bins_per_part = 16;
   typedef std::array<Node, n_bins> Counts;
@@ -229,7 +229,7 @@ class NodeSorter {
 
   static std::int64_t n_units(const Part &part, std::int64_t unit) { return (part.size() + unit - 1) / unit; }
 
-  // A part is cut between units of `unit` items, into `n_parts` parts.
+  // How a part is cut: into `n_parts` parts, at multiples of `unit` items.
   struct Cutting {
     std::int64_t unit, n_parts;
   };
@@ -272,7 +272,7 @@ class NodeSorter {
   static NodeBox box_of(const Item *items, const Part &part) {
     typedef float Four __attribute__((vector_size(16)));
     static_assert(sizeof(Item) >= sizeof(Four));
-    // Two separate boxes are faster, because each comparison waits for the previous comparison of the same bounds.
+    // The loop keeps two separate boxes, because each comparison has to wait for the previous comparison of the same bounds.
     Four lower[2], upper[2];
     for (int k = 0; k < 2; ++k) lower[k] = Four{} + NodeBox::inf, upper[k] = Four{} - NodeBox::inf;
     const auto add = [&](const Item *item, int k) {
@@ -374,7 +374,8 @@ class NodeSorter {
   static void sort_whole(const Part &part, const Item *from, Item *to) {
     const NodeBox box = box_of(from, part);
     const int axis = box.longest_axis();
-    // A key holds the position along the axis in its upper bits, and the item's number in its lower bits. So all keys differ.
+    // A key holds the position along the axis in its upper bits, and the item's number in its lower bits, so that all keys
+    // differ.
     constexpr std::int32_t most = (1 << 24) - 1;
     const float per_unit = per_unit_of(static_cast<float>(most), box.upper[axis] - box.lower[axis]);
     static_assert(most < std::numeric_limits<std::int32_t>::max() / keys_at_once);

@@ -83,14 +83,14 @@ struct PatchMaterial {
   SideMaterial v0, v1, u0, u1;
 };
 
-// Returns how the map moves the offsets of a patch of arcs, minus how the offsets of the warped curves move. The polynomial is 0
-// for a patch without a warp.
+// Returns the displacement of the mapped offsets of a patch of arcs, minus the displacement of the warped curves' own offsets.
+// The polynomial is 0 for a patch without a warp.
 Through<Vec3> rest_of_offsets(const MovedPatch &moved, const SideMaterial &base, const SideMaterial &edge);
 
-// The map adds this part to the displacement inside a warped Coons patch. The added part is 0 at the sides. There are four inner
-// points, with u and v of 1/3 or 2/3. The displacement at an inner point is that of the material point which the map moves there.
-// This displacement follows from the mapped points beside the inner points (MappedInside). The excess over the Coons combination
-// of the sides is a polynomial of degree 3 in u and in v.
+// Inside a warped Coons patch, the displacement is the Coons combination of the sides plus this part. The part is 0 at the sides,
+// and is a polynomial of degree 3 in u and in v. Its values at four inner points, with u and v of 1/3 or 2/3, determine it. The
+// displacement at an inner point is that of the material point which the map moves there. It follows from the mapped point beside
+// the inner point (MappedInside).
 class RestInside {
  public:
   RestInside() = default;
@@ -151,8 +151,8 @@ class ImageVelocity {
   ImageVelocity(const PatchImage &now, const PatchImage &before, const Placement &placement_now,
                 const EarlierState &earlier);
 
-  // Returns the mean velocity of a point over the time between the two states. Before the image is placed, the point is at p
-  // now, and was at p - displacement before. If image and placement are at rest, no cancellation occurs.
+  // Returns the mean velocity of a point over the time between the two states. In the patch's own coordinates, the point is now
+  // at p, and was at p - displacement in the earlier state. If image and placement are at rest, no cancellation occurs.
   Vec3 velocity(Vec3 p, Vec3 displacement) const {
     const Vec3 moved = now_.linear * displacement + difference_.linear * (p - displacement) + difference_.offset;
     return {moved.x / seconds_, moved.y / seconds_, moved.z / seconds_};

@@ -22,12 +22,12 @@ constexpr std::int64_t nodes_per_block = 512;  // the search for nearest edges t
 
 // The nodes of a leaflet lie nearly on a line if their root-mean-square distance from the line is less than `least_width` times
 // their root-mean-square distance from their middle. For other nodes, the condition number of the equations for the moment is at
-// most 1 / least_width^2, which is 1e4. If the nodes lie close together, their sums have lost digits. The nodes' root-mean-square
-// distance from the line must therefore also be at least `least_width_in_frame` times the frame's size.
+// most 1 / least_width^2, which is 1e4. Sums over nodes that lie close together lose digits. The nodes' root-mean-square distance
+// from the line must therefore also be at least `least_width_in_frame` times the frame's size.
 constexpr double least_width = 0.01, least_width_in_frame = 0.001;
 
-// The edges that hold a leaflet, and a frame for its nodes: the middle of the edges, and a size. Nodes within the radius are at
-// most this size from the middle. All ranks have the same frame.
+// The edges that hold a leaflet, and a frame for its nodes: the middle of the edges, and a size. No node within the radius of the
+// edges is farther from the middle than this size. All ranks have the same frame.
 struct Hold {
   const NearestEdges *search;
   std::int32_t leaflet;
@@ -109,8 +109,8 @@ void check_width(const Loads &loads, const Hold &hold, double n_nodes, const std
 }
 
 // Returns the field of a leaflet. Among all fields with the leaflet's force and moment, this field has the least sum of |force|^2
-// / w. About the nodes' middle, the equations for force and moment separate. Only a 3 x 3 matrix is left, which is diagonal in
-// the axes of the nodes' covariance.
+// / w. With moments about the nodes' middle, force and moment have separate equations. The equations of the moment have a 3 x 3
+// matrix, which is diagonal in the axes of the nodes' covariance.
 Field field_of(const Loads &loads, const Hold &hold, Vec3 force, Vec3 moment, const double *sums) {
   for (std::int64_t k = 0; k < n_load_sums; ++k)
     if (!(std::abs(sums[k]) <= 1e120))

@@ -41,8 +41,8 @@ class NearestEdges {
   bool has(std::int32_t leaflet_id) const { return tree_of(leaflet_id) != nullptr; }
 
  private:
-  // A box around the edges order_[begin] to order_[end - 1]. If `second` is 0, the box has no parts. In a box with parts, the
-  // next box of boxes_ holds the first half of the edges, and boxes_[second] holds the second half.
+  // A box around the edges order_[begin] to order_[end - 1]. If `second` is 0, the box is not split. Otherwise the next box of
+  // boxes_ holds the first half of the edges, and boxes_[second] holds the second half.
   struct Box {
     Bounds bounds;
     std::int64_t begin, end, second;

@@ -38,7 +38,7 @@ class Minimizer final : public PatchDistance {
     double width, height;  // bounds of |S_u| and |S_v|
   };
 
-  // Replaces `best` if the patch's local minimum is lower.
+  // Replaces `best` if the local minimum on this patch is lower.
   void query(std::int64_t patch, Vec3 p, ClosestOnPatches &best) const;
   double lower_bound(const Bounds &box, Vec3 p) const;
 
@@ -88,8 +88,8 @@ void Minimizer::query(std::int64_t patch, Vec3 p, ClosestOnPatches &best) const 
 }
 
 ClosestOnPatches Minimizer::closest(Vec3 p, double limit) const {
-  // Starts with the patch whose box is nearest. No point of a patch is nearer than the patch's box, so most other patches need no
-  // search.
+  // Starts with the patch whose box is nearest. No point of a patch is nearer than the patch's box, so most of the other patches
+  // are then too far to be searched.
   const auto extents = view(extents_);
   std::int64_t first = 0;
   double nearest = std::numeric_limits<double>::infinity();

@@ -89,8 +89,8 @@ class PatchDistance {
   // Returns false only if the surface certainly has no point within the limit of p.
   virtual bool may_be_within(Vec3 p, double limit) const = 0;
 
-  // Returns true if the method measures the distance to the same set of points for every p. The results for two points then
-  // differ by at most the distance between them.
+  // Returns true if the method measures the distance of every p to one fixed set of points. Two results then differ by at most
+  // the distance between their p.
   virtual bool is_of_fixed_points() const = 0;
 
   virtual const char *name() const = 0;
@@ -136,8 +136,8 @@ SampleCounts samples_within(const QuadGrid &grid, double radius);
 
 class SampleSet final : public PatchDistance {
  public:
-  // Every distance differs from the distance to the smooth surface by at most max_error, in mesh units. The covering radius is
-  // max_error minus the patches' own error. Fails with RIIS_LIMIT_EXCEEDED for more than max_samples.
+  // Makes samples whose distances differ from those to the smooth surface by at most max_error, in mesh units. The covering
+  // radius is therefore max_error minus the patches' own error. Fails with RIIS_LIMIT_EXCEEDED for more than max_samples.
   SampleSet(PlacedPatches patches, double max_error);
 
   ClosestOnPatches closest(Vec3 p, double limit) const override;
@@ -151,8 +151,8 @@ class SampleSet final : public PatchDistance {
  private:
   static constexpr std::int64_t samples_per_leaf = 64;
 
-  // A box around the samples of a leaf, or around two other nodes of the tree. In the array of nodes, the first child follows its
-  // parent.
+  // A box around the samples of a leaf, or around two other nodes of the tree. In the array, the first of these two nodes follows
+  // directly.
   struct Node {
     Bounds box;
     std::int32_t second = -1;  // the position of the second node, or -1 in a leaf

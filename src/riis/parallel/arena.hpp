@@ -1,6 +1,6 @@
-// SPDX-License-Identifier: Apache-2.0
-// Runs work in an arena of the pool, with TBB's limit of threads adjusted for this work. Embree's scenes and concurrent walks run
-// in such an arena. TBB thus runs these tasks on the caller's n_threads threads, and not on all threads of the process.
+// SPDX-License-Identifier: Apache-2.0 Runs work in an arena of the pool, with TBB's limit of threads adjusted for this work.
+// Embree's scenes are built in such an arena, and concurrent walks run in one. TBB thus uses only the caller's n_threads threads
+// for them, and not all threads of the process.
 #pragma once
 
 #if !defined(RIIS_STD_THREADS)
@@ -16,9 +16,9 @@
 
 namespace riis {
 
-// An arena is kept and used again, because TBB frees an arena late. All workers that TBB has called must first come and find no
-// work. On a busy machine the workers come too late for a short walk. New arenas for each walk would therefore make the process
-// grow by some kilobytes in each walk (TBB 2021.8).
+// An arena is kept and used again. TBB frees an arena only when all workers that it has called have come and found no work. On a
+// busy machine, a short walk is over long before they come. With a new arena for each walk, the process would grow by some
+// kilobytes in each walk (TBB 2021.8).
 struct PooledArena {
   explicit PooledArena(int n_slots) : n_threads(n_slots), arena(n_slots, 1) { arena.initialize(); }
 
@@ -28,8 +28,7 @@ struct PooledArena {
 };
 
 // Returns an arena of n_threads threads, which the caller must give back. The arena comes from the pool, or is new if no idle
-// arena has this number of threads. The number of arenas of one size is therefore at most the largest number that was borrowed at
-// the same time.
+// arena has this number of threads. There are therefore never more arenas of one size than were borrowed at one time.
 PooledArena *borrow_arena(int n_threads);
 void give_back(PooledArena *arena) noexcept;
 

@@ -22,10 +22,10 @@
 namespace riis {
 namespace {
 
-// A thread that waits stays awake for a while, because waking it would take some microseconds. At first the worker keeps its
-// processor, so that it can begin at once even if a caller's thread spins there. Later the worker offers the processor to other
-// threads, and finally it sleeps. Under the thread sanitizer threads do not wait awake, because this would fill up its history of
-// accesses.
+// A thread that waits stays awake for a while, because waking it would take some microseconds. At first a waiting worker keeps
+// its processor, so that it can begin at once. It does so even if a spinning thread of the caller wants the processor. Later the
+// worker offers the processor to other threads, and finally it sleeps. Under the thread sanitizer a thread sleeps at once,
+// because waiting awake would fill up the sanitizer's history of accesses.
 using std::chrono::microseconds;
 #if defined(RIIS_STD_THREADS)
 constexpr microseconds longest_awake{0}, longest_alone{0};
@@ -142,8 +142,8 @@ class Team {
   void wait_for_place(std::uint32_t last_loop) {
     const auto has_place = [&] { return State{state_.load()}.has_place_after(last_loop); };
     if (waits_awake_.load(std::memory_order_relaxed) && wait_awake(has_place)) return;
-    // The loop may have begun before the calling thread could know that this worker sleeps. If the calling thread counted this
-    // worker as sleeping, it has also posted for this worker.
+    // A loop may have begun just before this worker was counted as sleeping, and then nobody wakes the worker. If take_asleep
+    // fails here, the calling thread has counted this worker and posts for it.
     n_asleep_.fetch_add(1);
     if (has_place() && take_asleep(1) == 1) return;
     may_start_.wait();
@@ -166,7 +166,7 @@ class Team {
   std::atomic<bool> waits_awake_{false}, caller_sleeps_{false};
   std::atomic<int> n_asleep_{0};  // the workers that sleep and that no post will wake
   // Threads sleep on semaphores, because a condition variable would need a mutex. If the system interrupted a thread that holds
-  // the mutex, the calling thread would also wait.
+  // the mutex, the calling thread would have to wait for it.
   Semaphore may_start_, may_end_;
   int n_workers_ = 0, n_processors_ = 1;
 };

@@ -20,10 +20,10 @@ int run_by_team(int n_threads, void (*work)(void *context, int thread), void *co
 // caller's own loops. However, a loop of OpenMP waits for all its threads, even if another process keeps one of the processors
 // for long. After a long wait, teams run the loops for some time. If OpenMP then runs only a few loops before the next long wait,
 // the machine is busy, and teams run the loops for twice the time. A team also waits if another process interrupts its thread
-// inside a block. The calling thread therefore begins a team's loop alone. It calls the team only after it has worked for as long
-// as recent loops lost by calling their teams. There are two alternatives: the calling thread alone, or the team from the
-// beginning. If this team loses no more time than recent teams, the loop takes at most twice as long as with either alternative.
-// All times are in nanoseconds.
+// inside a block. The calling thread therefore begins a team's loop alone. It calls the team only after it has worked for some
+// time: the mean time that recent loops lost by calling their teams. Suppose that the team of this loop loses no more than this
+// mean time. Then the loop takes at most twice as long as on the calling thread alone, or as on a team from the beginning. All
+// times are in nanoseconds.
 class LoopChoice {
  public:
   static constexpr std::int64_t long_wait = 2'000'000, first_pause = 250'000'000, longest_pause = 2'000'000'000;
@@ -58,7 +58,7 @@ class LoopChoice {
     return mean < least_loss ? 0 : static_cast<std::int64_t>(mean);
   }
   // Records a loop that called a team and ended now. `lost` is the time that the calling thread waited at the end, minus the time
-  // that the other threads' work would have taken it.
+  // that it would have needed for the other threads' work.
   void record_team(std::int64_t lost, std::int64_t now) noexcept {
     const double before = mean_loss(now), more = static_cast<double>(std::max<std::int64_t>(lost, 0)) - before;
     mean_loss_.store(before + more / loops_in_mean, std::memory_order_relaxed);

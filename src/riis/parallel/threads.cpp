@@ -18,8 +18,8 @@ void begin_child() {
 }
 
 // Keeps the library's code in memory once threads may run it, even if a plug-in that uses riis is closed. On Linux the linker's
-// option -z nodelete does that (cmake/RiisPlatform.cmake). Darwin's linker has no option like -z nodelete. `address` is that of
-// some code or data of the library.
+// option -z nodelete does that (cmake/RiisPlatform.cmake). Darwin's linker has no such option. `address` is the address of any
+// code or data of the library.
 void stay_loaded([[maybe_unused]] const void *address) noexcept {
 #if defined(__APPLE__)
   // The library's file is opened a second time and never closed, so the loader keeps it. A program that contains a static riis

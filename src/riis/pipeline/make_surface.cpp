@@ -37,8 +37,8 @@ double largest_difference(double triangle_error, const PatchDistance &distance) 
   return (triangle_error + distance.patches().largest_error()) * (1 + 1e-6);
 }
 
-// With an offset, the normals of neighbouring triangles must agree. The check makes the normals, which every marking with an
-// offset needs.
+// With an offset, the normals of neighbouring triangles must agree. The check computes the normals, but every marking with an
+// offset needs them anyway.
 void check_normals_agree(const Surface &surface) {
   if (!surface.band().steps_aside()) return;
   const std::array<std::int64_t, 2> triangles = surface.pseudonormals().disagreeing();
@@ -130,8 +130,8 @@ namespace {
 // The lines are chosen for `n_openings` openings, evenly spaced from 0 to 1.
 constexpr int n_openings = 33;
 // The chosen lines are then tested at `n_between` further openings between every two neighbouring openings. If the lines are too
-// coarse at some of these openings, the lines are chosen again, for these openings as well. The test is repeated at most
-// `n_trials` times.
+// coarse at some of the further openings, the lines are chosen again for all openings, these included. The test is repeated at
+// most `n_trials` times.
 constexpr int n_between = 7, n_trials = 4;
 // A limit on the number of patches, because the choice keeps the patches of all these openings in memory.
 constexpr std::size_t max_patches = 10'000;

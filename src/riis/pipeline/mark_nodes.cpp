@@ -12,8 +12,7 @@
 namespace riis {
 namespace {
 
-// Returns whether clusters are faster. For a limit that leaves out most nodes, clusters pay off only from the second marking of a
-// mesh on.
+// Returns whether clusters are faster. If the limit leaves out most nodes, clusters pay off only from a mesh's second marking on.
 bool do_clusters_pay_off(const SearchRequest &request, bool is_first) {
   if (request.surface.other_distance()) return false;
   if (request.mesh.nodes().grid) return true;
@@ -148,8 +147,8 @@ void take_marked(const Band &band, const FieldSet &fields, const ListedNodes &fr
   to.fields.resize(fields, n);
 }
 
-// Gives both lists room for their new entries. If one list lacks room, both lists are replaced by new lists, after all memory for
-// the new lists was reserved.
+// Gives both lists room for their new entries. If either list lacks room, two new lists replace both lists, once all memory for
+// the new lists is reserved.
 void make_room(const WantedData &data, const OrderScratch::Counts &n, Marks &marks) {
   if (!marks.within.has_room(data, n.n_within) || !marks.marked.has_room(data, n.n_marked)) {
     ListedNodes within, marked;

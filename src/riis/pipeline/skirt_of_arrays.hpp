@@ -10,8 +10,8 @@
 
 namespace riis {
 
-// Finds the edges of the attachment, with the vertices of the arrays. Does nothing if there are no skirt and no attached
-// vertices. If the same faces get other vertices later, the attachment keeps these edges. Fails with RIIS_INVALID_SURFACE if the
+// Finds the edges of the attachment, with the vertices of the arrays. Does nothing if the arrays have neither a skirt nor
+// attached vertices. The edges stay the same when the vertices of the faces move later. Fails with RIIS_INVALID_SURFACE if the
 // faces do not determine the edges.
 void find_attachment(UserFaces &faces, const riis_surface_arrays &arrays);
 

@@ -166,8 +166,7 @@ void CrossingWatch::look(const Valve &valve, const Surface &surface, int n_threa
   try {
     shape.is_said = say(valve, surface, n_threads);
   } catch (...) {
-    // The search ran out of memory. A lack of memory is no failure here, because the caller did not request the search and the
-    // surface is good.
+    // The search ran out of memory. This is no failure, because the caller did not request the search, and the surface is good.
   }
 }
 

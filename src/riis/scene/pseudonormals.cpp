@@ -36,8 +36,8 @@ std::array<double, 3> angles_of(const TriangleMeasures &measures, int lane) {
 // sum.
 bool has_direction(Vec3 sum) { return dot(sum, sum) > 1e-18; }
 
-// Sorts edges by their second ends. Most lists are short and already in the order of their slots. Edges with equal ends keep that
-// order. The standard library's stable sort would allocate memory.
+// Sorts edges by their second ends. Most lists are short and already in the order of their slots. Edges with equal ends keep this
+// order. The sort is written out here, because the standard library's stable sort would allocate memory.
 template <class Edge>
 void sort_few(Edge *begin, Edge *end) {
   constexpr std::ptrdiff_t few = 32;
@@ -159,7 +159,7 @@ void Pseudonormals::note_rim(std::int64_t slot) {
   view(edge_is_rim_)[slot] = view(corner_is_rim_)[lower] = view(corner_is_rim_)[upper] = 1;
 }
 
-// Records two triangles whose edges with the same ends run in the same direction.
+// Records two triangles if both have the same edge in the same direction.
 void Pseudonormals::note_directions(std::int64_t slot, std::int64_t other) {
   if (disagreeing_[0] >= 0 || view(position_)[slot] != view(position_)[other]) return;
   disagreeing_ = {slot / 3, other / 3};

@@ -10,7 +10,7 @@
 namespace riis {
 namespace {
 
-// Sums a number of each triangle in blocks, which loses fewer digits to rounding.
+// Sums one number of each triangle. Sums in blocks lose fewer digits to rounding.
 template <class OfTriangle>
 double sum_over_triangles(std::int64_t n, const OfTriangle &of_triangle) {
   constexpr std::int64_t triangles_per_block = 4096;

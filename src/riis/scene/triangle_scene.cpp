@@ -53,8 +53,8 @@ std::shared_ptr<std::remove_pointer_t<RTCDevice>> shared_device() {
   return device;
 }
 
-// For points more than `far_away` half extents from the centre, single precision cannot separate triangles. All triangles are
-// then queried.
+// A point more than `far_away` half extents from the centre is compared with all triangles, because single precision cannot
+// separate triangles there.
 constexpr double far_away = 1e6;
 
 // Returns the radius, in the frame's units, that makes Embree visit every triangle whose computed distance from q is at most
@@ -118,7 +118,8 @@ __attribute__((noinline)) bool query_triangle(Query &query, std::int64_t triangl
   return true;
 }
 
-// Queries a triangle in a callback from Embree. No exception may pass through Embree. Only the lists of ties need memory.
+// Queries a triangle in a callback from Embree. No exception may pass through Embree. Only a lack of memory for the lists of ties
+// can throw one.
 template <bool keeps_ties>
 bool query_in_embree(Query &query, std::int64_t triangle) {
   if constexpr (keeps_ties) {
@@ -275,15 +276,15 @@ ClosestTriangle TriangleScene::find_closest(Vec3 p, double limit, InstructionSet
   Query query{&in, &kernels(instructions), p, q, largest, {infinity, -1}, ties, false};
   if constexpr (keeps_ties) ties->candidates.clear();
   if (!(largest <= far_away)) {
-    // In the frame's units, the coordinates of such a far point may overflow. The distance of a far point from the surface
-    // exceeds the surface's size, so most limits end the query here.
+    // In the frame's units, the coordinates of such a far point may overflow. Its distance exceeds the surface's size, so with
+    // most limits the query ends here.
     if (!may_be_within(p, limit)) return {infinity, -1};
     const std::int64_t n = view(in.groups.corners).size() / 9;
     for (std::int64_t i = 0; i < n; ++i) query_triangle<keeps_ties>(query, i);
   } else {
     double reach = limit;
     if (!(reach * frame.scale < 4 * far_away)) {
-      // If a limit is far beyond the surface's size, it would exclude nothing, so the distance of the first triangle replaces it.
+      // A limit far beyond the surface's size would exclude nothing, so the distance of the first triangle replaces it.
       query_triangle<keeps_ties>(query, 0);
       reach = std::sqrt(query.best.distance_sq);
     }

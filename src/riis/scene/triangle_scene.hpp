@@ -45,21 +45,21 @@ struct Tie {
   ClosestTriangle triangle;
 };
 
-// The ties that one thread finds during a search. The ties contain the closest triangle of each tied patch, and perhaps farther
-// triangles.
+// The ties that one thread finds during a search. For each tied patch, they contain its closest triangle, and perhaps farther
+// triangles of the patch.
 struct Ties {
   TieRule rule;
   std::vector<Tie> candidates;  // ties of points that may still get nearer triangles
   std::vector<Tie> found;       // ties of nodes
 
   // Compares two triangles of a point, of which `closest` is the nearest so far. If `other` may be a tie, keeps it as a
-  // candidate. A triangle on the patch of `closest` is not needed: either this patch stays the nearest, or `closest` itself
-  // becomes a candidate.
+  // candidate. A triangle on the same patch as `closest` is not kept. If this patch does not stay the nearest, `closest` itself
+  // becomes the patch's candidate.
   void compare(std::int64_t point, const ClosestTriangle &closest, const ClosestTriangle &other) {
     if (other.triangle < 0 || !rule.is_tie(closest, other)) return;
     if (!candidates.empty()) {
-      // Triangles around a vertex are often compared one after another. Only the nearest of several candidates on one patch stays
-      // a candidate.
+      // Triangles around a vertex are often compared one after another. Of several candidates on one patch, only the nearest
+      // stays a candidate.
       Tie &last = candidates.back();
       if (last.point == point && rule.are_of_one_patch(last.triangle, other)) {
         if (is_closer(other.distance_sq, other.triangle, last.triangle)) last.triangle = other;
@@ -127,8 +127,8 @@ class TriangleScene {
       for (int i = 0; i < view(in.bounds)[group].n; ++i) visit(view(in.bounds)[group].triangle[i]);
   }
 
-  // Bounds the error of a computed distance that comes from the rounding of the triangles' coordinates. Errors proportional to
-  // the distance and to |p| are not included in this bound.
+  // Bounds one part of a computed distance's error: the part that comes from rounding the triangles' coordinates. The parts that
+  // are proportional to the distance and to |p| are not included.
   double rounding() const { return rounding_; }
 
   struct Implementation;  // public, because Embree's callbacks use this type

@@ -18,9 +18,11 @@
 namespace riis {
 namespace {
 
-// Nodes are ordered by the least half thickness that marks a node. Without an offset, this half thickness is the node's distance.
+// Nodes are ordered by the half thickness from which on each of them is marked. Without an offset, this half thickness is the
+// node's distance.
 
-// Returns the largest half thickness that marks one of the nodes. Refuses nodes in the band.
+// For each of the nodes there is a half thickness from which on it is marked. Returns the largest of them. Refuses nodes in the
+// band.
 double largest_thickness(const SearchRequest &request, const char *name, ArrayView<const std::int64_t> ids) {
   constexpr std::int64_t nodes_per_task = 256, few = 2048;
   const int n_threads = request.n_threads.for_part(ids.size(), few);
@@ -167,15 +169,15 @@ template <class Edges>
 riis_passage find_passage_along(const SearchRequest &request, const Edges &edges, const PassageEnds &ends) {
   const auto start = std::chrono::steady_clock::now();
   const double half_thickness = request.surface.half_thickness(), beyond_all = thickest(request.surface.band());
-  // A path includes its ends. The least half thickness that marks a node of a path is therefore at most the half thickness that
-  // marks either end.
+  // A path includes its ends. The half thickness at which the first node of a path becomes marked is therefore at most the one
+  // that marks either end.
   const double widest =
       std::min(largest_thickness(request, "from", ends.from), largest_thickness(request, "to", ends.to));
   Opening<Edges> opening(request, edges, ends);
   double limit = half_thickness, beyond = -1, growth = 2;
   for (int step = 0; opening.joins_beyond(limit); ++step) {
     beyond = limit;
-    if (step >= 4) growth *= growth;  // if a surface is tiny compared with the mesh, the radius must grow faster
+    if (step >= 4) growth *= growth;  // the radius must grow faster for a surface that is tiny compared with the mesh
     limit = std::min(growth * limit, limit < widest ? widest : beyond_all);
   }
   const Candidate nearest = opening.open_until_joined(beyond);

@@ -19,8 +19,8 @@ namespace {
 // At lengths above `large` in the surface's frame, single precision does not separate triangles.
 constexpr double large = 0x1p20;
 
-// If more than `most_groups` groups are near a leaf, querying each node is faster. Only large leaves near small triangles have so
-// many near groups.
+// If more than `most_groups` groups are near a leaf, querying each node is faster. So many groups are near only if a leaf is
+// large and the triangles near it are small.
 constexpr std::size_t most_groups = 4096;
 
 // Maps the mesh's frame to the surface's frame.
@@ -51,7 +51,7 @@ ClosestTriangle of_rank(Rank rank) {
   std::memcpy(&closest.distance_sq, &square, sizeof square);
   return closest;
 }
-// The processor cannot predict which triangle is closer, so the code has no branch.
+// The code has no branch, because the processor could not predict which triangle is closer.
 ClosestTriangle closer_of(const ClosestTriangle &a, const ClosestTriangle &b) {
   return of_rank(std::min(rank_of(a), rank_of(b)));
 }
@@ -188,11 +188,11 @@ class ClusterSearch {
     n_threads_ = std::max(n_threads_, n_ran);
   }
 
-  // Searches with a limit that excludes few triangles, or none. A point of the surface near each box takes the place of the
-  // limit (docs/theory/clusters.md, "Every distance").
+  // Searches with a limit that excludes few triangles, or none. Instead of the limit, each box has a bound: its distance from a
+  // near point of the surface (docs/theory/clusters.md, "Every distance").
   void search_every_cluster() {
     const auto n = nodes_.n_clusters();
-    // If several threads share the clusters of a region, each thread must compare the region with the groups.
+    // Threads that share the clusters of a region must each compare the region with the groups.
     const std::int64_t per_block = n < 64 * request_.n_threads ? 1 : Clusters::clusters_per_region;
     constexpr std::int64_t few = 4;  // searching this many clusters takes about half a millisecond
     n_threads_ =
@@ -301,8 +301,8 @@ class ClusterSearch {
     const std::int32_t *const near_groups = own.near_groups.data() + first;
     std::uint16_t *const leaf_bits = own.leaf_bits.data() + first;
     const auto n_near = static_cast<std::int32_t>(n);
-    // If groups are smaller than a cluster's leaves, many groups are near the cluster. With many near groups, the boxes along the
-    // groups' own axes exclude few clusters.
+    // Many groups are near a cluster if groups are smaller than its leaves. The boxes along the groups' own axes then exclude few
+    // clusters.
     constexpr std::size_t many = 32;
     if (kernels_.near_boxes(task_, leaves, near_groups, n_near, leaf_bits) &&
         (n > many || kernels_.near_own_boxes(task_, leaves, near_groups, n_near, leaf_bits))) {
@@ -422,7 +422,7 @@ class ClusterSearch {
     return static_cast<double>(least) - 0x1p-20;
   }
 
-  // Returns a point of the surface. The point is near `to` if a triangle of the group is near `to`.
+  // Returns the point of the surface that is closest to `to` on the group's nearest triangle.
   Vec3 point_of_surface(std::int32_t group, Vec3 to) const {
     const float point[3] = {static_cast<float>(to.x), static_cast<float>(to.y), static_cast<float>(to.z)};
     float distance_sq[triangles_per_group];
@@ -640,7 +640,7 @@ class ClusterSearch {
   }
 
   void decide(ClusterScratch::Thread &own, Pairs &pairs) {
-    constexpr std::int32_t at_once = 16;  // between two requests
+    constexpr std::int32_t at_once = 16;  // the number of pairs that are decided between two prefetches
     for (std::int32_t i = 0; i < pairs.n; i += at_once) {
       pairs.ahead.request_one();
       kernels_.decide(std::min(at_once, pairs.n - i), own.pair_nodes.data() + i, own.pair_triangles.data() + i,
@@ -683,7 +683,7 @@ class ClusterSearch {
   const TriangleGroups &groups_;
   const Nodes &nodes_;
   const Placing placing_;
-  const double limit_;  // in the surface's frame; `large` if the limit excludes nothing that single precision separates
+  const double limit_;  // in the surface's frame; `large` if the limit is too large for single precision
   const Kernels &kernels_;
   FoundNodes &found_;
   ClusterScratch &own_;

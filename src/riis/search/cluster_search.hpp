@@ -63,9 +63,8 @@ struct ClusterScratch {
   void prepare(int n_threads, bool needs_room);
 };
 
-// Returns false if single precision cannot separate near from far. Single precision fails if the mesh or its distance from the
-// surface is about a million times the surface's size. Single precision also fails if the mesh is extremely small compared with
-// the surface.
+// Returns false if single precision cannot tell near triangles from far ones. This is so if the mesh or its distance from the
+// surface is about a million times the surface's size. It is also so for an extremely small mesh.
 bool separates_in_single_precision(const NodeSearch &request, const NodeFrame &nodes);
 
 // Returns whether clusters pay off for this number of nodes, if the limit leaves out few nodes. With fewer nodes, comparing all

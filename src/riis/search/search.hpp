@@ -42,7 +42,7 @@ struct FoundNode {
 static_assert(sizeof(FoundNode) == 16);
 
 // Each thread's list gets room for twice the longest list, because the threads' shares differ from step to step. The room is a
-// power of two. A step that finds a few more nodes than all previous steps therefore allocates no memory.
+// power of two. No memory is thus allocated in a step that finds a few more nodes than all previous steps.
 template <class Threads, class ListOf>
 void make_room(Threads &threads, const ListOf &list_of) {
   std::size_t largest = 0, room = 1;
@@ -54,7 +54,7 @@ void make_room(Threads &threads, const ListOf &list_of) {
 
 // One list for each thread. The order within a list has no meaning.
 struct FoundNodes {
-  Range numbers{0, 0};  // the range of the nodes' numbers, which are counted from its beginning
+  Range numbers{0, 0};  // the range of the nodes' numbers; lists count from its beginning
   std::vector<UnfilledVector<FoundNode>> by_thread;
   std::vector<Ties> ties_by_thread;  // stay empty unless the rule requests ties
 
@@ -168,8 +168,8 @@ struct OtherDistances {
   }
 
   // Sampling measures the distance to fixed points, so the distance itself is the bound. Minimisation may end anywhere on S, so
-  // its result at p says nothing about its results at other points. However, each result is the distance to some point of S, so
-  // it is at least the distance to the triangles minus triangle_error.
+  // its result at p bounds no result at another point. However, every result is the distance to some point of S. It is therefore
+  // at least the distance to the triangles minus triangle_error.
   double lower_bound(Vec3 p, double limit) const {
     if (method.is_of_fixed_points()) return std::sqrt(method.closest(p, limit).distance_sq);
     constexpr double far = std::numeric_limits<double>::infinity();

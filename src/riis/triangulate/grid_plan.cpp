@@ -17,7 +17,7 @@
 namespace riis {
 namespace {
 
-// A curve may be halved `max_rounds` times. With more parts, there would be more triangles than the library can hold.
+// A curve may be halved `max_rounds` times. More halvings would make more triangles than the library can hold.
 constexpr int max_rounds = 24;
 
 // The largest number of parts between two lines for the bound on the offset O (geometry/bulge.hpp).
@@ -108,7 +108,8 @@ class PlannedArcs {
     const Vector<Bezier> &on_base = base_.between(i, j), &on_edge = edge_.between(i, j);
     const Curve &base = set_.curve_of(patch_.v0), &edge = set_.curve_of(patch_.v1);
     if (on_base.size() > 1 || on_edge.size() > 1) {
-      // For a range inside which O' may jump, calls Bulge::linear_error, because bound_offset does not take jumps into account.
+      // bound_offset does not allow for jumps of O'. Where O' may jump inside the range, Bulge::linear_error gives the bound
+      // instead.
       const Bulge bulge(along(set_, patch_.v0), along(set_, patch_.v1), patch_.bulge);
       made.off_line = made.largest =
           bulge.linear_error(bulge.place(shares_[i]), bulge.place(shares_[j]), offset_share * max_error_);
@@ -195,7 +196,7 @@ Vector<double> balanced_segments(const Needs &needs, double most) {
   return made;
 }
 
-// Needs are computed on narrow steps, but the error of a wide segment is bounded a little less closely. The lines therefore use
+// Needs are computed on narrow steps, and the bound of a wide segment is a little larger than they say. The lines therefore use
 // up only `most_of_allowed` of the allowed error.
 constexpr double most_of_allowed = 0.9;
 // The number of steps on which needs are computed is `steps_per_segment` times the largest number of segments of a curve. The
@@ -269,9 +270,9 @@ class Planner {
     plan.lines = {lines(patch.v0, patch.v1), lines(patch.u0, patch.u1)};
   }
 
-  // Curves at opposite sides of Coons patches, and at the opposite sides of their neighbours, form a family. If the curves of
-  // a family have the same vertices, the patches have few lines. Each curve runs in the direction of the first curve of its
-  // family, or against it.
+  // The curves at opposite sides of a Coons patch belong to one family, and so do the curves across the patch's neighbours. The
+  // patches have few lines if the curves of a family have the same vertices. Each curve runs in the direction of the first curve
+  // of its family, or against it.
   struct Family {
     Vector<std::size_t> curves;
     Vector<bool> runs_against;
@@ -326,7 +327,7 @@ class Planner {
     return shares;
   }
 
-  // Each curve first gets the lines that its family needs. The function `vertices` adds lines later.
+  // Each curve first gets the lines that its family needs. Later, the function `vertices` adds lines where they are too few.
   void plan_families() {
     first_shares_.assign(set_.curves.size(), {0, 1});
     for (const Family &family : families()) {
@@ -349,7 +350,7 @@ class Planner {
     }
   }
 
-  // Returns how many segments a curve needs at the largest bend that its control points allow.
+  // Returns how many segments a curve needs if it is bent everywhere as much as its control points allow.
   std::size_t rough_number_of_segments(std::size_t curve) const {
     double most = 1;
     for (std::size_t i = 0; i < states_.size(); i += states_per_need) {
@@ -441,8 +442,8 @@ class Planner {
     return first;
   }
 
-  // At every opening, adds lines until base, edge and O are nearly linear between the lines. After that, chooses the smallest
-  // sufficient number of parts for O.
+  // Adds lines until base, edge and O are nearly linear between the lines at every opening. Then chooses, for O, the smallest
+  // number of parts that suffices.
   void plan_arcs(std::size_t patch) {
     PatchPlan &plan = plan_.patches[patch];
     plan.joints = joints(patch);

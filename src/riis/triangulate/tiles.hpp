@@ -35,8 +35,8 @@ struct PatchVertices {
   Vector<Vec3> displacements;  // displacements since an earlier state of the same build; empty without such a state
 };
 
-// The two states of a moving valve, if they are built differently. In these sets each tile has its own patch, with the number of
-// the tile.
+// The two states of a moving valve whose states are built differently. Here each tile has a patch of its own, with the tile's
+// number.
 struct OwnPatches {
   PatchSet now, before;
 };
@@ -102,7 +102,7 @@ void finish(const PatchSet &set, Vector<LevelledGrid> grids, TriangleSet &triang
 [[noreturn]] void fail_for_vanished(const PatchSet &set, std::size_t patch, const char *where);
 
 // Calls attempt(tightness) until it returns no patch with missing triangles. A patch thinner than the tolerance loses its area if
-// both its sides become the same chords. From attempt to attempt, the curves of the returned patches therefore become finer.
+// both its sides become the same chords. Each attempt therefore has finer curves for the patches that the last one returned.
 template <class Attempt>
 void with_finer_curves(const PatchSet &set, const char *where, const Attempt &attempt) {
   constexpr int max_attempts = 12;

@@ -36,15 +36,15 @@ enum OfCusp { sector, own_effective_height, own_coaptation_height, own_open_radi
 constexpr double most_of_edge = 0.998;
 // While the valve opens, the height of the free edge above the root must stay at least `least_height` times root_radius.
 constexpr double least_height = 0.05;
-// Every set of values is checked for folds of the cusps at four openings, because folds arise in the second half of the motion.
+// Every set of values is checked for folds of the cusps at these openings. Folds arise only in the second half of the motion.
 constexpr std::array<double, 4> openings_of_folds{0.6, 0.75, 0.9, 1};
 // At the root, the leaflet must rise by at least `least_rise` times the rise of a leaflet without sag.
 constexpr double least_rise = 0.05;
 // If a cusp rises by less than `usual_rise`, its open edge leaves the commissures at a smaller slope. If the rise is at most
 // usual_rise - rise_until_level, the edge leaves the commissures horizontally.
 constexpr double usual_rise = 0.1, rise_until_level = 0.15;
-// A cusp that would fold gets a smaller slope. The height of its edge above the root must then stay at least
-// `least_height_of_flat` times root_radius. In a lower leaflet, triangles would cross near the attachment.
+// The edge of a cusp that would fold gets a smaller slope at the commissures. The height of its edge above the root must then
+// stay at least `least_height_of_flat` times root_radius. In a lower leaflet, triangles would cross near the attachment.
 constexpr double least_height_of_flat = 0.08;
 // Fused commissures must leave an open orifice of at least `least_orifice` of the area inside the commissures.
 constexpr double least_orifice = 0.06;
@@ -72,7 +72,8 @@ void check_values(const ParameterValues &list);
 template <std::size_t n_cusps>
 PatchSet make_patches(const ValveState &closed, const ValveState &open, double opening);
 
-// Appends a parameter of one cusp or commissure. Until the parameter is set, it has the value of the valve's own parameter.
+// Appends a parameter of one cusp or commissure. Until the caller sets the parameter, it has the value of the parameter that the
+// whole valve has.
 void add_own(Vector<ParameterSpec> &specs, const std::string &owner, const char *name, Parameter of_valve) {
   ParameterSpec own = specs[of_valve];
   own.rule = {of_valve == commissure_height ? "commissure_height" : name, nullptr, of_valve};
@@ -184,7 +185,7 @@ class ValveValues {
   }
   bool has_equal_halves() const { return has_equal_cusps() && !bumps_.any(); }
 
-  // The sizes of cusp k for both of its sides, or for the one side whose images make equal cusps.
+  // Returns the sizes of cusp k, for both of its sides. With has_equal_halves, returns one side, whose images make all cusps.
   CuspSizes sizes(std::size_t k, bool has_equal_halves) const;
 
  private:
@@ -260,7 +261,7 @@ double least_rise_of(const Vector<Vector<HalfCusp>> &halves) {
   return least;
 }
 
-// The least rise at the root, over the openings at which cusps may fold. Openings at which the edge hangs too low do not count.
+// The least rise at the root over the openings at which cusps may fold. It leaves out openings at which the edge hangs too low.
 struct RiseOnWay {
   double least = std::numeric_limits<double>::infinity();
   bool hangs_too_low = false;  // at one of these openings
@@ -285,8 +286,8 @@ struct CuspMotion {
 
 // Returns the states between which a cusp moves. A long open edge hangs deep. If such an edge leaves the commissures steeply, the
 // leaflet folds beside its attachment. The slope at the commissures therefore becomes smaller as the cusp comes nearer to a fold.
-// Three equal cusps keep their usual edge, so their triangles are the same, bit for bit, with and without this rule. Fused cusps
-// also keep this edge, because the patches beside the fused part would become too narrow.
+// Three equal cusps keep their usual edge, so that this rule does not change a bit of their triangles. Fused cusps also keep it,
+// because the patches beside the fused part would become too narrow.
 CuspMotion motion_of(const CuspSizes &closed, CuspSizes open) {
   EndStates usual = end_states(closed, open);
   const bool is_fused =
@@ -334,8 +335,8 @@ void check_cusp(const ValveValues &values, std::size_t k) {
          " long, too short to open so far: look at effective_height, commissure_height, open_radius_ratio, "
          "commissure_expansion");
   if (sizes.keeps_ratio && is_half) {
-    // The middle of the edge is at least as far from a commissure as the symmetry plane is. The middle therefore never hangs
-    // deeper than this value.
+    // The middle of the edge is at least as far from a commissure as the symmetry plane is. The middle is therefore never lower
+    // than this value.
     const double away = sizes.sector.sine * sizes.commissure_radius;
     const double low = values.of_commissure(k, height) - std::sqrt(edge_length * edge_length - away * away);
     if (!(low >= least_height * sizes.root_radius))

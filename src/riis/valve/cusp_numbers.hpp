@@ -59,7 +59,7 @@ struct CuspSizes {
     std::array<LocalOpening, 4> local;  // at the control points of the free edge, from the middle
   };
   Vector<Side> sides;  // the sides y >= 0 and y < 0, or one side for both
-  // In the open free edge, the inner control points beside the commissures hang `open_sag` times as deep as the middle.
+  // How deep the inner control points of the open free edge hang beside the commissures, as a share of the depth of the middle.
   double open_sag = usual_open_sag;
 };
 
@@ -85,7 +85,7 @@ struct HalfNumbers {
   double band_lean;   // in the middle, how much farther from the axis the coaptation line is than the free edge
   double belly_x;     // x of the first inner control point of the symmetry curve
   double belly_rise;  // height of that point, as a share of the height of the coaptation line's middle
-  double band_start;  // height from the second inner control point to the coaptation line, in the same unit
+  double band_start;  // height of the coaptation line above the second inner control point, as the same share
   std::optional<AttachmentArc> attachment_arc = {};
   std::optional<FusedPart> fused = {};
 };
@@ -117,8 +117,8 @@ class EdgeLength {
   double chord_;
 };
 
-// Returns how far the middle of the free edge hangs below the end of the first half. At the returned depth, all halves together
-// have the length that is given for them. The halves must be at least as long as at depth 0.
+// Returns how far the middle of the free edge hangs below the end of the first half. At this depth, all halves together have the
+// length that they are given. The halves must be at least as long as at depth 0.
 double edge_depth(const CuspNumbers &cusp);
 // Returns the length of the free edge whose middle is as high as its lower end.
 double least_edge_length(const CuspNumbers &cusp);

@@ -14,7 +14,7 @@
 namespace riis {
 
 // The places at which landmarks lie on the curves of a valve. A warped curve is cut there, so that it meets the map's landmarks.
-// The places are found at rest, so they do not depend on the warp's targets or on the opening.
+// The places are found on the valve at rest. They therefore depend neither on the warp's targets nor on the opening.
 class LandmarkCuts {
  public:
   // Adds the landmarks of a map that lie on the curves of this state. All states must be built alike.

@@ -20,9 +20,9 @@ namespace {
 constexpr std::size_t n_even_parts = 8;
 // Two ends of cusps that are not joined are neighbours if their distance is at most `most_between_ends` times the longest side.
 constexpr double most_between_ends = 0.5;
-// The line through two neighbouring ends has an angle to the outward direction. If the angle's sine is between these two numbers,
-// the skirts lead along the line. The sine is positive if the ends have passed each other. Outside of this range, the skirts use
-// a sine that decreases to 0.
+// The line through two neighbouring ends makes an angle with the outward direction. The skirts lead along this line if the sine
+// of the angle is between these two numbers. The sine is positive if the ends have passed each other. Outside of this range, the
+// skirts use a sine that decreases to 0.
 constexpr double most_apart_in_line = -0.5, most_past_in_line = 0.98;
 // The sine that is used also falls to 0 if the sine of the line's angle to the axis is below `least_sine_to_axis`.
 constexpr double least_sine_to_axis = 0.2;
@@ -30,10 +30,10 @@ constexpr double least_sine_to_axis = 0.2;
 // does. Beside a flatter side the skirt leans less, and beside a side in the plane across the axis the skirt does not lean.
 constexpr double least_rise = 0.5;
 // In some valves the skirt is not turned at rest, although its rule gives a turn there. If a warp hardly changes this turn, the
-// skirt is turned only by the change. If the warp changes the turn by `most_turn_as_at_rest` or more, the skirt is turned by the
-// whole new turn. In between, the turn passes gradually from one value to the other.
+// skirt is turned only by the change. After a change of `most_turn_as_at_rest` or more, the skirt is turned by the whole new
+// turn. Between these cases, the turn changes gradually.
 constexpr double most_turn_as_at_rest = pi / 4;
-// A disc about the axis has `n_corners` corners when it is warped.
+// The disc about the axis that is warped has `n_corners` corners.
 constexpr int n_corners = 24;
 // To differentiate a turned direction, the difference is taken between two points, `direction_step` times the length on either
 // side.
@@ -69,8 +69,8 @@ Vector<Step> steps_of_attachment(const PatchSet &set, const Vector<HeldSide> &si
     const Vector<Step> of_side = steps_of(along(set, held.side));
     for (const PatchImage &image : set.patches[held.patch].images) {
       const PatchImage turn = turn_of(image);
-      // Triangles are turned over in a mirror image, and in a patch that a warp has made of a mirror image. In a patch made of a
-      // mirror image, the sides run in the opposite direction.
+      // In a mirror image, the sides run around the axis in the opposite direction. This is also so in a patch that a warp has
+      // made from a mirror image.
       const double sign = points_upstream(image) ? -1 : 1;
       for (const Step &step : of_side) steps.push_back({place(image, step.at), sign * place(turn, step.by)});
     }
@@ -165,7 +165,7 @@ class SkirtMaker {
     set_.patches.push_back(std::move(strip));
   }
 
-  // Sews the strips together if their patches are sewn together at the end of their attached sides.
+  // Sews two strips together if their patches are sewn together at the end of the attached sides.
   void sew() {
     const Vector<Seam> seams = set_.seams;
     for (const Seam &seam : seams) {
@@ -276,7 +276,7 @@ struct PlacedEnd {
   Vec3 tangent;
 };
 
-// Returns the line between two axes.
+// Returns the line midway between two axes.
 AxisLine between(const AxisLine &a, const AxisLine &b) {
   if (are_equal(a, b)) return a;
   const Vec3 direction = a.direction + b.direction;
@@ -405,7 +405,7 @@ SkirtDirections::SkirtDirections(const PatchSet &set, const Vector<HeldSide> &si
     End &turned_before = view(ends_[before])[ends.before.is_last ? 1 : 0],
         &turned_after = view(ends_[after])[ends.after.is_last ? 1 : 0];
     if (ends.turns_at_rest) {
-      // Without a warp, the skirt is not turned.
+      // Returns the turn that the warp adds. Without a warp, the skirt is not turned.
       const std::array<double, 2> now = turns_between(axes_[before], at_before, axes_[after], at_after);
       const auto added = [&](std::size_t i) {
         const double rest = view(*ends.turns_at_rest)[i];

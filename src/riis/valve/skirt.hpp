@@ -24,9 +24,9 @@ enum class SkirtAxis : std::uint8_t {
 
 // Gives every attached patch its axis.
 void aim_skirt(PatchSet &set, SkirtAxis axis);
-// Gives every attached patch of a warped valve the line to which the map takes its axis before the warp. `at_rest` has the
-// patches before the warp, with their axes. The identity keeps all axes, and a map without scale turns the axes as a placement
-// does.
+// Gives every attached patch of a warped valve its axis: the line to which the map takes the axis that the patch has at rest.
+// `at_rest` has the patches before the warp, with their axes. The identity keeps all axes, and a map without scale turns the axes
+// as a placement does.
 void aim_warped_skirt(PatchSet &set, const PatchSet &at_rest, const BlendedWarp &warp);
 
 // A side at which a patch is attached. No other patch has the attached side.
@@ -57,8 +57,8 @@ struct SideEnd {
 // direction depends continuously on the points and the tangents.
 Vec3 direction_between(const AxisLine &axis, const SideEnd &before, const SideEnd &after);
 
-// The direction in which a skirt leads away from its attachment. A skirt leads outwards from the axis, except near neighbouring
-// ends.
+// The direction in which a skirt leads away from its attachment. A skirt leads outwards from the axis, except near two ends that
+// are neighbours but not joined.
 class SkirtDirections {
  public:
   SkirtDirections(const PatchSet &set, const Vector<HeldSide> &sides);

@@ -22,8 +22,8 @@ enum Parameter {
 // Half the angle of a cusp in degrees, from its symmetry plane to the end of its free edge.
 constexpr double half_angle = 60;
 
-// The rules for sizes that the caller did not set. If other sizes change while these sizes stay, the cusps cross
-// (docs/theory/trileaflet.md).
+// The rules for sizes that the caller did not set. If a caller changed only other sizes, and these sizes stayed, the cusps would
+// cross (docs/theory/trileaflet.md).
 using Rule = std::array<double, 3>;
 Rule bending_height_rule(const ParameterValues &values) { return {0.5 * values[leaflet_height][0]}; }
 Rule bending_radius_in_rule(const ParameterValues &values) { return {0.32 * values[root_radius][0]}; }
@@ -88,7 +88,7 @@ CuspShape open_shape(const ParameterValues &values) {
   return riis::open_shape(closed_shape(values), {values[open_radius_ratio][0], values[commissure_expansion][0]});
 }
 
-// Checks both states, because one set of values defines both.
+// Checks the closed and the open state, because one set of values defines both.
 void check_values(const ParameterValues &values) {
   const Reference radius{"root_radius", values[root_radius][0]}, height{"leaflet_height", values[leaflet_height][0]};
   const auto check = [&](Parameter parameter, const Reference &reference, double least, double most) {

@@ -77,15 +77,15 @@ struct ValveKind {
   // Makes the patches at an opening from 0, the closed state, to 1, the open state. Both states have been checked. The two states
   // are the same object if the valve was given no open state.
   PatchSet (*make_patches)(const ValveState &closed, const ValveState &open, double opening);
-  // Refuses another state whose curves or patches are not built like the valve's. The message calls the other state by `name`,
-  // such as "the open state". NULL if all states of the kind are built alike.
+  // Refuses another state whose curves or patches are not built like the valve's. The message calls this state `name`, such as
+  // "the open state". NULL if all states of the kind are built alike.
   void (*check_states)(const ValveState &valve, const ValveState &other, const char *name);
-  // True if leaflets meet only at common vertices of their triangles, such as at commissures. In valves without this property,
-  // leaflets may touch anywhere. Their triangles may then penetrate each other by as much as the triangles' error.
+  // True if leaflets meet only at common vertices of their triangles, such as at commissures. Otherwise leaflets may touch
+  // anywhere, and their triangles may penetrate each other by as much as the triangles' error.
   bool has_exact_contacts = false;
   // True if the orifice is seen along the valve's z axis. Otherwise the orifice is seen along the vector area of the edges that
-  // are farthest from its middle. If cusps differ and their open edges reach beyond the attachment, the vector area would be
-  // oblique.
+  // are farthest from its middle. This vector area would be oblique in valves whose cusps differ and whose open edges reach
+  // beyond the attachment.
   bool is_seen_along_z = false;
   // The leaflet_id of a wall that hinges reach into, or -1.
   std::int32_t housing = -1;
@@ -155,7 +155,7 @@ class Valve {
   // Returns whether make_patches adds a skirt.
   bool has_skirt() const { return kind_->skirt_axis != SkirtAxis::none && state_.values[kind_->skirt_length][0] != 0; }
   // Replaces the skirt by a skirt with these lengths (valve/skirt.hpp). The parameter "skirt_length" becomes the largest of these
-  // lengths. If "skirt_length" is set later, the skirt loses these lengths.
+  // lengths. Setting "skirt_length" later removes these lengths.
   void set_skirt_lengths(SkirtLengths lengths);
 
   // Compares this valve with another valve. Fails if they differ in anything except the opening and the values of a warp. The
@@ -164,8 +164,8 @@ class Valve {
 
   // Returns whether all parameters except the opening have the kind's defaults.
   bool has_default_shape() const;
-  // Returns a digest of the shape without the opening, and of the landmarks of a warp without their targets. It is never 0. Two
-  // different shapes practically never have the same digest.
+  // Returns a digest of the shape and of a warp's landmarks, but not of the opening or the landmarks' targets. The digest is
+  // never 0. Two different shapes practically never have the same digest.
   std::uint64_t shape_digest() const;
 
   // Makes the patches at the current opening.

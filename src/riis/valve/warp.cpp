@@ -148,7 +148,7 @@ WarpLandmarks::WarpLandmarks(const Vector<Vec3> &sources, double noise, const ch
       fail(RIIS_INVALID_ARGUMENT, name, ": landmarks ", std::min(i, nearest), " and ", std::max(i, nearest),
            " are in one place, (", sources_[i].x, ", ", sources_[i].y, ", ", sources_[i].z, ")");
     nearest_to.push_back(nearest);
-    // If two landmarks are each other's nearest landmarks, the place between them is taken only once.
+    // If each of two landmarks is the other's nearest, the place between them is taken only once.
     if (nearest > i || nearest_to[nearest] != i)
       probes_.push_back({0.5 * (sources_[i] + sources_[nearest]), static_cast<std::int64_t>(i)});
   }
@@ -251,7 +251,7 @@ void WarpLandmarks::tridiagonalise(Vector<double> &matrix) {
       norm = orthogonalise(m + k);
     }
     beside_[k] = norm;
-    // At the start, and where an invariant subspace is complete, the method begins again with a unit vector.
+    // The method begins with a unit vector, and begins again with another one whenever an invariant subspace is complete.
     while (!(norm > 1e-13 * largest)) {
       beside_[k] = 0;
       std::fill(next.begin(), next.end(), 0.0);
@@ -314,7 +314,7 @@ Vector<double> WarpLandmarks::bending_matrix() {
   const std::size_t n = size();
   Vector<double> made(n * n, 0.0);
   pivot_.resize(n_free_);
-  // A solution has three components, so it serves three columns.
+  // solve() solves for vectors of three components, so one call gives three columns.
   for (std::size_t first = 0; first < n; first += 3) {
     const auto in_column = [&](std::size_t k, std::size_t j) { return j < n ? basis_[k * n + j] : 0; };
     reduced_.clear();
@@ -337,8 +337,8 @@ void WarpLandmarks::fit(const Vector<Vec3> &targets, WarpMap &map, WarpQuality &
   for (std::size_t i = 0; i < n; ++i) displacement_[i] = (1 / size_) * (targets[i] - sources_[i]);
   std::array<Vec3, 4> terms{};  // the terms of the map's polynomial
   if (is_planar_) {
-    // The map of the direction across the plane follows from the linear map that is nearest to the landmarks in the plane. The
-    // stretch across the plane is the mean stretch of the plane.
+    // Within the plane, the landmarks give a linear map by least squares. It takes the direction across the plane to the normal
+    // of the mapped plane, stretched by the mean stretch within the plane.
     Vec3 slopes[2] = {axis_[0], axis_[1]};
     for (std::size_t k = 0; k < 2; ++k)
       for (std::size_t i = 0; i < n; ++i) slopes[k] = slopes[k] + least_squares_[(k + 1) * n + i] * displacement_[i];

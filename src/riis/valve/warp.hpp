@@ -72,8 +72,8 @@ struct WarpQuality {
   std::int64_t least_landmark;
 };
 
-// Landmarks at rest. The equations of these landmarks are reduced to a tridiagonal matrix once. A map for new targets then takes
-// as many operations as a few products of a matrix and a vector.
+// Landmarks at rest. Their equations are reduced to a tridiagonal matrix once. A map to new targets then takes only as many
+// operations as a few products of a matrix and a vector.
 class WarpLandmarks {
  public:
   // `noise` is the standard deviation of each coordinate of the targets. It is at least 0. Fails with RIIS_INVALID_ARGUMENT for
@@ -109,10 +109,10 @@ class WarpLandmarks {
   std::size_t n_free_ = 0;            // the number of landmarks minus n_terms_
   Vector<Vec3> scaled_;               // (source - centre) / size
   Vector<double> basis_;              // (n_free_, n): U, columns orthogonal to the polynomials
-  Vector<double> least_squares_;      // (n_terms_, n): gives the polynomial nearest to values
-  Vector<double> of_kernel_;          // (n_terms_, n): the same for values of sums of |r|^3, by their weights
+  Vector<double> least_squares_;      // (n_terms_, n): gives the polynomial nearest to values at landmarks
+  Vector<double> of_kernel_;          // (n_terms_, n): the same for a sum of |r|^3, from the sum's weights
   Vector<double> diagonal_, beside_;  // diagonals of the tridiagonal matrix U^T |r|^3 U
-  // The places half way from each landmark to the nearest other landmark. If a map folds between landmarks, it changes most at
+  // The places half way from each landmark to the nearest other landmark. A map that folds between landmarks changes most at
   // these places.
   struct Probe {
     Vec3 place;

@@ -26,9 +26,9 @@ constexpr double least_factor = 0.2, most_factor = 5, most_of_missing = 0.5;
 constexpr std::size_t n_fold_cells = 3;
 // A cell is a sliver if the sine of the angle between its diagonals is below `sliver_sine`. A sliver is hardly wider than a line,
 // so it has no clear normal. Half-open coapting leaflets have slivers beside the attachment. The chords of a curve in a sliver do
-// not show the direction of the surface. In 20,000 states of valves with rough warps, cells with a sine up to 0.067 turned over
-// although no triangle did. In some states triangles turned over, but no wider cell did. Those triangles had at most 0.6 mm^2.
-// One cell of the default valve has the sine 0.041 at the opening 0.9.
+// not show the direction of the surface. Slivers are therefore not checked. In 20,000 states of valves with rough warps, cells
+// with a sine up to 0.067 turned over although no triangle did. Where triangles turned over and no wider cell did, the triangles
+// had at most 0.6 mm^2. One cell of the default valve has the sine 0.041 at the opening 0.9.
 constexpr double sliver_sine = 0.07;
 
 Bezier raised_to_cubic(const Bezier &span) {
@@ -51,8 +51,8 @@ struct EndTangent {
   double factor;  // 1 if the curve itself has a tangent there, else 0
 };
 
-// Returns the direction of a curve at the first of these control points. The direction leads to the first control point that
-// differs from the end.
+// Returns the direction of a curve at the first of these control points. The direction leads from this end to the first control
+// point that differs from it.
 EndTangent end_tangent(const std::array<Vec3, 4> &control, const MapAt &at) {
   const double size =
       distance(control[0], control[1]) + distance(control[1], control[2]) + distance(control[2], control[3]);
@@ -328,7 +328,7 @@ void map_inner_points(const LabelGrid &before, const PatchImage &image, const Bl
     }
 }
 
-// Maps the points of the grid at the patch's sides. Points of the sides that were mapped earlier are given.
+// Maps the points of the grid at the patch's sides. Takes the points that were already mapped with the sides' curves.
 void map_outer_points(const PatchSet &made, const Patch &patch, const LabelGrid &before, const PatchImage &image,
                       const BlendedWarp &warp, bool has_arcs, MappedGrid &mapped) {
   constexpr std::size_t last = n_material - 1, step = last / n_fold_cells;
@@ -342,14 +342,15 @@ void map_outer_points(const PatchSet &made, const Patch &patch, const LabelGrid 
   for (std::size_t j = 1; j < n_fold_cells; ++j)
     for (const bool is_end : {false, true}) {
       const std::size_t i = is_end ? n_fold_cells : 0;
-      // The known points lie at shares of the length of a side, but along an arc v is not the share of the length.
+      // The known points lie at even shares of a side's length. Along an arc, v is not the share of the length, so these points
+      // are mapped anew.
       mapped[j * (n_fold_cells + 1) + i] =
           has_arcs ? warp.value(place(image, before.at(i, j))) : known(is_end ? patch.u1 : patch.u0, step * j);
     }
 }
 
-// Fails if a part of the warped patch is turned over relative to the mapped patch. A cell is not checked if it is a sliver before
-// the warp, after the warp, or with only its corners mapped.
+// Fails if a part of the warped patch is turned over relative to the mapped patch. A cell is not checked if it is a sliver in any
+// of three forms: before the warp, after the warp, or as its mapped corners span it.
 void check_turns(const LabelGrid &before, const PatchImage &image, const LabelGrid &now, const MappedGrid &mapped) {
   const auto at_mapped = [&](std::size_t i, std::size_t j) -> const Vec3 & {
     return mapped[j * (n_fold_cells + 1) + i];
