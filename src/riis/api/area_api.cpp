@@ -130,7 +130,8 @@ class AreaTrials {
       options_.scale = value;
     else
       valve_.set(name_, 1, &value);
-    // A fixed triangulation is made for one shape and one scale, so another value needs a new one.
+    // A fixed triangulation is made for one shape and one scale. Another value of a parameter or of the scale therefore needs a
+    // new triangulation.
     const bool is_planned_anew = options_.triangulation == RIIS_TRIANGULATION_FIXED && !seeks_opening();
     if (!surface_ || is_planned_anew) {
       surface_ = std::make_unique<riis_surface>();

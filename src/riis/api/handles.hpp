@@ -45,8 +45,9 @@ enum class HandleKind : std::uint64_t {
 // other values.
 constexpr bool is_kind(HandleKind kind) noexcept { return static_cast<std::uint64_t>(kind) >> 32 == 0x72696973; }
 
-// The calls that use a handle now. While a call writes a handle, a call of another thread that uses it fails instead of crashing
-// (riis.h, "Threads"). Calls that only read are counted without a lock, so they never wait.
+// The calls that use a handle now. While one thread's call writes a handle, a call of another thread fails if it uses this
+// handle. Without the check, it could crash (riis.h, "Threads"). Calls that only read are counted without a lock, so they never
+// wait.
 class Uses {
  public:
   // Returns false if a call of another thread excludes this call.
@@ -123,8 +124,9 @@ riis_status guarded_with_handles(Body &&body) noexcept {
   });
 }
 
-// Returns the handle, or fails if it is null or of another kind, or if a call of another thread excludes this call. A handle that
-// is not const counts as written. Short calls pass is_counted = false, because many threads at once would wait for the count.
+// Returns the handle. Fails if the handle is null or of another kind, or if a call of another thread excludes this call. A handle
+// that is not const counts as written. Short calls pass is_counted = false, because many threads at once would wait for the
+// count.
 template <class AnyHandle>
 AnyHandle *require_handle(AnyHandle *handle, const char *argument, bool is_counted = true) {
   require(handle, argument);

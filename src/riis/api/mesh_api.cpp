@@ -46,7 +46,7 @@ void copy_nodes(const riis_points *given, riis::Mesh &mesh) {
   });
 }
 
-// Fails with RIIS_INVALID_MESH for the first coordinate of an axis that is not usable or does not ascend.
+// Fails with RIIS_INVALID_MESH at the first coordinate of an axis that is unusable, or that is not above the previous one.
 void check_axis(const char *name, const std::vector<double> &axis) {
   for (std::int64_t i = 0; i < riis::view(axis).size(); ++i) {
     const double x = riis::view(axis)[i];

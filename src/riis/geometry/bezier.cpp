@@ -89,15 +89,15 @@ double length_tolerance(const Bezier &curve) {
     if (i > 0) control_length += distance(curve.control[i - 1], q);
     largest = std::max({largest, std::abs(q.x), std::abs(q.y), std::abs(q.z)});
   }
-  // The second term of the tolerance covers rounding, which matters for a curve that is short compared with its coordinates. The
-  // third term is for a curve so short that the squares of its coordinates underflow. Such a curve is shorter than any triangle's
-  // edge (triangulate/triangle_set.hpp).
+  // The second term of the tolerance covers rounding, which matters if a curve is short but has large coordinates. The third term
+  // is for a curve so short that the squares of its coordinates underflow. Such a curve is shorter than any triangle's edge
+  // (triangulate/triangle_set.hpp).
   return 1e-13 * control_length + 1e-14 * largest + 1e-74;
 }
 
 double length_between(const Speed &speed, double tolerance, double t0, double t1) {
-  // The largest number of halvings is 40. At a cusp (|B'| = 0) each halving only halves the error, so 40 halvings leave an error
-  // of about 1e-12 of the length.
+  // A part is halved at most 40 times. At a cusp (|B'| = 0) each halving only halves the error, so an error of about 1e-12 of the
+  // length remains.
   return adaptive_length(speed, t0, t1, quadrature(speed, t0, t1), tolerance, 40);
 }
 

@@ -21,7 +21,7 @@ Vec3 arc_offset(Vec3 width, Vec3 along, double factor);
 // control points.
 inline Vec3 arc_offset(const Bezier &arc) { return arc.control[1] - 0.5 * (arc.control[0] + arc.control[2]); }
 
-// The parts of both curves on a range of u with the width du, and the lengths of the whole curves.
+// The parts of base and edge on a range of u whose width is du, and the lengths of both whole curves.
 struct ArcRange {
   const Vector<Bezier> &base, &edge;
   double base_length, edge_length;

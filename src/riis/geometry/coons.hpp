@@ -66,8 +66,8 @@ QuadGrid make_quad_grid(const PatchSides &sides, double max_merge_shift, GridLin
 QuadGrid make_quad_grid(const PatchSides &sides, const GridLines &lines);
 
 // A patch of arcs consists of the straight lines from side_v0, the base, to side_v1, the edge, plus 2 v (1-v) O(u)
-// (geometry/bulge.hpp). The grid of such a patch is made in two steps, lines and then rows, because patches that share an arc
-// must have equally many rows.
+// (geometry/bulge.hpp). Patches that share an arc must have equally many rows. The lines of all such patches are therefore made
+// first, and their rows afterwards.
 struct ArcLines {
   Vector<GridLine> u_lines;
   Vector<Vec3> offsets;   // O on each line

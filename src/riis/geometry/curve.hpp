@@ -21,9 +21,8 @@ struct PointOnSpan {
   double t;
 };
 
-// Each span begins at the end of the previous span, and in the direction in which the previous span ends. At a joint, the
-// curvature may therefore jump, but the direction does not. (A curve with corners is stored as several curves, and its patch as
-// several patches.)
+// Each span begins where the previous span ends, and continues in the same direction. At a joint, the curvature may therefore
+// jump, but the direction does not. (A curve with corners is stored as several curves, and its patch as several patches.)
 class Curve {
  public:
   Curve(const Bezier &span);  // NOLINT(google-explicit-constructor): a single span is a curve
@@ -109,14 +108,14 @@ class VelocityBend {
 
 // A polyline whose chords replace a curve.
 struct Flattened {
-  Vector<Vec3> points;    // points of the curve, from its first to its last; only the first if the length is 0
+  Vector<Vec3> points;    // points of the curve, from first to last; only the first for length 0
   Vector<double> t;       // the share of the curve's length at every point, a binary fraction from 0 to 1
   Vector<double> errors;  // for every chord: a bound on its distance from the curve, at equal shares of their lengths
 };
 
-// Halves the curve until two conditions hold for every part. First, its flatness shows that it lies within max_error (> 0) of its
-// chord. The distance of a Bézier span from its chord is at most 3/4 (cubic) or 1/2 (quadratic) of the span's flatness. Second,
-// the part and its chord are at most max_error apart at equal shares of their lengths. With `bend`, a part is also halved if its
+// Halves the curve until two conditions hold for every part. First, the part's flatness shows that the part lies within max_error
+// (> 0) of its chord. A Bézier span is at most 3/4 (cubic) or 1/2 (quadratic) of its flatness away from its chord. Second, the
+// part and its chord are at most max_error apart at equal shares of their lengths. With `bend`, a part is also halved if its
 // velocity is estimated to differ from a linear function by more than max_bend. Parts are halved by length, whereas the paper
 // (algorithm "Recursive de Casteljau subdivision") halves the parameter. The shares of any two curves are therefore binary
 // fractions: they agree to the last bit or differ by at least one part, so no slivers arise. A common point of two parts appears
@@ -171,8 +170,8 @@ struct Polyline {
 Polyline make_polyline(const Vector<Vec3> &points);
 
 // Returns a polyline that replaces a curve. Every segment is within max_error (> 0) of the curve. The t of a vertex is its share
-// of the curve's length, not of the polyline's length as in the paper. The vertex at t is therefore the curve's point at t,
-// whatever the tolerance.
+// of the curve's length, whereas the paper takes the share of the polyline's length. The vertex at t is therefore the curve's
+// point at t, whatever the tolerance.
 Polyline make_polyline(const Curve &curve, double max_error);
 // Makes the polyline of a curve that moves. On each segment, the estimated distance of the velocity from a linear function is at
 // most max_bend. `velocity` has the velocities of the spans' control points.

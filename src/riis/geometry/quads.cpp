@@ -18,7 +18,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // `enough` requires.
 double split_error_at(const Quad &quad, int level, double enough) {
   // Below the level `few`, all parts of the quad are checked, because their number is small. From the level `few` on, the bound
-  // uses only the fact that each level divides the twist by exactly 4.
+  // follows from the twist alone, which each level divides by exactly 4.
   constexpr int few = 5;
   const double at_equal_uv = std::ldexp(quad_flatness(quad), -2 * level);
   if (level >= few || (at_equal_uv <= enough && enough < infinity)) return at_equal_uv;
@@ -51,7 +51,7 @@ Level subdivision_level(const QuadGrid &grid, std::size_t i, std::size_t j, doub
   }
 }
 
-// Returns the quad with both ends of its shortest edge moved to the middle of this edge. No point thus moves by more than half
+// Returns the quad after both ends of its shortest edge have moved to the middle of this edge. No point moves by more than half
 // the edge.
 Quad without_shortest_edge(const Quad &quad, double &shortest) {
   std::array<Vec3, 4> corner{quad.p00, quad.p10, quad.p11, quad.p01};

@@ -21,7 +21,8 @@ struct Spread {
   }
 };
 
-// Takes two points at once. The x and y of each point are in one register, and the two z are in a third register.
+// Takes two points at once. One register has the x and y of the first point, a second has those of the second point, and a third
+// has both z.
 struct PairSpread {
   Spread xy[2], z;
   Two sum{};
@@ -140,7 +141,7 @@ Bounds check_points(const StridedReals<Real> &points, const char *what, riis_sta
   check_pointers(points, what, prefix);
   double sum = 0;
   const Bounds bounds = bounds_of(points, sum);
-  // The sum of usable coordinates is finite, because each of them is at most max_coordinate.
+  // Usable coordinates are at most max_coordinate, so their sum is finite.
   const bool usable = points.n == 0 || (is_usable(bounds.lower) && is_usable(bounds.upper) && std::isfinite(sum));
   if (!usable) refuse_first_unusable(points, what, bad_coordinate);
   return bounds;

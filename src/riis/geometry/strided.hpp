@@ -37,8 +37,7 @@ auto with_points(std::int64_t n, const void *const (&xyz)[3], std::int64_t strid
   return real_bits == 32 ? use(of(0.0f)) : use(of(0.0));
 }
 
-// Distances need fourth powers. With coordinates of at most max_coordinate and edges of at least min_edge, these powers stay
-// within the range of doubles.
+// Distances need fourth powers of coordinates and edges. Within these limits, the powers stay within the range of doubles.
 inline constexpr double max_coordinate = 1e60, min_edge = 1e-60;
 
 // Returns whether a coordinate is finite and not too large. Returns false for NaN.
@@ -47,8 +46,8 @@ inline bool is_usable(Vec3 p) { return is_usable(p.x) && is_usable(p.y) && is_us
 
 // Checks pointers, stride and every coordinate. Returns the box of the points. Fails with RIIS_INVALID_ARGUMENT, or with
 // bad_coordinate for the first unusable coordinate. The message of such a failure names the point by `what` ("node", "point") and
-// its number. `prefix`, such as "points.", precedes the names of arguments in messages. Only the calling thread runs, because
-// more threads would save no time, and the caller may not want them.
+// its number. `prefix`, such as "points.", precedes the names of arguments in messages. Uses only the calling thread: more
+// threads would save no time, and the caller may not want them.
 template <class Real>
 Bounds check_points(const StridedReals<Real> &points, const char *what, riis_status bad_coordinate,
                     const char *prefix = "");

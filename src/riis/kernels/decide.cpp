@@ -69,7 +69,7 @@ RIIS_INLINE Doubles root(Doubles a) {
 }
 
 // Returns 1 / sqrt(a) with an error of a few units in the last place. `a` must be a normal positive number. The last bits depend
-// on the instruction set, so no result for a caller may depend on these bits.
+// on the instruction set. The callers' results must therefore not depend on them.
 RIIS_INLINE Doubles inverse_root(Doubles a) {
 #if defined(__AVX512F__)
   // The estimate has 14 correct bits. Each of two steps of Newton's method doubles this number, and both steps take less time
@@ -221,7 +221,7 @@ void differentiate(const PointsAndTriangles &pairs, const PointsOnTriangles &loc
     (weight * unit.y).store(weighted[k][1]);
     (weight * unit.z).store(weighted[k][2]);
   }
-  // This loop computes one point at a time, because gathering the rates of eight points would take longer.
+  // This loop takes one point at a time, because it would take longer to gather the rates of eight points.
   for (int32_t lane = 0; lane < n_points; ++lane) {
     const int64_t a = 3 * vertex[lane][0], b = 3 * vertex[lane][1], c = 3 * vertex[lane][2];
     const auto part = [&](int k, const double *rate) RIIS_LAMBDA {
@@ -313,7 +313,7 @@ void measure_triangles(const double *vertices, const int64_t *vertex_id, int32_t
 
 void frame_group(const PlainFrame &frame, const double *corners, const int32_t *triangle, int32_t n,
                  GroupCorners &framed) {
-  // Processes only as many triangles at a time as fit in one register, so that their addresses also stay in registers.
+  // Takes only as many triangles at a time as one register holds, so that the triangles' addresses also stay in registers.
   constexpr int at_once = Doubles::per_register;
   const DoubleRegister scale = frame.scale - DoubleRegister{};
   for (int from = 0; from < triangles_per_group; from += at_once) {
@@ -453,8 +453,8 @@ struct Axes {
 };
 
 // Chooses the axes of eight groups: one across a group's triangles, one along its first edge, and one at right angles to both.
-// Any three axes at right angles would be correct, but these axes give a small box. `across` is the sum of the triangles'
-// normals, each as long as twice the triangle's area.
+// Any three axes at right angles would be correct, but these give a small box. `across` is the sum of the triangles' normals.
+// Each normal is as long as twice its triangle's area.
 RIIS_INLINE void choose_axes(Doubles3 across, Doubles3 along, Axes &axes) {
   const Doubles zero = Doubles::all(0), one = Doubles::all(1);
   // Divides by the largest component, so that the squares do not underflow for small triangles.

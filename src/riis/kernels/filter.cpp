@@ -139,7 +139,8 @@ bool near_own_boxes(const FilterTask &task, const Boxes &boxes, const int32_t *c
 }
 
 int32_t select(const int32_t *numbers, const uint16_t *marks, int32_t n, int32_t bit, int32_t *to) {
-  // The loop never writes more numbers than it has read, so a write of a whole register stays within the first n places.
+  // Each step writes a whole register. It stays within the first n places, because the loop never writes more numbers than it has
+  // read.
   int32_t n_selected = 0, k = 0;
   for (; k + 16 <= n; k += 16) {
     const uint32_t lanes = lanes_with_bit(marks + k, bit);

@@ -115,7 +115,7 @@ struct LeafTask {
 };
 
 // Cache lines that the decision will read later. After every few distances, the filter prefetches some of these lines.
-// If all lines were prefetched at once, they would fill the processor's queue, and other loads would wait.
+// Prefetching all lines at once would fill the processor's queue, so that other loads would wait.
 struct LinesAhead {
   int32_t n;
   const char *line[256];
@@ -210,8 +210,8 @@ struct FilterKernels {
   // From n numbers, copies those whose entry in `marks` has the given bit, without gaps. Returns the number of copied numbers.
   // `to` must have room for n numbers.
   int32_t (*select)(const int32_t *numbers, const uint16_t *marks, int32_t n, int32_t bit, int32_t *to);
-  // Finds, for each of 16 boxes, the candidate group whose corner is nearest to the middle of the box. Writes the group's
-  // position among the candidates. The number n_candidates is above 0.
+  // For each of 16 boxes, finds the candidate group whose corner is nearest to the middle of the box. Writes its position among
+  // the candidates. The number n_candidates is above 0.
   void (*nearest_groups)(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
                          int32_t *nearest);
   // For each candidate group, writes a bit for each box in which the group may be nearer than the box's point.
@@ -237,9 +237,9 @@ struct DecisionKernels {
   // are given by the ids of their vertices, and n is above 0.
   void (*take_corners)(const double *vertices, const int64_t *vertex_id, int64_t n, double *corners, double *lower,
                        double *upper);
-  // Checks up to eight triangles, given by the ids of their vertices. Returns false if a triangle may have no area now, or after
-  // its corners have moved by up to an eighth of `shift`. The square of twice the area must exceed 4e-23 (|ab|^2 + |ac|^2)^2 +
-  // shift^2 (|ab|^2 + |ac|^2).
+  // Checks up to eight triangles, given by the ids of their vertices. Returns true if each triangle surely has an area, and still
+  // has one after its corners have moved by up to an eighth of `shift`. The square of twice the area must exceed 4e-23 (|ab|^2 +
+  // |ac|^2)^2 + shift^2 (|ab|^2 + |ac|^2).
   bool (*have_area)(const double *vertices, const int64_t *vertex_id, int32_t n, double shift);
   // Places n points (3, n). The results have the same bits as place(placement, place(image, p)).
   void (*place_points)(const PlacedBy &by, const double *points, int64_t n, double *placed);
@@ -254,8 +254,8 @@ struct DecisionKernels {
   // Makes the frames and the bounds of up to eight groups of triangles from their corners in the surface's frame. Each
   // bounds[k].n must be set.
   void (*make_groups)(const GroupCorners *corners, int32_t n, TriangleGroup *groups, GroupBounds *bounds);
-  // Computes the squares of the distances of n pairs of a point and a triangle, which are given by index. A triangle has 9
-  // doubles. The function may write up to 7 squares more than n.
+  // Computes the square of the distance for each of n pairs of a point and a triangle. Points and triangles are given by index. A
+  // triangle has 9 doubles. The function may write up to 7 squares more than n.
   void (*decide)(int32_t n, const int32_t *point, const int32_t *triangle, const double *points, const double *corners,
                  double *distance_sq);
   // Finds the closest points of the pairs, with the same bits as closest_point_on_triangle.
@@ -265,9 +265,9 @@ struct DecisionKernels {
   void (*mix_at_vertices)(const VertexNumbers *numbers, const int64_t *const *vertex, const PointsOnTriangles &located,
                           VertexNumbers *mixed);
   // Computes how fast the distances of the first n_points points change when the triangles' vertices move. The number n_points is
-  // above 0. The search passes the distances that it has already computed, so that the kernel need not take roots again. `vertex`
-  // has the ids of each pair's three vertices, and rates[i] has the rates of all vertices in direction i. The derivatives of one
-  // point are stored one after another. A derivative at distance 0 is 0.
+  // above 0. The caller passes the distances, which it has already computed, so that the kernel takes no roots. `vertex` has the
+  // ids of each pair's three vertices, and rates[i] has the rates of all vertices in direction i. The derivatives of one point
+  // are stored one after another. A derivative at distance 0 is 0.
   void (*differentiate)(const PointsAndTriangles &pairs, const PointsOnTriangles &located,
                         const double (&distance)[pairs_at_once], const int64_t *const *vertex,
                         const double *const *rates, int64_t n_directions, int32_t n_points, double *derivatives);
@@ -286,7 +286,8 @@ struct Kernels : FilterKernels, DecisionKernels {};
 enum class InstructionSet : int32_t { baseline = 0, avx2 = 1, avx512 = 2 };
 constexpr int n_instruction_sets = 3;
 
-// Returns true if this processor and its operating system have the instruction set, and the library was built with it.
+// Returns whether the instruction set can be used: processor and operating system must have it, and the library must have been
+// built for it.
 bool has(InstructionSet set);
 InstructionSet best_instruction_set();
 const Kernels &kernels(InstructionSet set);

@@ -61,8 +61,8 @@ struct ComparisonOf<DoubleRegister> {
   typedef LongRegister type;
 };
 
-// Returns a < b ? a : b. If `a` is NaN, the result is therefore b. NEON gives another result if only b is NaN, and for two zeros
-// of different signs. No result depends on this difference: if b is NaN, a is also NaN, and nothing reads the sign of a zero.
+// Returns a < b ? a : b. If `a` is NaN, the result is therefore b. NEON gives another result in two cases: only b is NaN, or a
+// and b are zeros of different signs. The first case does not occur, and nothing reads the sign of a zero.
 RIIS_INLINE FloatRegister least(FloatRegister a, FloatRegister b) {
 #if defined(__AVX512F__)
   return (FloatRegister)_mm512_min_ps((__m512)a, (__m512)b);

@@ -22,7 +22,8 @@ constexpr std::size_t most_along_attachment = 900;
 constexpr std::size_t n_of_three = 3;
 const char *const names_of_three[n_of_three] = {"right", "left", "non_coronary"};
 
-// Kinds whose cusps lie on one circle at the root and on one circle at the commissures, with the names of their sizes.
+// Kinds whose cusps all begin on one circle at the root, and whose commissures all lie on another circle. The fields name their
+// sizes.
 struct CuspsOnCircles {
   const char *kind;
   std::size_t n_cusps;
@@ -120,8 +121,8 @@ class CuspModel : public LandmarkModel {
   void add(std::size_t landmark, const std::vector<Vec3> &local, Vec3 place, std::vector<Offset> &out) const {
     out.push_back({landmark, local[landmark] - shift_ - place});
   }
-  // The closed cusps meet at a place x on the x axis. Only in valves with two cusps does x differ from 0. The height of the
-  // meeting point differs so much between people that it says little about the sizes.
+  // The closed cusps meet at a place x on the x axis. Only in valves with two cusps does x differ from 0. The height of this
+  // place says little about the sizes, because it differs much between people.
   void add_coaptation(const std::vector<Vec3> &local, double x, std::vector<Offset> &out) const {
     for (const std::size_t i : coaptation_) {
       const Vec3 p = local[i] - shift_;
@@ -136,8 +137,8 @@ class CuspModel : public LandmarkModel {
   std::vector<std::size_t> coaptation_;
 };
 
-// Returns the directions of the cusps' middles in degrees. From the middle of one cusp to the middle of the next, the direction
-// grows by half the sum of the two sectors.
+// Returns the directions of the cusps' middles in degrees. Between the middles of two successive cusps, the direction grows by
+// half the sum of their sectors.
 std::vector<double> middles_of(const std::vector<double> &sectors) {
   std::vector<double> middles{0};
   for (std::size_t cusp = 1; cusp < sectors.size(); ++cusp)
@@ -357,7 +358,7 @@ class CircleSizes {
   std::vector<double> own_;  // the template's sectors, whose sum is 360 degrees
 };
 
-// Sets a parameter so that its ratio to a measure of the valve equals the ratio in the template, `own`.
+// Sets a parameter in proportion to a measure of the valve. The proportion is that of the template, `own`.
 void set_proportion(const Valve &own, Valve &valve, const std::string &name, double own_measure, double measure) {
   valve.set(name, 1, std::array{value_of(own, name) / own_measure * measure}.data());
 }

@@ -12,14 +12,14 @@
 namespace riis {
 namespace {
 
-// Landmarks determine a size if its standard error, at the stated noise, moves the valve by at most `determined_share` of the
-// valve's radius. Residuals do not count here. They are large for a patient who differs from the model, although the best sizes
-// are still well defined.
+// At the stated noise, a size has a standard error. The landmarks determine the size if this error moves the valve by at most
+// `determined_share` of its radius. Residuals do not count here. They are large for a patient who differs from the model,
+// although the best sizes are still well defined.
 constexpr double determined_share = 1.0 / 15;
 
-// Additional sizes also lower residuals that are only noise. The sum of squares then decreases by a number with a chi-squared
-// distribution, which has one degree of freedom for each additional unknown. The decrease counts if it exceeds the mean of this
-// distribution by `surely_more` standard deviations.
+// More sizes lower the sum of squares even if the residuals are only noise. This decrease has a chi-squared distribution with one
+// degree of freedom for each additional size. A decrease counts if it exceeds the distribution's mean by `surely_more` standard
+// deviations.
 constexpr double surely_more = 3;
 // Residuals below `exact_share` of the stated noise show that the landmarks have no noise.
 constexpr double exact_share = 0.01;
@@ -209,7 +209,7 @@ LandmarkFit fit(LandmarkModel &model, const Landmarks &landmarks, const std::vec
   }
   model.sizes = best_sizes;
 
-  // In the second fit, only sizes that the landmarks do not determine are drawn to their expected values.
+  // In the second fit, the sizes that the landmarks determine are no longer drawn to their expected values.
   Problem problem(model, landmarks, best);
   const std::size_t n = problem.n_unknowns();
   std::vector<double> x = problem.start();
@@ -222,8 +222,8 @@ LandmarkFit fit(LandmarkModel &model, const Landmarks &landmarks, const std::vec
   problem.has_differences = true;
   const std::vector<double> start = x;
   Minimum minimum = problem.minimize(x);
-  // The fit does not converge if the sum of squares hardly depends on some size. The landmarks do not determine such a
-  // size, so the least determined size is also drawn to its expected value.
+  // The fit does not converge if the sum of squares hardly depends on some size. In this case, the size that the landmarks
+  // determine least is also drawn to its expected value.
   while (!minimum.converged) {
     std::size_t weakest = problem.free_sizes().size();
     for (std::size_t k = 0; k < problem.free_sizes().size(); ++k)

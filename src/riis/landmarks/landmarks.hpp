@@ -65,7 +65,7 @@ void check_not_collinear(const Landmarks &landmarks, const std::vector<std::size
 // Calls check_apart and check_not_collinear.
 void check_spread(const Landmarks &landmarks, const std::vector<std::size_t> &numbers, double share);
 
-// The principal directions of points about their mean, in descending order of extent, and the standard deviations along them.
+// The principal directions of points about their mean, and the standard deviations along these directions, the largest first.
 struct Spread {
   std::array<Vec3, 3> direction;
   std::array<double, 3> deviation;

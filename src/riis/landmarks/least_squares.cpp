@@ -15,9 +15,9 @@ namespace {
 constexpr double difference_step = 1e-5;
 // The iteration ends if a step is shorter than `negligible_step` times `size`.
 constexpr double negligible_step = 1e-13;
-// The iteration also ends if the sum of squares falls by less than `negligible_decrease` times itself. The unknowns are then
-// within a thousandth of their standard errors from their final values. If all residuals can become 0, the sum falls much faster,
-// and the iteration goes on until only rounding is left.
+// The iteration also ends if the sum of squares falls by less than `negligible_decrease` times itself. The unknowns then differ
+// from their final values by less than a thousandth of their standard errors. If all residuals can become 0, the sum falls much
+// faster, and the iteration goes on until only rounding is left.
 constexpr double negligible_decrease = 1e-9;
 constexpr int most_iterations = 400;
 
@@ -183,7 +183,7 @@ Eigen symmetric_eigen(std::vector<double> a, std::size_t n) {
 
 std::vector<double> covariance(const std::vector<double> &normal_matrix, std::size_t n) {
   const Eigen eigen = symmetric_eigen(normal_matrix, n);
-  // Eigenvalues below this limit count as 0. Eigenvalues are squares of the singular values of J, whose entries are accurate to
+  // Eigenvalues below this limit count as 0. They are squares of the singular values of J, and the entries of J are accurate to
   // about 1e-10 of the largest entry.
   const double least = 1e-12 * (n == 0 ? 0 : eigen.values.back());
   constexpr double small_share = 1e-8;

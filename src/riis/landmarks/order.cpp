@@ -50,8 +50,8 @@ std::vector<std::size_t> rotated(std::vector<std::size_t> numbers, std::size_t b
 }
 Order rotated(const Order &order, std::size_t by) { return {rotated(order.nadir, by), rotated(order.commissure, by)}; }
 
-// Returns the order in the opposite direction about the axis. In this order, each commissure comes after the leaflet that it
-// preceded in the given order.
+// Returns the order in the opposite direction about the axis. A commissure that came before a leaflet in the given order now
+// comes after it.
 Order mirrored(Order order) {
   if (!order.nadir.empty()) std::reverse(order.nadir.begin() + 1, order.nadir.end());
   std::reverse(order.commissure.begin(), order.commissure.end());

@@ -15,8 +15,7 @@ namespace riis {
 struct LeafletsAround {
   std::vector<std::string> names;  // in the order of leaflet ids
   const char *seen_along_flow;     // the direction from leaflet to leaflet: "clockwise" if blood flows along +z
-  // The end of a message about landmarks without names, or null if the leaflets need no names. Without names, leaflet 0 is at the
-  // first nadir.
+  // The end of a message that asks for names. Null if the leaflets need no names, because leaflet 0 is then at the first nadir.
   const char *why_names;
 
   std::size_t n() const { return names.size(); }

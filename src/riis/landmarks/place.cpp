@@ -260,9 +260,9 @@ void separate_places(const Vector<AttachmentPart> &parts, const Landmarks &landm
     }
 }
 
-// Finds the places of the landmarks along the attachment. A place is at first the point of the attachment that the smoothed warp
-// of all landmarks takes nearest to the landmark. Then the places slide. `places` has the places of the other landmarks. `local`
-// has the landmarks in the valve's frame.
+// Finds the places of the landmarks along the attachment. A smoothed warp of all landmarks maps the attachment. Each place is at
+// first the point that this warp takes nearest to the landmark, and then slides. `places` has the places of the other landmarks.
+// `local` has the landmarks in the valve's frame.
 void place_on_attachment(const Valve &valve, const Landmarks &landmarks, const std::vector<Vec3> &local, double radius,
                          std::vector<Vec3> &places) {
   std::vector<std::size_t> along = landmarks.with_role(RIIS_LANDMARK_ATTACHMENT);
@@ -300,8 +300,8 @@ void place_on_attachment(const Valve &valve, const Landmarks &landmarks, const s
     }
 }
 
-// Refuses sizes that do not fit together. The message begins with the sizes that come from the landmarks, because the other sizes
-// follow from these.
+// Refuses sizes that do not fit together. The message begins with the sizes that come from the landmarks, because all others
+// follow from them.
 void check_sizes(const Valve &valve, const LandmarkModel &model) {
   try {
     valve.make_patches();
@@ -318,7 +318,7 @@ void check_sizes(const Valve &valve, const LandmarkModel &model) {
   }
 }
 
-// Fits the models. Returns the number of the first model that the landmarks do not contradict, and the fit of this model.
+// Fits the models one after another. Returns the number and the fit of the first model that agrees with the landmarks.
 std::pair<std::size_t, LandmarkFit> fit_models(const KindOfLandmarks &of_kind, const Landmarks &landmarks) {
   const std::size_t last = of_kind.models.size() - 1;
   LandmarkFit general = fit(*of_kind.models[last], landmarks, of_kind.starts);

@@ -214,8 +214,8 @@ riis_opening_angle_state advance(const riis_opening_angle &law, const riis_openi
 
   const AngleLaw::Drive to{pressure_difference, flow};
   const AngleLaw angle_law(law, has_drive ? AngleLaw::Drive{before.pressure_difference, before.flow} : to, to);
-  // The error of the method falls with the fourth power of the step. With steps of this size, the error of the method is far
-  // below the error from taking pressure and flow as linear.
+  // The error of the method falls with the fourth power of the step. With steps of this size, it is far below the error that
+  // comes from taking pressure and flow as linear.
   constexpr double largest_step = 0.05;
   const double n_wanted = std::ceil(step * angle_law.fastest() / largest_step);
   constexpr double max_steps = 1e6;

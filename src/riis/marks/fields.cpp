@@ -286,7 +286,7 @@ struct TieOrder {
   }
 };
 
-// Stores, for each vertex, the numbers that the fields need, so that the fields of a node read few places in memory.
+// Stores the numbers of each vertex that the fields need side by side, so that the fields of a node read few places in memory.
 void gather_at_vertices(const TriangleSet &set, std::int32_t fields, int n_threads, FieldScratch &scratch) {
   const bool has_velocity = fields & RIIS_FIELD_VELOCITY, has_uv = fields & RIIS_FIELD_UV;
   if (!has_velocity && !has_uv) return;
@@ -390,7 +390,7 @@ void check_fields(const Surface &surface, std::int32_t fields) {
 bool need_normals(const Surface &surface, std::int32_t fields, std::int64_t n_nodes) {
   if (surface.other_distance()) return false;
   if (fields & (RIIS_FIELD_SIDE | RIIS_FIELD_RIM | field_height)) return true;
-  // If there are fewer triangles than nodes, a normal for each triangle costs less than a normal for each node.
+  // A normal for each triangle costs less than a normal for each node if there are fewer triangles.
   return (fields & RIIS_FIELD_NORMAL) && n_nodes > surface.triangles().n_triangles();
 }
 

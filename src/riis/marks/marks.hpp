@@ -21,8 +21,8 @@ namespace riis {
 
 // The arrays that a caller gets from a marking. The arrays have one entry for each node, in ascending order.
 
-// Makes room for n elements. If new memory is needed, reserves 1.5 times the needed size. Without this reserve, a moving valve
-// would need new memory each time that it has more nodes than ever before.
+// Makes room for n elements. If new memory is needed, reserves 1.5 times the needed size. A moving valve often marks a few more
+// nodes than ever before. Without the reserve, each such step would need new memory.
 template <class Array>
 void reserve_amply(Array &array, std::int64_t n) {
   const auto needed = static_cast<std::size_t>(n);
@@ -164,7 +164,7 @@ struct OrderScratch {
   };
   std::vector<List> lists;
   std::int64_t n_lists = 0;      // the number of lists that have nodes; these lists come first
-  std::vector<Counts> first;     // each bin's first position in each result, then the sizes of both results
+  std::vector<Counts> first;     // each bin's first position in both results, then the results' sizes
   std::vector<NodeRanks> ranks;  // one for each thread
 };
 

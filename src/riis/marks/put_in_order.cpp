@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::int64_t bits_per_word = 64, words_per_stretch = 64;
 
-// All bins have equally many numbers, a power of two. A bin's part of the result is written by one thread, so two threads seldom
-// write to one cache line. With many more bins, gathering the nodes would take longer.
+// All bins have equally many numbers, a power of two. One thread writes all nodes of a bin, so two threads seldom write to one
+// cache line. With many more bins, gathering the nodes would take longer.
 class Bins {
  public:
   explicit Bins(std::int64_t n_nodes) {

@@ -10,7 +10,7 @@
 namespace riis {
 namespace {
 
-// An interval is not divided further if its length is at most `shortest_interval` times the magnitude of its ends.
+// An interval shorter than `shortest_interval` times the magnitude of its ends is not divided further.
 constexpr double shortest_interval = 1e-13;
 // The golden-section search shortens an interval to `extreme_interval` times its length. The area is flat at an extreme, so the
 // relative error of the area is about the square of `extreme_interval`.
@@ -167,8 +167,8 @@ std::optional<AreaSearch::Point> AreaSearch::in_part(const Part &part, double ar
   return best;
 }
 
-// The method of false position, which halves the value at an end that does not move (M. Dowell, P. Jarratt, BIT 11, 1971). Every
-// third step halves the interval, so jumps cost no more steps than a bisection.
+// The method of false position, modified: it halves the value at an end that does not move (M. Dowell, P. Jarratt, BIT 11, 1971).
+// Every third step halves the interval, so jumps cost no more steps than a bisection.
 AreaSearch::Point AreaSearch::between(Point a, Point b, double area, double tolerance) const {
   double weight_a = a.area - area, weight_b = b.area - area;
   Point best = std::abs(weight_a) < std::abs(weight_b) ? a : b;

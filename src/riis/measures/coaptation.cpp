@@ -82,7 +82,8 @@ class Measuring {
     return closest.triangle < 0 ? limit : std::sqrt(closest.distance_sq);
   }
 
-  // Returns the share of a triangle in which the linear function with these values at the corners is at most 0.
+  // A linear function has these values at the corners of a triangle. Returns the share of the triangle in which the function is
+  // at most 0.
   static double share_below(std::array<double, 3> at) {
     std::sort(at.begin(), at.end());
     if (at[2] <= 0) return 1;

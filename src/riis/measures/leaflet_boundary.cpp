@@ -104,7 +104,7 @@ struct WoundTriangles {
   std::int64_t n_sheets;
 };
 
-// Turns triangles over, so that the triangles of each sheet have the winding of the sheet's first triangle.
+// Turns triangles over until all triangles of a sheet have the winding of the sheet's first triangle.
 WoundTriangles with_one_winding(const TriangleSet &set, const std::vector<std::int64_t> &piece) {
   const std::vector<std::vector<Neighbour>> neighbours = neighbours_of(set, piece);
   const auto n = static_cast<std::size_t>(set.n_triangles());
@@ -171,8 +171,8 @@ struct PieceVertex {
   Vec3 at, from_centroid;
 };
 
-// Returns the share by which the pieces must grow about their centroids, so that two vertices of different pieces meet as closely
-// as possible. The share is at most `most`.
+// Pieces can grow about their centroids until they meet. Returns the share of growth, at most `most`, at which two vertices of
+// different pieces come closest.
 double share_until_pieces_meet(const std::vector<PieceVertex> &vertices, double most) {
   double share = 0, least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < vertices.size(); ++i)
@@ -273,7 +273,7 @@ LeafletBoundary boundary_of_leaflets(const TriangleSet &set) {
     wound.set = std::move(*joined);
     edges = open_edges(wound.set, false);
   }
-  // If a file does not name its leaflets, touching leaflets are one piece of several sheets.
+  // In a file that does not name its leaflets, leaflets that touch are one piece with several sheets.
   const std::vector<std::int64_t> &part = n_pieces > 1 ? piece : wound.sheet;
   // Leaflets may have different windings. Each sheet but the last is tried with both windings.
   constexpr std::int64_t most_sheets = 5;

@@ -215,8 +215,8 @@ struct FoundView {
 // as the attachment, because each turn may exchange the farthest edge. A bad first axis needs many turns.
 constexpr int few_turns = 4, many_turns = 40;
 
-// Turns the axis to the vector area of the farthest edges, and moves the centre to the middle of their outline, at most n_turns
-// times. `about` is a first axis of length 1. With `keeps_axis` only the centre moves.
+// Repeats two steps at most n_turns times: turns the axis to the vector area of the farthest edges, and moves the centre to the
+// middle of their outline. `about` is a first axis of length 1. With `keeps_axis` only the centre moves.
 std::optional<FoundView> view_from(const LeafletBoundary &boundary, Vec3 about, Vec3 sideways, Vec3 centre, int n_turns,
                                    bool keeps_axis = false) {
   constexpr double least_roundness = 0.01, still = 1e-10;
@@ -264,7 +264,8 @@ BoundarySpread spread_of(const LeafletBoundary &boundary) {
 }
 
 // Returns the roundest view of edges. The direction in which the edges spread least is the first axis. Another direction counts
-// only if it leads to a rounder outline. Triangles may be turned over, so their normals determine only the side of the axis.
+// only if it leads to a rounder outline. The triangles' normals determine only the sign of the axis, because triangles may be
+// turned over.
 std::optional<FoundView> best_view(const LeafletBoundary &boundary, const BoundarySpread &spread) {
   constexpr double favour = 1.15;
   std::optional<FoundView> best;
@@ -279,8 +280,8 @@ std::optional<FoundView> best_view(const LeafletBoundary &boundary, const Bounda
   return best;
 }
 
-// The high points of a crown, where neighbouring pieces meet, and the lowest point of each piece. A crown is a closed line in
-// which each piece has one run, from one high point to the next.
+// The high points of a crown, where neighbouring pieces meet, and the lowest point of each piece. A crown is a closed line on
+// which each piece has a single run, from one high point to the next.
 struct Crown {
   std::vector<Vec3> highs, lows;
   double height;  // the least height of a high point above the lowest points of its two pieces
@@ -349,9 +350,9 @@ std::optional<Vec3> axis_of_crown(const std::vector<BoundaryEdge> &line, Vec3 ax
   return axis;
 }
 
-// Returns the view of triangles from arrays. A closed line that may be the attachment counts only if it is nearly as large and
-// nearly as round as the outline of all edges. Of several lines the roundest counts. A line that follows the attachment of one
-// leaflet and the free edge of another is oblique, and thus less round. The axis of the line is the axis of its crown, or else
+// Returns the view of triangles from arrays. A closed line counts as the attachment only if its outline is nearly as large and as
+// round as the outline of all edges. Of several lines the roundest counts. A line that follows the attachment of one leaflet and
+// the free edge of another is oblique, and thus less round. The axis is that of the line's crown or, for a line without a crown,
 // its vector area.
 std::optional<FoundView> view_of_arrays(const LeafletBoundary &boundary, const BoundarySpread &spread) {
   constexpr double least_roundness = 0.95;  // as a share of the outline's roundness
@@ -375,10 +376,10 @@ std::optional<FoundView> view_of_arrays(const LeafletBoundary &boundary, const B
 }
 
 // Returns the factor by which the pieces must grow about their centroids until the first two neighbours meet. If a factor above
-// 1.05 would be needed, the pieces are probably apart on purpose. The result then falls again, and is 1 from 1.1 on. A part of
-// the outline at less than 45 degrees to a ray from the centre is the end of a piece, and is not attached. A ray through the gap
-// between two neighbours may meet a third piece, which is nearer to the centre. The end of a piece is therefore joined to the end
-// that is closest after the growth.
+// 1.05 would be needed, the pieces are probably apart on purpose. The result then falls again, and is 1 from 1.1 on. Where the
+// outline makes less than 45 degrees with a ray from the centre, it is the end of a piece and not its attachment. A ray through
+// the gap between two neighbours may meet a third piece, which is nearer to the centre. The end of a piece is therefore joined to
+// the end that is closest after the growth.
 double growth_of(const LeafletBoundary &boundary, const SeenParts &from) {
   constexpr double most = 0.05, closeness = 0.15, widest_gap = 0.25;  // shares, and the tangent of an angle
   struct Run {

@@ -34,7 +34,7 @@ class AlongAxis {
   Vec3 x_axis_{}, y_axis_{}, axis_, origin_;
 };
 
-// A line of open edges may be the attachment if it encloses at least this share of the area of the leaflets' outline.
+// A line of open edges may be the attachment only if its area is at least this share of the outline's area.
 inline constexpr double least_attached_share = 0.8;
 
 // An outline with the axis along which it is seen.

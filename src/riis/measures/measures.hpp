@@ -46,8 +46,8 @@ struct OrificeLimits {
 };
 
 // Returns the factor c of a surface's band. An offset lowers c, because the flow then passes nearer to the leaflet. The offset at
-// which c reaches 0 was fitted to flows through trileaflet and mitral valves. A bileaflet valve has flow on both sides of its
-// leaflets, so c does not change.
+// which c reaches 0 was fitted to flows through trileaflet and mitral valves. In a bileaflet valve c stays the same, because
+// there is flow on both sides of its leaflets.
 double rim_reach(const Surface &surface, std::int32_t rim);
 
 // Measures the orifice. `source` is null for triangles from arrays, whose outline is their longest boundary.
@@ -108,7 +108,7 @@ struct Gap {
   std::vector<double> distance;  // (2, n_edges); RIIS_FAR_DISTANCE where the line misses the wall
   riis_gap measures;
 };
-// Measures the gap. Fails with RIIS_INVALID_ARGUMENT if there are no edges, and if the outward direction is not determined.
+// Measures the gap. Fails with RIIS_INVALID_ARGUMENT if there are no edges or if the outward direction is undetermined.
 Gap gap_of(const Attachment &attachment, const Wall &wall, int n_threads);
 
 // Returns the lengths of a skirt that reaches the wall from a placed valve, whose patches have no skirt. Where the wall is

@@ -70,8 +70,8 @@ double length_along(double dx, double dy, bool counts_equal) {
   return std::sqrt(1 + slope * slope);
 }
 
-// Calls visit(i, x) for each line that the edge meets. A line through the upper end does not count. The order of the edge's ends
-// does not change x, so two triangles with a common edge leave no gap.
+// Calls visit(i, x) for each line that the edge meets. A line through the upper end does not count. x does not depend on the
+// order of the edge's ends. Two triangles with a common edge therefore leave no gap.
 template <class Visit>
 void for_each_cut(const ScanLines &lines, PlanePoint a, PlanePoint b, const Visit &visit) {
   if (b[1] < a[1]) std::swap(a, b);
@@ -107,8 +107,8 @@ SpansOfLines inside(const Outline &outline, const ScanLines &lines) {
   return spans;
 }
 
-// Collects the intervals of convex shapes on the lines. A convex shape meets a line in at most one interval. If only areas are
-// measured, intervals of successive shapes are joined where they meet, so that fewer intervals are sorted.
+// Collects the intervals of convex shapes on the lines. A convex shape meets a line in at most one interval. To sort fewer
+// intervals, those of successive shapes are joined where they meet. This is done if only areas are measured.
 template <class AnEnd>
 class Covered {
  public:
@@ -294,7 +294,7 @@ bool has_area(const Outline &outline, double rounding) {
   return height > 0 && area_of(outline) > std::max(1e-9 * size, rounding) * size;
 }
 
-// Returns 1 or -1 for the side of the triangle that faces the viewer, and 0 if the viewer sees only its edge.
+// Returns 1 or -1: the side of the triangle that faces the viewer. Returns 0 for a triangle that is seen edge on.
 int side_of(const PlaneTriangle &corner) {
   const auto &[a, b, c] = corner;
   const double first = (b[0] - a[0]) * (c[1] - a[1]), second = (b[1] - a[1]) * (c[0] - a[0]);

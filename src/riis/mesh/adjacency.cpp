@@ -293,8 +293,8 @@ struct GridNodes {
 template <class Id>
 OwnAdjacency adjacency_from_cells_with(const riis_mesh_cells &given, int n_threads, const NarrowLimits &limits) {
   const Cells<Id> cells(given, n_threads);
-  // Code for cells of one shape takes three quarters of the time of the general code. The code for one shape is compiled only for
-  // meshes that 32 bits can count, because hardly any mesh is larger.
+  // Code for cells of one shape takes three quarters of the time of the general code. It is compiled only for meshes that 32 bits
+  // can count, because hardly any mesh is larger.
   if (given.offsets || cells.n_nodes() > limits.n_nodes || cells.n_listed() > limits.n_entries)
     return adjacency_of_lists(CellsOfAnyShape<Id>(cells), cells.n_listed(), n_threads, limits);
   const auto made_of = [&](const auto &lists) { return narrow_adjacency_of_lists(lists, n_threads); };

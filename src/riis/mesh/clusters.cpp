@@ -61,7 +61,7 @@ void make_room_for(std::int64_t n_nodes, Clusters &clusters) {
   const std::int64_t n_leaves = n_of(nodes_per_leaf);
   if (n_leaves > clusters.room_for_leaves) {
     clusters.room_for_leaves = 0;
-    // The memory is left unfilled, so that the thread that uses a page is also the first to write to it.
+    // The memory is left unfilled. The first thread that writes to a page is thus the thread that uses it.
     const auto n = static_cast<std::size_t>(n_leaves);
     clusters.leaves.reset(new Leaf[n]);
     clusters.points.reset(new LeafPoints[n]);

@@ -90,8 +90,8 @@ inline Boxes no_boxes() {
   return boxes;
 }
 
-// Makes room for n_nodes nodes. If memory runs out, n_nodes stays as it was, so that clusters that were never made do not count
-// as made.
+// Makes room for n_nodes nodes. If memory runs out, n_nodes stays as it was. A value of 0 thus still says that the clusters were
+// never made.
 void make_room_for(std::int64_t n_nodes, Clusters &clusters);
 
 // Fills clusters, whose frame must be set. The function node_at(i) returns the i-th node in the order, and prefetch(i) requests

@@ -157,7 +157,7 @@ class Mesh {
   // clusters already exist.
   bool record_marking() const { return was_marked_.exchange(true, std::memory_order_relaxed); }
 
-  // Returns the surfaces that the caller was already warned about, because their sizes do not fit this mesh.
+  // Returns the surfaces whose sizes do not fit this mesh, and about which the caller was already warned.
   WarnedSurfaces &warned_surfaces() const { return warned_surfaces_; }
 
  private:

@@ -92,8 +92,8 @@ using NodeItems = UnfilledVector<NodeItem<Node>>;
 // chosen so that leaves become as wide as they are long. Cuts by leaves take half as many passes, but make long clusters.
 enum class Cuts { by_clusters, by_leaves };
 
-// Sorts nodes so that near nodes follow each other. Each pass counts the nodes of a part in bins along the longest axis of its
-// box, and cuts the part across this axis. The items move back and forth between two arrays.
+// Sorts nodes so that near nodes follow each other. Each pass divides the longest axis of a part's box into bins, and counts the
+// nodes in each bin. It then cuts the part across this axis. The items move back and forth between two arrays.
 template <class Node>
 class NodeSorter {
  public:
@@ -131,8 +131,9 @@ class NodeSorter {
   static constexpr std::int64_t small_size = 1024;
   static constexpr int n_small_bins = 64, n_small_bins_per_part = 16;
   typedef std::array<Node, n_bins> Counts;
-  // Items are counted and moved four at a time, one from each quarter of a block. Neighbouring items often belong to the same
-  // count, and each update of a count waits for the previous update. Each quarter of the items therefore has its own counts.
+  // Items are counted and moved four at a time, one from each quarter of a block. Neighbouring items are often counted in the
+  // same bin, where each update of the count waits for the previous one. Each quarter of the items therefore has counts of its
+  // own.
   static constexpr int n_quarters = 4;
   typedef std::array<Node, n_quarters> OfQuarters;
   typedef std::array<OfQuarters, n_bins> QuarterCounts;
@@ -243,8 +244,8 @@ class NodeSorter {
     return {nodes_per_leaf, std::clamp(static_cast<std::int64_t>(along + 0.5f), std::int64_t{2}, most)};
   }
 
-  // Returns how many leaves lie along the longest side of a box, if each leaf is as wide as it is long. If the box is narrower
-  // than such a leaf, a leaf fills the width of the box.
+  // Suppose that leaves are as wide as they are long, or fill the width of a narrower box. Returns how many leaves lie along the
+  // longest side of the box.
   static float leaves_along(const NodeBox &box, float n_leaves) {
     float side[3];
     for (int i = 0; i < 3; ++i) side[i] = box.upper[i] - box.lower[i];
@@ -334,7 +335,7 @@ class NodeSorter {
       for (const QuarterCounts &counts : blocks.counts) add(view(counts)[bin], sum);
       view(sums)[bin] = sum[0] + sum[1] + sum[2] + sum[3];
     }
-    // If most items are in few bins, the next pass needs the smaller box of these items to separate them.
+    // Most items may be in few bins. To separate them, the next pass needs their own, smaller box.
     constexpr std::int64_t few_parts = 4;
     if (cut.n_parts > few_parts) {
       const auto most = static_cast<std::int64_t>(*std::max_element(sums.begin(), sums.begin() + bins.n));

@@ -83,7 +83,7 @@ Vector<double> SideMaterial::shares_before(const Vector<double> &shares) const {
 
 namespace {
 
-// Steps of u and v count as nearly parallel if the square of the sine of their angle is at most `least_sine_sq`.
+// Steps of u and v count as nearly parallel if the squared sine of the angle between them is at most `least_sine_sq`.
 constexpr double least_sine_sq = 0.01;
 
 bool has_points_inside(const MovedPatch &moved) {
@@ -182,7 +182,8 @@ Through<Vec3> rest_of_offsets(const MovedPatch &moved, const SideMaterial &base,
     const Vec3 move_of_base = now.mapped_base[k] - before.mapped_base[k],
                move_of_edge = now.mapped_edge[k] - before.mapped_edge[k];
     // The mapped middle lies beside the middle of the warped arc. The slope of the displacement gives the displacement from the
-    // one to the other. For arcs that are sides, steps of u are left out, because neighbouring patches have the same arcs.
+    // one to the other. For an arc that is a side, only steps of v count, because the neighbouring patch has the same arc but
+    // other steps of u.
     const Vec3 across = now.edge[k] - now.base[k], beside = now.mapped_middle[k] - now.middle(k);
     const bool is_side = k == 0 || k == last;
     const StepsBeside steps =

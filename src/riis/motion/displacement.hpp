@@ -111,10 +111,10 @@ class RestInside {
   std::array<Vec3, 4> rest_{};
 };
 
-// The displacement S_now(u,v) - S_before(u,v) of a patch at the vertices of its grid and of its subdivided quads. The two states
-// are evaluated on the smooth patches: directly on the sides, and inside as the same combination of the sides. Only (u,v)
-// identifies a point in both states, so the two states may have different triangles. SideMaterial matches the points of a warped
-// side. If the sides and the bulge did not change, the result is exactly 0.
+// The displacement S_now(u,v) - S_before(u,v) of a patch at the vertices of its grid and of its subdivided quads. Both states are
+// evaluated on the smooth patches. On the sides this is done directly, and inside by the patch's combination of its sides. Only
+// (u,v) identifies a point in both states, so the two states may have different triangles. SideMaterial matches the points of a
+// warped side. If the sides and the bulge did not change, the result is exactly 0.
 class PatchDisplacement {
  public:
   // Computes the displacements at the grid's vertices. The grid must have kept its lines.
@@ -180,13 +180,13 @@ Vector<double> moved_with_joints(const Vector<double> &lines, const Vector<doubl
 
 // Returns whether each patch has the same images in both states.
 bool have_same_build(const PatchSet &now, const PatchSet &before);
-// Gives each image of a state a patch of its own, in the order of the images of `like`, which has the same ids. Two states of one
-// valve may differ in how they are built: equal cusps are images of one half, and unequal cusps have separate patches.
+// Gives each image of a state a patch of its own. Two states of one valve may be built differently: equal cusps are images of one
+// half, and unequal cusps have separate patches. The patches get the order of the images of `like`, which has the same ids.
 PatchSet with_own_patches(const PatchSet &state, const PatchSet &like);
 // Fails with RIIS_INVALID_PARAMETER if the two states are built differently.
 void check_same_build(const PatchSet &now, const PatchSet &before);
-// Fails with RIIS_INVALID_PARAMETER if the images of the two states have different ids. If the ids are the same, with_own_patches
-// can bring both states to the same form. The message names the states.
+// Fails with RIIS_INVALID_PARAMETER if the images of the two states have different ids. States with the same ids can be brought
+// to one form by with_own_patches. The message names the states.
 void check_same_ids(const PatchSet &now, const PatchSet &before, const StateNames &names = {"valve_before", "valve"});
 
 }  // namespace riis

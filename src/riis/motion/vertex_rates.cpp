@@ -13,8 +13,8 @@
 namespace riis {
 namespace {
 
-// The joints of both curves of a patch of arcs, at the state of the surface and at another state. Among equal joints, the joints
-// of the base come first, as in Bulge::joints.
+// The joints of base and edge of a patch of arcs, in the surface's state and in another state. Of equal joints, that of the base
+// comes first, as in Bulge::joints.
 class MovedJoints {
  public:
   MovedJoints(const PatchSet &at, const PatchSet &state, std::size_t patch) {

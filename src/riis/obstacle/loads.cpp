@@ -20,10 +20,10 @@ namespace {
 
 constexpr std::int64_t nodes_per_block = 512;  // the search for nearest edges takes most of the time
 
-// The nodes of a leaflet lie nearly on a line if their root-mean-square distance from the line is less than `least_width` times
-// their root-mean-square distance from their middle. For other nodes, the condition number of the equations for the moment is at
-// most 1 / least_width^2, which is 1e4. Sums over nodes that lie close together lose digits. The nodes' root-mean-square distance
-// from the line must therefore also be at least `least_width_in_frame` times the frame's size.
+// The nodes' width is their root-mean-square distance from a line, and their extent is that from their middle. The nodes of a
+// leaflet lie nearly on a line if their width is less than `least_width` times their extent. Otherwise the equations for the
+// moment have a condition number of at most 1 / least_width^2 = 1e4. Sums over nodes that lie close together lose digits. The
+// width must therefore also be at least `least_width_in_frame` times the frame's size.
 constexpr double least_width = 0.01, least_width_in_frame = 0.001;
 
 // The edges that hold a leaflet, and a frame for its nodes: the middle of the edges, and a size. No node within the radius of the
@@ -146,7 +146,7 @@ void add_load_sums(const Loads &loads, const Tissue &tissue, int n_threads, doub
   for (std::int64_t leaflet = 0; leaflet < loads.n_leaflets; ++leaflet) {
     const Hold hold = holds.of(static_cast<std::int32_t>(leaflet));
     const Vector<double> weights = weights_of(holds, hold, tissue, n_threads);
-    // A single thread adds the numbers in the order of the nodes, so that the bits do not depend on the number of threads.
+    // To get the same bits for any number of threads, a single thread adds the numbers in the order of the nodes.
     std::array<Sum, n_load_sums> added;
     for (std::int64_t i = 0; i < tissue.nodes.size(); ++i) {
       const double w = view(weights)[i];

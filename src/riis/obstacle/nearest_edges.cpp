@@ -108,7 +108,7 @@ std::int64_t NearestEdges::of(std::int32_t leaflet_id, Vec3 point) const {
   // Rounding may put the distance of a box just above the distance of an edge in the box. The bound is therefore made a little
   // smaller, so that the search never skips a box with an equally near edge.
   const auto bound = [&](std::int64_t box) { return (1 - 1e-12) * view(boxes_)[box].bounds.distance_sq_to(point); };
-  std::array<std::int64_t, 64> open;  // boxes that are still to visit, at most one for each of the fewer than 64 levels
+  std::array<std::int64_t, 64> open;  // boxes still to be visited: at most one for each level, of fewer than 64
   std::size_t n_open = 0;
   open[n_open++] = tree->root;
   while (n_open > 0) {

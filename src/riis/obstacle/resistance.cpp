@@ -234,7 +234,7 @@ void add_resistance(const Marks &marks, const Resistance &resistance, const riis
   if (adds_k_u) require_field(marks, RIIS_FIELD_VELOCITY, "RIIS_FIELD_VELOCITY", "arrays.K_u_surface");
   const auto node_id = view(marks.within.nodes.node_id);
   const double *velocity = marks.within.fields.velocity.data();
-  // If the three components of a node are adjacent, they share a cache line, and one prefetch serves all three.
+  // If a node's three components are adjacent, one prefetch serves all of them.
   const int n_lines = adds_k_u && to.K_u_surface[1] == to.K_u_surface[0] + 1 ? 1 : 3;
   const int n_threads = marks.n_threads.for_part(node_id.size(), few_nodes);
   parallel_for_ranges(node_id.size(), nodes_per_block, n_threads, [&](const Range &range, int) {
@@ -265,7 +265,7 @@ void add_reaction(const Marks &marks, const Resistance &resistance, const riis_f
   Vector<Wrench> of_leaflet(static_cast<std::size_t>(wants_leaflets ? to.n_leaflets : 0));
   Vector<Wrench> of_edge(static_cast<std::size_t>(edges.n));
   const Vec3 about{to.about[0], to.about[1], to.about[2]};
-  // A single thread adds the forces in the order of the nodes, so that the bits do not depend on the number of threads.
+  // To get the same bits for any number of threads, a single thread adds the forces in the order of the nodes.
   for_each_force(marks, resistance, flow, [&](std::int64_t i, Vec3 force) {
     const Vec3 point = wants_points ? vector_at(marks.within.fields.point, i) : Vec3{0, 0, 0};
     const Vec3 moment = cross(point - about, force);

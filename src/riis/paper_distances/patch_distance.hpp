@@ -29,8 +29,8 @@ struct PlacedPatch {
   bool is_turned_over;  // S_u x S_v points against the normal
 
   Vec3 at(double u, double v) const { return evaluate(grid, u, v); }
-  // Returns the unit normal by the right-hand rule of the triangles, or 0 if S has no normal there, for example at a
-  // collapsed side. On a grid line, the function returns the normal of the quad after the line.
+  // Returns the unit normal by the right-hand rule of the triangles. Returns 0 where S has no normal, for example at a collapsed
+  // side. On a grid line, the function returns the normal of the quad after the line.
   Vec3 normal_at(double u, double v) const;
 };
 
@@ -130,8 +130,8 @@ struct SampleCounts {
 // parallelogram with the sides h_u S_u and h_v S_v, anywhere on S.
 double covering_radius(const QuadGrid &grid, double h_u, double h_v);
 
-// Returns the smallest numbers of steps that keep the covering radius within `radius`. The ratio of these two numbers is the
-// ratio of the patch's width to its height. The result may exceed max_samples.
+// Returns the smallest numbers of steps in u and v that keep the covering radius within `radius`. Their ratio is the ratio of the
+// patch's width to its height. The result may exceed max_samples.
 SampleCounts samples_within(const QuadGrid &grid, double radius);
 
 class SampleSet final : public PatchDistance {

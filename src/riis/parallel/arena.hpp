@@ -27,8 +27,8 @@ struct PooledArena {
   PooledArena *next = nullptr;  // the next idle arena in the pool
 };
 
-// Returns an arena of n_threads threads, which the caller must give back. The arena comes from the pool, or is new if no idle
-// arena has this number of threads. There are therefore never more arenas of one size than were borrowed at one time.
+// Returns an arena of n_threads threads, which the caller must give back. The arena comes from the pool. If no idle arena has
+// this number of threads, the arena is new. There are therefore never more arenas of one size than were borrowed at one time.
 PooledArena *borrow_arena(int n_threads);
 void give_back(PooledArena *arena) noexcept;
 
@@ -36,9 +36,8 @@ void give_back(PooledArena *arena) noexcept;
 std::size_t n_arenas() noexcept;
 
 // Borrows an arena of up to n_threads threads, including the calling thread, during the life of this object. TBB has a limit on
-// the threads of the process. If the limit is below n_threads, this object raises it during its life, unless the caller has set
-// the limit. An arena never exceeds the limit, because TBB would then print a message on stderr. An arena of one thread uses only
-// the calling thread.
+// the threads of the process. A limit below n_threads is raised while this object lives, unless the caller has set it. An arena
+// never exceeds the limit, because TBB would then print a message on stderr. An arena of one thread uses only the calling thread.
 class Arena {
  public:
   explicit Arena(int n_threads) {

@@ -17,9 +17,9 @@ int default_thread_count() noexcept;
 // Returns the number of the machine's processors, including processors outside the calling thread's affinity mask.
 int processors_of_machine() noexcept;
 
-// By default a call uses one more thread for each 4096 triangles, 2048 points or 16,384 nodes, which take half a millisecond or
-// more. On a quiet machine, waking a thread and waiting for it takes a hundredth of that time. On a busy machine the wait may
-// last as long as another process keeps the processor.
+// By default a call uses one more thread for each 4096 triangles, 2048 points or 16,384 nodes. So much work takes half a
+// millisecond or more. On a quiet machine, waking a thread and waiting for it takes a hundredth of that time. On a busy machine
+// the wait may last as long as another process keeps the processor.
 constexpr std::int64_t triangles_per_thread = 4096, points_per_thread = 2048;
 constexpr std::int64_t nodes_per_thread = 16384;  // nodes of a mesh, or cells or faces
 

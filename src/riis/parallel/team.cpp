@@ -22,7 +22,7 @@
 namespace riis {
 namespace {
 
-// A thread that waits stays awake for a while, because waking it would take some microseconds. At first a waiting worker keeps
+// A waiting thread first stays awake, because waking a sleeping thread takes some microseconds. At first a waiting worker keeps
 // its processor, so that it can begin at once. It does so even if a spinning thread of the caller wants the processor. Later the
 // worker offers the processor to other threads, and finally it sleeps. Under the thread sanitizer a thread sleeps at once,
 // because waiting awake would fill up the sanitizer's history of accesses.
@@ -78,7 +78,8 @@ class Team {
     if (!may_start_.is_made() || !may_end_.is_made()) return 0;
     if (n_workers_ < n_workers) {
       n_processors_ = default_thread_count();
-      // Workers block all signals except signals of errors, so that the caller's signal handlers run on the caller's threads.
+      // The caller's signal handlers must run on the caller's threads. Workers therefore block all signals except those of
+      // errors.
       sigset_t blocked, before;
       sigfillset(&blocked);
       for (const int error : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGTRAP, SIGABRT, SIGSYS}) sigdelset(&blocked, error);
@@ -152,7 +153,7 @@ class Team {
   void wait_for_workers() {
     const auto is_empty = [&] { return State{state_.load()}.n_inside() == 0; };
     if (waits_awake_.load(std::memory_order_relaxed) && wait_awake(is_empty)) return;
-    // A worker that left an earlier loop may post late, so the calling thread checks after each post whether the loop has ended.
+    // A worker of an earlier loop may post late. The calling thread therefore checks after each post whether this loop has ended.
     while (!is_empty()) {
       caller_sleeps_.store(true);
       if (is_empty() && caller_sleeps_.exchange(false)) return;
@@ -171,9 +172,9 @@ class Team {
   int n_workers_ = 0, n_processors_ = 1;
 };
 
-// The idle teams. At the end of the process, idle teams are not destroyed, because their workers still wait. The number of teams
-// is the largest number of the caller's threads that were inside loops at the same time. The first few teams are static, so a
-// call needs no memory for them.
+// The idle teams. At the end of the process, idle teams are not destroyed, because their workers still wait. There are as many
+// teams as the caller has had threads inside loops at one time. The first few teams are static, so a call needs no memory for
+// them.
 constexpr std::size_t n_first_teams = 16;
 alignas(Team) unsigned char first_teams[n_first_teams][sizeof(Team)];
 std::mutex teams_mutex;
@@ -210,7 +211,7 @@ int processors_of_machine() noexcept {
 
 int run_by_team(int n_threads, void (*work)(void *context, int thread), void *context) {
   Team *const team = borrow_team();
-  if (!team) {  // there is no memory, but a loop must not fail because of that
+  if (!team) {  // for lack of memory, which must not make a loop fail
     work(context, 0);
     return 1;
   }

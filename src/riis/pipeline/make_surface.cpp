@@ -80,7 +80,7 @@ SurfaceSeconds make_surface(const Valve &valve, const EarlierValve *moved, const
   if (triangles.n_triangles() == 0) fail(RIIS_INVALID_PARAMETER, "the valve has no area");
   triangles.skirt = valve.has_skirt() ? skirt_leaflet(patches) : -1;
   const double seconds_triangles = stopwatch.lap();
-  // A method that measures distances without the triangles is made first, because it may be refused.
+  // If another method than the triangles measures distances, it is made first, because it may be refused.
   std::unique_ptr<const PatchDistance> distance;
   if (accuracy.measure != RIIS_MEASURE_TRIANGLES)
     distance = make_distance(patches, {accuracy.measure, accuracy.distance_error}, placement, request.flip_normals);
@@ -133,7 +133,7 @@ constexpr int n_openings = 33;
 // coarse at some of the further openings, the lines are chosen again for all openings, these included. The test is repeated at
 // most `n_trials` times.
 constexpr int n_between = 7, n_trials = 4;
-// A limit on the number of patches, because the choice keeps the patches of all these openings in memory.
+// The choice keeps the patches of all these openings in memory, so the number of patches is limited.
 constexpr std::size_t max_patches = 10'000;
 // A warp may change after the triangles were planned, which also changes the error. The plan of a warped valve therefore uses
 // only `warped_share` of the allowed error.

@@ -99,8 +99,8 @@ SearchRun run(const SearchRequest &request, std::int32_t search, Marks &marks) {
   }
   switch (search) {
     case RIIS_SEARCH_NEIGHBOR: {
-      // A moving valve is near its last position, so the walk starts at the nodes that were found last. These nodes may belong to
-      // another mesh with the same number of nodes, but a wrong start does no harm.
+      // A moving valve is near its last position, so the walk starts at the nodes that were found last. If these belong to
+      // another mesh with as many nodes, the wrong start does no harm.
       const bool fits = marks.stats.n_nodes == request.mesh.nodes().n;
       return {search, search_neighbors(request, fits ? marks.within.nodes.node_id : nowhere, marks.neighbor_scratch,
                                        marks.found)};

@@ -111,7 +111,7 @@ void UpdatableSurface::add_direction(const ValveDirection &direction, std::int32
 
 namespace {
 
-// A pair counts if its depth is at least `least_depth` half thicknesses, which is the default of riis_find_crossings.
+// Only pairs count whose depth is at least `least_depth` half thicknesses, as by default in riis_find_crossings.
 constexpr double least_depth = 1e-6;
 
 // Logs a warning if leaflets cross deeper than touching leaflets can. Returns whether it has logged a warning.

@@ -18,7 +18,7 @@
 
 namespace riis {
 
-// Logs a warning if leaflets go through each other, once for each shape of the valve.
+// Logs a warning if leaflets go through each other. Each shape of the valve gets at most one warning.
 class CrossingWatch {
  public:
   // The openings are divided into ranges. For each shape, the function examines the first surface in each range, until it has

@@ -382,7 +382,7 @@ Attachment attachment_of(const TriangleSet &set) {
 
 namespace {
 
-// Returns the open edges of each leaflet that are not on the outline of the orifice. Edges between two leaflets count as open.
+// Returns the open edges of each leaflet, except those on the outline of the orifice. Edges between two leaflets count as open.
 std::vector<EdgePart> free_edges_of_arrays(const TriangleSet &given) {
   const std::optional<TriangleSet> leaflets = given.skirt < 0 ? std::nullopt : std::optional(without_skirt(given));
   const TriangleSet &set = leaflets ? *leaflets : given;

@@ -98,8 +98,7 @@ class Surface {
   TriangleScene scene_;
   Band band_;
   std::vector<std::int32_t> leaflet_ids_;
-  // The area is computed on demand, because marking never needs it. If several threads compute the value at the same time, they
-  // get the same bits.
+  // The area is computed on demand, because marking never needs it. Threads that compute it at the same time get the same bits.
   mutable std::atomic<double> area_{not_known};
   std::optional<SourceValve> source_valve_;
   std::optional<PatchSet> patches_;

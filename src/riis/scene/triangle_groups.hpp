@@ -53,7 +53,7 @@ struct TriangleGroups {
   // coordinate axes, its longest edge, and its corner, which is the corner of one of its groups.
   std::vector<GroupBounds> packs;
   float longest_edge = 0;
-  // True if each group has the same triangles as before and the groups are not much larger. A tree over the groups then stays
+  // True if the groups have the same triangles as before, and are not much larger than before. A tree over the groups then stays
   // usable.
   bool are_as_before = false;
 

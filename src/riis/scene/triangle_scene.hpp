@@ -19,14 +19,14 @@
 
 namespace riis {
 
-// Ties: triangles that are as near to a point as its closest triangle, but belong to another leaflet, or to another patch of
-// the same leaflet (docs/theory/marks.md, "Equally near leaflets"). Only velocities need ties.
+// Ties: triangles that are as near to a point as its closest triangle (docs/theory/marks.md, "Equally near leaflets"). They
+// belong to other leaflets, or to other patches of its leaflet. Only velocities need ties.
 // The ties of a point do not depend on the order in which a search compares triangles.
 
 struct TieRule {
   const std::int32_t *leaflet_id = nullptr, *patch_id = nullptr;  // for each triangle; null if ties are not wanted
-  // Two distances count as equal if they differ by at most of_leaflets for two leaflets, or by at most of_patches for two patches
-  // of one leaflet.
+  // The most by which two distances that count as equal differ: of_leaflets for two leaflets, and of_patches for two patches of
+  // one leaflet.
   double of_leaflets = 0, of_patches = 0;
 
   bool is_tie(const ClosestTriangle &closest, const ClosestTriangle &other) const {
@@ -100,7 +100,7 @@ class TriangleScene {
 
   // Returns the closest triangle to p, or the triangle -1 if no triangle is within the limit. The limit is at least 0, and may be
   // infinite. The point p must be finite, with coordinates up to max_coordinate. Several threads may call this function at once.
-  // If `ties` is not null, its candidates become those of p.
+  // If `ties` is not null, its candidates are replaced by those of p.
   ClosestTriangle closest(Vec3 p, double limit, InstructionSet instructions = best_instruction_set(),
                           Ties *ties = nullptr) const;
 

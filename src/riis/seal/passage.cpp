@@ -55,7 +55,7 @@ struct Candidate {
   }
 };
 
-// An edge from `node` to `other` that is listed only in the row of `other`.
+// An edge between `node` and `other` that only the row of `other` lists.
 struct OneWayEdge {
   std::int64_t node, other;
 
@@ -96,8 +96,8 @@ class Opening {
     return is_joined();
   }
 
-  // Opens the closed nodes that are farther than `nearest` one by one, until a node joins the ends. Returns this node, or a
-  // candidate with the id -1 if no node joins the ends.
+  // Opens closed nodes one by one, among those that are farther than `nearest`, until a node joins the ends. Returns this node,
+  // or a candidate with the id -1 if none does.
   Candidate open_until_joined(double nearest) {
     const std::vector<OneWayEdge> one_way = one_way_edges();
     OpenSets sets = this->sets();
@@ -156,7 +156,7 @@ class Opening {
 
   const SearchRequest &request_;
   const Edges &edges_;
-  std::int64_t from_, to_;  // two extra nodes, each of which is joined to all nodes of one end
+  std::int64_t from_, to_;  // two extra nodes; each is joined to all nodes of one end
   std::vector<std::int64_t> from_ids_, to_ids_;
   Marks near_;
   UnfilledVector<std::int64_t> parent_;

@@ -51,9 +51,9 @@ struct OpenNodes {
   const std::vector<std::int64_t> &closed_id;  // in any order
 };
 
-// Writes a label for each row of the edges, and returns the number of regions. The label is the lowest node of the region,
-// or OpenSets::closed for a node in no region and for a number without a node. An edge may be in the row of one node or in the
-// rows of both nodes.
+// Writes a label for each row of the edges, and returns the number of regions. The label of a node is the lowest node of its
+// region. A node in no region, and a number without a node, have the label OpenSets::closed. An edge may be listed in the rows of
+// both its nodes, or of only one.
 template <class Edges>
 std::int64_t label_open_regions(const Edges &edges, const OpenNodes &open, int n_threads,
                                 ArrayView<std::int64_t> label);

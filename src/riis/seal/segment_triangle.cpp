@@ -10,9 +10,9 @@
 namespace riis {
 namespace {
 
-// An exact number: a sum of doubles that do not overlap, without zeros, in ascending order of magnitude (Shewchuk, "Adaptive
-// Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates", 1997). Sums and products are exact, because the
-// range of the coordinates excludes overflow and underflow.
+// An exact number, stored as doubles whose sum it is. The doubles are not 0, do not overlap, and ascend in magnitude (Shewchuk,
+// "Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates", 1997). Sums and products are exact,
+// because the range of the coordinates excludes overflow and underflow.
 template <int capacity>
 struct Exact {
   std::array<double, capacity> part;

@@ -146,7 +146,8 @@ class ClosestPoints {
         for (std::int64_t k = range.begin + block.begin; k < range.begin + block.end; ++k)
           if (const std::int64_t i = wanted_.id(k); wanted_.is_wanted(i)) write_far(i, request_.far_distance, to_);
       });
-    // Each thread fills, searches and writes the points of one region after another, so that its cache holds these points.
+    // A thread fills, searches and writes the points of a region before it takes the next region, so that the points stay in its
+    // cache.
     const std::int64_t n = view(batch.items).size();
     const std::int64_t share = n_threads == 1 ? n : n / (4 * n_threads);
     const std::int64_t per_part =
@@ -185,9 +186,9 @@ class ClosestPoints {
     Bounds bounds;
   };
 
-  // Calls visit(k, point, place) for the wanted points of a range that may be within the limit, except for far points. The first
-  // point of the range has the place k = 0. Within a block, the visited points get consecutive places, from the block's first k
-  // on.
+  // Calls visit(k, point, place) for the wanted points of a range. Leaves out far points, and points that are certainly beyond
+  // the limit. The first point of the range has the place k = 0. Within a block, the visited points get consecutive places, from
+  // the block's first k on.
   template <class Visit>
   std::array<Block, points_per_batch / points_per_block> visit_blocks(const Range &all, int n_threads,
                                                                       const Visit &visit) const {

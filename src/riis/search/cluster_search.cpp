@@ -153,8 +153,8 @@ class ClusterSearch {
     own_.prepare(request.n_threads, !is_stored);
   }
 
-  // Finds the clusters that may be near the surface. For each such cluster, lists the groups that may be near the cluster. For
-  // each such group, sets a bit for each leaf of the cluster that may be near the group.
+  // Finds the clusters that may be near the surface. For each such cluster, lists the groups that may be near the cluster. Each
+  // of these groups gets a bit for each leaf of the cluster that may be near it.
   void find_near_clusters() {
     std::int64_t n_near;
     if constexpr (is_stored) {
@@ -436,7 +436,7 @@ class ClusterSearch {
                      .point);
   }
 
-  // For each of 16 boxes, an upper bound of the distances of its nodes, in the surface's frame.
+  // One number for each of 16 boxes: the upper bound of its nodes' distances, in the surface's frame.
   struct UpperBounds {
     double of_box[leaves_per_cluster];
   };
@@ -537,7 +537,7 @@ class ClusterSearch {
       }
     Pairs pairs{cluster, found_.ties_of(thread), ahead};
     ClusterTask &task = own.task;
-    // The bounds of so many pairs of a leaf and a group take 8 kB, so they stay in the processor's first cache.
+    // So many pairs of a leaf and a group have bounds of 8 kB, which stay in the processor's first cache.
     constexpr std::size_t many = 64;
     std::int32_t *const leaf_groups = own.room_for_groups(many + item.n);
     while (near) {
@@ -664,7 +664,7 @@ class ClusterSearch {
     }
   }
 
-  // This function is not inlined, so that the code for a search without ties can use all registers.
+  // This function is not inlined, because its code would take registers from a search without ties.
   __attribute__((noinline)) void take_closest_and_ties(ClusterScratch::Thread &own, const Pairs &pairs) const {
     for (std::int64_t i = 0; i < pairs.n; ++i) {
       const std::int32_t node = view(own.pair_nodes)[i];

@@ -67,8 +67,8 @@ struct ClusterScratch {
 // surface is about a million times the surface's size. It is also so for an extremely small mesh.
 bool separates_in_single_precision(const NodeSearch &request, const NodeFrame &nodes);
 
-// Returns whether clusters pay off for this number of nodes, if the limit leaves out few nodes. With fewer nodes, comparing all
-// groups with the first clusters takes longer than querying each node.
+// Returns whether clusters pay off for this number of nodes when the limit leaves out few of them. With fewer nodes, comparing
+// all groups with the first clusters takes longer than querying each node.
 bool are_enough_for_clusters(std::int64_t n_nodes, const Surface &surface);
 
 // Returns whether most triangles are beyond the limit for most nodes near the surface.

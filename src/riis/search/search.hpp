@@ -106,7 +106,7 @@ struct NodeSearch {
   Threads n_threads;
   InstructionSet instructions;
   TieRule ties = {};
-  // If not null, the caller wants only the nodes in this band, and the search may leave out other nodes.
+  // If not null, the search may leave out nodes outside of this band, because the caller does not want them.
   const Band *listed = nullptr;
 
   bool is_masked_out(std::int64_t node) const { return node_mask && !node_mask[node]; }
@@ -131,7 +131,7 @@ SearchReport search_exhaustively(const SearchRequest &request, FoundNodes &found
 SearchReport search_exhaustively(const NodeSearch &request, const Grid &grid, const GridBox &box, FoundNodes &found);
 
 // The two ways to measure distances in a search: to a surface's triangles, or by the surface's other method. Searches are
-// compiled once for each way, so that distances to triangles need no virtual call.
+// compiled for each of the two, so that distances to triangles need no virtual call.
 
 // Distances to the triangles of a surface.
 struct TriangleDistances {
@@ -139,13 +139,13 @@ struct TriangleDistances {
   InstructionSet instructions;
 
   bool may_be_within(Vec3 p, double limit) const { return scene.may_be_within(p, limit); }
-  // Returns the triangle closest to p. If `ties` is not null, its candidates become those of p.
+  // Returns the triangle closest to p. If `ties` is not null, its candidates are replaced by those of p.
   ClosestTriangle closest(Vec3 p, double limit, Ties *ties = nullptr) const {
     return scene.closest(p, limit, instructions, ties);
   }
 
-  // Returns a number d such that every point q has a distance of at least d - |q - p| from the surface. A large d proves that all
-  // points near p are far from the surface. The result is infinity if d is above the limit.
+  // Returns a number d. From the surface, every point q has a distance of at least d - |q - p|. A large d proves that all points
+  // near p are far from the surface. The result is infinity if d is above the limit.
   double lower_bound(Vec3 p, double limit) const {
     return std::sqrt(scene.closest(p, limit, instructions).distance_sq);
   }

@@ -68,7 +68,7 @@ class PlannedArcs {
     return polyline(edge_, set_.curve_of(patch_.v1), errors, &ColumnErrors::edge);
   }
 
-  // The offsets at both ends are taken from the sides, so that neighbouring patches have the same bits.
+  // Neighbouring patches must have the same bits, so the offsets at both ends are taken from the sides.
   ArcLines arc_lines(const Vector<ColumnErrors> &errors, const Vector<int> &n_parts) const {
     ArcLines made;
     made.u_lines.reserve(lines_.size());
@@ -159,8 +159,8 @@ Polyline polyline_at(const Curve &curve, const Vector<double> &shares, double en
   return made;
 }
 
-// Ascending positions, and a number `need` for each step between two neighbouring positions. The need times the square of a
-// segment's width bounds the error of a segment inside the step, as a share of the allowed error.
+// Ascending positions, and a number `need` for each step between two neighbouring positions. The need, times the square of a
+// segment's width, bounds the error of a segment inside the step. This error is a share of the allowed error.
 struct Needs {
   Vector<double> at, need;
 };
@@ -199,8 +199,8 @@ Vector<double> balanced_segments(const Needs &needs, double most) {
 // Needs are computed on narrow steps, and the bound of a wide segment is a little larger than they say. The lines therefore use
 // up only `most_of_allowed` of the allowed error.
 constexpr double most_of_allowed = 0.9;
-// The number of steps on which needs are computed is `steps_per_segment` times the largest number of segments of a curve. The
-// number of steps stays between `least_steps` and `most_steps`.
+// Needs are computed on `steps_per_segment` times as many steps as the largest number of segments of a curve. The number of steps
+// stays between `least_steps` and `most_steps`.
 constexpr int steps_per_segment = 4;
 constexpr std::size_t least_steps = 64, most_steps = 4096;
 // To save time, needs are computed only at every n-th opening. Later the lines are checked at every opening.
@@ -234,7 +234,7 @@ class Planner {
     for (std::size_t i = 0; i < set_.patches.size(); ++i)
       plan_.patches[i].has_arcs =
           std::any_of(states_.begin(), states_.end(), [&](const PatchSet &set) { return set.patches[i].bulge != 0; });
-    // A skirt at a patch of arcs takes the patch's lines, so skirt and patch have the same vertices along their common side.
+    // A skirt at a patch of arcs takes the patch's lines, so that both have the same vertices along their common side.
     for (std::size_t i = 0; i < set_.patches.size(); ++i)
       if (patch_of_strip(i) != no_patch) plan_.patches[i].has_arcs = plan_.patches[patch_of_strip(i)].has_arcs;
     plan_families();
@@ -429,8 +429,8 @@ class Planner {
     return made;
   }
 
-  // Returns the joints at the first opening, or nothing if the lines cannot move with the joints. Lines can move with the joints
-  // if the base has the same number of joints at every opening, and no joint near an end.
+  // Returns the joints at the first opening, with which the lines move. Returns nothing if the number of joints of the base
+  // changes with the opening, or if a joint is near an end.
   Vector<double> joints(std::size_t patch) const {
     constexpr double near_end = 0.01;
     const Vector<double> first = joints_of(set_, set_.patches[patch].v0);

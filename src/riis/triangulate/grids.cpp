@@ -81,7 +81,7 @@ class GridMaker {
  private:
   static constexpr double infinity = std::numeric_limits<double>::infinity();
   // A curve may have a million points, and a valve a million patches. The points are therefore counted each time that the
-  // polylines of `patches_at_once` patches have been made. The number of patches is fixed, so the count in an error message does
+  // polylines of `patches_at_once` patches have been made. `patches_at_once` is fixed, so that the count in an error message does
   // not depend on the number of threads.
   static constexpr std::size_t patches_at_once = 16;
 
@@ -130,8 +130,7 @@ class GridMaker {
   }
 
   PatchSides sides_of(const Patch &patch) const {
-    // The arcs at the sides of a patch of arcs have no polylines, because all arcs of the patch are divided into rows in the
-    // same way.
+    // The sides u0 and u1 of a patch of arcs have no polylines, because they are divided into rows like all its arcs.
     const bool is_coons = patch.bulge == 0;
     return {polyline(patch.v0), polyline(patch.v1), is_coons ? polyline(patch.u0) : nullptr,
             is_coons ? polyline(patch.u1) : nullptr};

@@ -17,7 +17,7 @@ inline constexpr double curve_share = 0.45, merge_share = 0.01;
 // A plan's lines use up the share `planned_curve_share` nearly everywhere. A larger share would leave so little for the quads
 // that many of them would be subdivided.
 inline constexpr double planned_curve_share = 0.39;
-// A point of a patch of arcs has three errors: the mean error of two curves, at most half the error of O, and the error of the
+// A point of a patch of arcs has three errors: the mean of both curves' errors, at most half the error of O, and the error of the
 // arcs' chords. At least 1 - (arc_curve_share + merge_share + offset_share / 2 + row_share) remains.
 inline constexpr double arc_curve_share = 0.4, offset_share = 0.2, row_share = 0.45;
 

@@ -211,7 +211,7 @@ void close_gaps(const Vector<Tile> &tiles, TriangleSet &triangles) {
 
 bool is_missed(const TriangleSet &set, const LeftOut &triangle) {
   // A triangle without area is either a point or a segment, its longest edge. A triangle that is a point can be dropped without
-  // loss. A triangle that is a segment can be dropped if the segment is the diagonal of a quad whose other half was kept.
+  // loss. A triangle that is a segment can be dropped if it only repeats the diagonal of a quad whose other half was kept.
   const Vec3 corner = set.vertex(triangle.corner), a = set.vertex(triangle.a), b = set.vertex(triangle.b);
   const double diagonal = distance(a, b), other = std::max(distance(corner, a), distance(corner, b));
   const bool is_on_diagonal = triangle.other_was_kept && other <= (1 + 1e-9) * diagonal;

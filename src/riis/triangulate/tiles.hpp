@@ -63,8 +63,8 @@ class Tiles {
   }
 
   // Makes vertices and triangles, and then calls work(i, first_of_quad) for each tile i, as place_vertices does. `first_of_quad`
-  // has the position of each quad's first triangle, and then the end of the last quad's triangles. The ids also count triangles
-  // without area. Returns the patches with missing triangles. If there is no such patch, the triangles are complete.
+  // has the position of each quad's first triangle. Its last entry is the end of the last quad's triangles. The ids also count
+  // triangles without area. Returns the patches with missing triangles. If there is no such patch, the triangles are complete.
   template <class Work>
   Vector<std::size_t> make_triangles(const Work &work) {
     make_room_for_triangles();

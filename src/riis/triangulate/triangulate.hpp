@@ -117,7 +117,7 @@ struct Triangulation {
 // RIIS_LIMIT_EXCEEDED for more than max_triangles, and with RIIS_INVALID_PARAMETER for a patch without area.
 TriangleSet triangulate_adapted(const PatchSet &set, const Triangulation &asked, TriangleSet memory = {});
 // Makes the triangles of a plan. A triangle keeps its id even if other triangles lose their area. Fails as triangulate_adapted
-// does, and with RIIS_LIMIT_EXCEEDED if the plan is not within max_error of this state.
+// does. Also fails with RIIS_LIMIT_EXCEEDED if the plan's error in this state exceeds max_error.
 TriangleSet triangulate_fixed(const PatchSet &set, const Triangulation &asked, const TriangulationPlan &plan,
                               TriangleSet memory = {});
 

@@ -17,8 +17,8 @@
 namespace riis {
 namespace {
 
-// Returns false if one of these triangles may have no area (has_zero_area), now or after its corners move by up to an eighth of
-// `shift`.
+// Returns true if all these triangles surely have an area (has_zero_area), and keep it when their corners move by up to an eighth
+// of `shift`.
 bool have_area(const double *vertices, const std::vector<std::int64_t> &vertex_id, const Range &triangles,
                double shift) {
   const Kernels &simd = kernels(best_instruction_set());
@@ -68,7 +68,7 @@ Vector<std::size_t> make_triangles(Tiles &tiles) {
 // Gives a set the triangles of a plan if the set lacks them.
 void take_connectivity(const Connectivity &from, bool flip_normals, TriangleSet &set) {
   const std::uint64_t number = 2 * from.number + (flip_normals ? 1 : 0);
-  // The number of the plan alone is not enough, because a set keeps its number after its triangles were given away.
+  // The plan's number alone is not enough: a set whose triangles were given away still has its number.
   if (set.connectivity == number && set.triangle_id.size() == from.triangle_id.size()) return;
   set.connectivity = 0;
   set.vertex_id = from.vertex_id;
@@ -82,13 +82,13 @@ void take_connectivity(const Connectivity &from, bool flip_normals, TriangleSet 
   set.connectivity = number;
 }
 
-// Places the vertices of these grids, and gives them the triangles of a plan. Returns false if triangles are missing, or if the
-// triangles with an area are not the same as in the plan.
+// Places the vertices of these grids, and gives them the triangles of a plan. Returns false if triangles are missing, or if other
+// triangles have an area than in the plan.
 bool take_planned_triangles(const PatchSet &set, const Triangulation &how, const Vector<LevelledGrid> &grids,
                             const Connectivity &planned, TriangleSet &triangles) {
   Tiles tiles(set, how, grids, triangles);
-  // The images of a patch are congruent. If all images have the same triangles, the areas of one image are checked, with a margin
-  // for rounding. An image with a seam is checked by itself, because it takes points from another image.
+  // The images of a patch are congruent. Where all images have the same triangles, only one image's areas are checked, with a
+  // margin for rounding. An image with a seam is checked by itself, because it takes points from another image.
   std::atomic<bool> all_have_area{true};
   tiles.place_vertices([&](std::int64_t i) {
     const Tile &tile = view(tiles.all())[i];

@@ -23,7 +23,8 @@ namespace riis {
 namespace {
 
 // A leaflet has `n_places` evenly spaced places along the annulus, from one commissure to the next. From each place hangs a
-// meridian. A free edge and a coaptation line consist of two cubics each, and thus have one control point for each place.
+// meridian. A free edge consists of two cubics, and so does a coaptation line. Each of these lines thus has one control point for
+// each place.
 constexpr std::size_t n_places = 7, middle = 3, n_cells = n_places - 1;
 template <class Value>
 struct AtPlaces {
@@ -114,8 +115,8 @@ struct Hinge {
   }
 };
 
-// The annulus and the places of the leaflets. The annulus is stored twice, one copy after the other, so that each leaflet has one
-// connected part.
+// The annulus and the places of the leaflets. The annulus is stored as two laps, one after the other, so that each leaflet's part
+// of it is connected.
 class Annulus {
  public:
   Annulus(const std::array<Bezier, 4> &lap, const Vector<double> &commissures) : laps_(two_laps(lap)) {
@@ -320,7 +321,7 @@ Leaflet open_leaflet(const Sizes &sizes, const Annulus &annulus, std::size_t k, 
 // angles changed at the same pace, neighbouring leaflets would touch during the motion.
 double behind(double share) { return share * share; }
 
-// Swings a vector about its hinge from one state to another: blends the two vectors, and gives the result the blended length.
+// Swings a vector about its hinge: blends the vectors of the two states, and gives the result the blended length.
 Vec3 swung(Vec3 from, Vec3 to, double share) {
   const Vec3 blended = riis::blend(from, to, share);
   const double size = length(blended);

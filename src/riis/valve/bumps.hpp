@@ -27,8 +27,8 @@ struct LocalOpening {
 
 class Bumps {
  public:
-  // `first` is the position of the first parameter. Fails with RIIS_INVALID_PARAMETER if the number of a leaflet or commissure is
-  // not whole, and if a bump has both numbers.
+  // `first` is the position of the first parameter. Fails with RIIS_INVALID_PARAMETER for a number of a leaflet or commissure
+  // that is not whole, and for a bump that has both numbers.
   Bumps(const ParameterValues &values, std::size_t first, std::size_t n_leaflets, BumpLift lift);
 
   // Returns whether some bump has a place.

@@ -172,7 +172,7 @@ class ValveValues {
   double meeting_shift() const { return n_cusps_ == 2 ? values_[at_cusp(n_cusps_, sector)][0] : 0; }
   std::size_t before(std::size_t k) const { return (k + n_cusps_ - 1) % n_cusps_; }
 
-  // Returns whether all cusps and all commissures have the same sizes, so that the cusps are images of one half.
+  // Returns whether the cusps are images of one half, because all cusps and all commissures have the same sizes.
   bool has_equal_cusps() const {
     for (std::size_t k = 1; k < n_cusps_; ++k) {
       for (const OfCommissure parameter : {height, fusion})
@@ -440,7 +440,7 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
   PatchSet set;
   if (has_equal_halves) {
     add_cusps(set, halves(0).front(), equal_places(n_cusps, shift));
-    // The cusps meet only at the commissures, where the side u1 of the top patch is one point.
+    // The cusps meet only at the commissures. There the side u1 of the top patch is one point.
     sew_equal_cusps(set, top_patch(set) - 1, SeamPlace::corner);
     sew_equal_cusps(set, top_patch(set), SeamPlace::side_u1);
     return set;

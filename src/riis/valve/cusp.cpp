@@ -36,7 +36,7 @@ std::pair<Bezier, Bezier> split_through(const Bezier &curve, double t, Vec3 poin
   return {below, above};
 }
 
-// For the power 2, the cubic equals the profile exactly if the length of its end tangents is a third of the end's y.
+// With the power 2, a cubic whose end tangents are a third of the end's y long equals the profile exactly.
 CuspProfile parabola(double radius_in, double radius_out, double angle) {
   const double third = radius_out * sine_cosine_degrees(angle).sine / 3;
   return {radius_in, radius_out, angle, 2, third, third};
@@ -71,7 +71,7 @@ SymmetrySides add_middle(PatchSet &set, const MovingHalf &half) {
 }
 
 // Adds the patches of all parts. The first part begins at `middle`. The last part ends at `commissure`, or at its own side.
-// images(0, number) makes the images of the lower patch of a part, and images(1, number) those of its upper patch.
+// images(0, number) makes the images of a part's lower patch, and images(1, number) those of the upper patch.
 template <class Images>
 void add_parts(PatchSet &set, const MovingHalf &half, const SymmetrySides &middle,
                const std::optional<Side> &commissure, const Images &images) {
@@ -108,7 +108,7 @@ MovingHalf turned(const MovingHalf &half, const PatchImage &image) {
   return {turn_all(half.parts), turn_all(half.rates)};
 }
 
-// Gives a half the middle of the other half, which differs from its own middle only by rounding.
+// Gives a half the middle of the other half. The two middles differ only by rounding.
 void begin_at(HalfCusp &half, const HalfCusp &other) {
   half.leaflet.control[0] = other.leaflet.first();
   half.bending.control[0] = other.bending.first();

@@ -14,7 +14,7 @@
 namespace riis {
 namespace {
 
-// An edge that would be too short for open_radius_ratio opens until `used_of_edge` of its length is used, without sag.
+// An edge that is too short for open_radius_ratio opens until an edge without sag would use up `used_of_edge` of its length.
 constexpr double used_of_edge = 0.97;
 // An open edge that reaches `round_from` of the height of a circle's arc leaves the commissure like this arc.
 constexpr double round_from = 0.7;
@@ -22,8 +22,8 @@ constexpr double round_from = 0.7;
 // as the cosine of its half sector moves away from the cosine of 60 degrees. If the cosines differ by `not_of_three` or more, the
 // edge gets no roundness from its sector.
 constexpr double not_of_three = 0.22;
-// If a cusp has a sector of more than `most_of_one_piece` degrees, its attachment has two pieces, because one cubic would leave
-// the cylinder.
+// The attachment of a cusp whose sector exceeds `most_of_one_piece` degrees has two pieces, because one cubic would leave the
+// cylinder.
 constexpr double most_of_one_piece = 210;
 
 std::array<double, 4> blend(const std::array<double, 4> &from, const std::array<double, 4> &to, double share) {

@@ -35,7 +35,7 @@ inline constexpr double least_sector = 50, most_sector = 240;
 // Half of a cusp's sector: the angle theta from its symmetry plane to a commissure.
 struct HalfSector {
   double sine, cosine;
-  // The distance of the inner control points from the ends, in radii, of a cubic that approximates an arc of theta.
+  // A cubic approximates an arc of theta. This is the distance, in radii, of its inner control points from its ends.
   double arc_reach;
   double attachment_factor;  // factor of the attachment's start tangent, which keeps its middle on the cylinder
   std::optional<AttachmentArc> arc;
@@ -96,8 +96,8 @@ using CuspNumbers = Vector<HalfNumbers>;
 // Blends the numbers of two states.
 CuspNumbers blend(const CuspNumbers &a, const CuspNumbers &b, double opening);
 
-// The length of half a free edge as a function of the depth of its middle below its end. A fixed quadrature rule computes this
-// length, so the length is a smooth function of the cusp's sizes.
+// The length of half a free edge. It depends on how far the edge's middle hangs below its end. A fixed quadrature rule computes
+// this length, so the length is a smooth function of the cusp's sizes.
 class EdgeLength {
  public:
   explicit EdgeLength(const HalfNumbers &half);

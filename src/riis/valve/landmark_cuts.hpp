@@ -28,8 +28,8 @@ class LandmarkCuts {
   Vector<Vector<PointOnSpan>> on_sides_;
 };
 
-// Returns the cuts of each copy. Two patches may share a curve in one state only, so each side has separate cuts. A copy of a
-// curve has the cuts of all sides that use this copy.
+// Returns the cuts of each copy. Each side has cuts of its own, because two patches may share a curve in one state only. A copy
+// of a curve has the cuts of all sides that use it.
 Vector<Vector<PointOnSpan>> cuts_by_copy(Unfolding &unfolding, const LandmarkCuts &cuts);
 
 // Returns the spans, or their rates, with each cut span replaced by its parts.

@@ -119,7 +119,7 @@ Bezier free_edge(Vec3 first, Vec3 tip, Vec3 last, double arc_angle) {
   return Bezier::cubic(first, middle - along * half_chord + rise, middle + along * half_chord + rise, last);
 }
 
-// Returns the length of a free edge. Refuses an edge that is nearly one point, because it bounds no leaflet.
+// Returns the length of a free edge. Refuses an edge that is nearly a point, because such an edge bounds no leaflet.
 double checked_length(const Bezier &edge, const char *which, const Bezier &annulus) {
   const double length = arc_length(edge);
   if (!(length >= 1e-6 * arc_length(annulus)))

@@ -32,7 +32,7 @@ struct PatchImage {
   bool is_turned_over = false;  // S_u x S_v of the patch points upstream, because it comes from a mirror image
 };
 
-// Returns whether S_u x S_v of the placed patch points upstream, so that its triangles are turned over.
+// Returns whether the triangles of the placed patch are turned over, because its S_u x S_v points upstream.
 inline bool points_upstream(const PatchImage &image) { return (image.mirror != Mirror::none) != image.is_turned_over; }
 
 inline Vec3 place(const PatchImage &image, Vec3 p) {
@@ -44,8 +44,8 @@ inline Vec3 place(const PatchImage &image, Vec3 p) {
 // Returns the image without its translation. The result places directions.
 inline PatchImage turn_of(const PatchImage &image) { return {image.mirror, image.rotation, {0, 0, 0}, 0, 0}; }
 
-// A curve as the side of a patch. The curve is given by its position in PatchSet::curves, and runs from its first point or from
-// its last point.
+// A curve as the side of a patch. The curve is given by its position in PatchSet::curves. The side runs along the curve from its
+// first or from its last point.
 struct Side {
   std::size_t curve;
   bool reversed = false;
@@ -154,8 +154,8 @@ struct PatchSet {
   // Bounds the Hausdorff distance of the patches from the valve's shape. The bound is not 0 if curves approximate arcs of
   // circles.
   double deviation = 0;
-  // The derivatives of the spans' control points with respect to the opening, or nothing if the valve does not blend control
-  // points. The list ends before the curves of a skirt, which come last and have no derivatives.
+  // The derivatives of the spans' control points with respect to the opening. Empty if the valve does not blend control points.
+  // The list ends before the curves of a skirt, which come last and have no derivatives.
   Vector<Vector<Bezier>> rates = {};
   // Only warped patches have this list. Each curve has an entry, except the lines between the sides of a skirt. On these lines,
   // the points at equal shares of the length are the same material anyway.

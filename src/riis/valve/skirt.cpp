@@ -18,20 +18,21 @@ namespace {
 // A skirt of one length has `n_even_parts` parts on each side of a patch. The outer edge then has an error of at most a
 // thousandth of the length (tests/surface/test_skirt.c).
 constexpr std::size_t n_even_parts = 8;
-// Two ends of cusps that are not joined are neighbours if their distance is at most `most_between_ends` times the longest side.
+// Ends of cusps that are not joined count as neighbours up to a distance of `most_between_ends` times the longest side.
 constexpr double most_between_ends = 0.5;
 // The line through two neighbouring ends makes an angle with the outward direction. The skirts lead along this line if the sine
 // of the angle is between these two numbers. The sine is positive if the ends have passed each other. Outside of this range, the
 // skirts use a sine that decreases to 0.
 constexpr double most_apart_in_line = -0.5, most_past_in_line = 0.98;
-// The sine that is used also falls to 0 if the sine of the line's angle to the axis is below `least_sine_to_axis`.
+// This sine also falls to 0 where the line is nearly parallel to the axis: the sine of their angle is then below
+// `least_sine_to_axis`.
 constexpr double least_sine_to_axis = 0.2;
-// If the sine of a side's angle to the plane across the axis is at least `least_rise`, the skirt leans as the side's tangent
-// does. Beside a flatter side the skirt leans less, and beside a side in the plane across the axis the skirt does not lean.
+// A side makes an angle with the plane across the axis. If its sine is at least `least_rise`, the skirt leans as the side's
+// tangent does. Beside a flatter side it leans less, and beside a side in this plane not at all.
 constexpr double least_rise = 0.5;
-// In some valves the skirt is not turned at rest, although its rule gives a turn there. If a warp hardly changes this turn, the
-// skirt is turned only by the change. After a change of `most_turn_as_at_rest` or more, the skirt is turned by the whole new
-// turn. Between these cases, the turn changes gradually.
+// In some valves the skirt is not turned at rest, although the rule for neighbouring ends would turn it. If a warp hardly changes
+// this turn, the skirt is turned only by the change. After a change of `most_turn_as_at_rest` or more, the skirt is turned by the
+// whole new turn. Between these cases, the turn changes gradually.
 constexpr double most_turn_as_at_rest = pi / 4;
 // The disc about the axis that is warped has `n_corners` corners.
 constexpr int n_corners = 24;
@@ -189,9 +190,8 @@ class SkirtMaker {
     return found->second;
   }
 
-  // Returns the derivative of the length at one of the shares, per step between shares. The length between two shares then stays
-  // between the lengths at these shares, so a skirt does not overshoot at a corner of the wall (F. N. Fritsch, R. E. Carlson
-  // 1980).
+  // Returns the derivative of the length at one of the shares, per step between shares. Between two shares, the length then stays
+  // between the lengths at both, so that a skirt does not overshoot at a corner of the wall (F. N. Fritsch, R. E. Carlson 1980).
   static double growth_at(const Vector<double> &lengths, std::size_t i) {
     const double before = i == 0 ? 0 : lengths[i] - lengths[i - 1];
     const double after = i + 1 == lengths.size() ? 0 : lengths[i + 1] - lengths[i];
@@ -288,7 +288,7 @@ double angle_about(const AxisLine &axis, Vec3 from, Vec3 to) {
   return arc_tangent(dot(cross(from, to), axis.direction), dot(from, to));
 }
 
-// Returns two angles, one for each of two neighbouring ends. The skirt at an end turns by this angle from the outward direction
+// Returns two angles, one for each of two neighbouring ends. By its angle, the skirt at an end turns from the outward direction
 // of its own axis to direction_between.
 std::array<double, 2> turns_between(const AxisLine &axis_before, const SideEnd &before, const AxisLine &axis_after,
                                     const SideEnd &after) {
@@ -362,8 +362,8 @@ Vector<NeighbourEnds> neighbour_ends(const PatchSet &set, bool wants_turns) {
 }
 
 Vec3 direction_between(const AxisLine &axis, const SideEnd &before, const SideEnd &after) {
-  // Seen along `rise`, one side leaves its end to the left, and the other side leaves its end to the right. The planes of the
-  // skirts' ends contain the vector `rise`.
+  // Seen along `rise`, the two sides lead away from their ends in opposite directions: one to the left, one to the right. The
+  // planes of the skirts' ends contain the vector `rise`.
   const auto lean = [&](Vec3 tangent) {
     const double up = dot(tangent, axis.direction);
     return (up / std::max(least_rise * least_rise, up * up)) * (tangent - up * axis.direction);
@@ -481,8 +481,7 @@ void aim_skirt(PatchSet &set, SkirtAxis axis) {
     const PatchImage &image = patch.images.front();
     const PatchImage turn = turn_of(image);
     patch.axis = {without_placement(turn, whole.centre - image.translation), without_placement(turn, whole.direction)};
-    // A plane of symmetry contains the line. Rounding must not move the line out of this plane, because mirror images meet only
-    // in the plane.
+    // A plane of symmetry contains the line. Mirror images meet only in this plane, so rounding must not move the line out of it.
     for (const PatchImage &other : patch.images) {
       if (other.mirror == Mirror::in_x) patch.axis.centre.x = patch.axis.direction.x = 0;
       if (other.mirror == Mirror::in_y) patch.axis.centre.y = patch.axis.direction.y = 0;
@@ -491,8 +490,8 @@ void aim_skirt(PatchSet &set, SkirtAxis axis) {
 }
 
 void aim_warped_skirt(PatchSet &set, const PatchSet &at_rest, const BlendedWarp &warp) {
-  // Sides that have the same line at rest also have the same line after the warp, so that strips meet. Cusps with separate lines
-  // at rest get separate lines after the warp.
+  // So that strips meet, sides with one line at rest also have one line after the warp. Cusps with separate lines at rest get
+  // separate lines after the warp.
   struct Group {
     AxisLine axis;
     Vector<Step> steps;

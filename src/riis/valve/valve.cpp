@@ -397,7 +397,7 @@ PatchSet Valve::make_patches(FoldCheck check) const {
          " valve has only one state: set its open state with riis_valve_set_open_state");
   check_derived(*kind_, state_);
   if (kind_->check_values) {
-    // The opening plays no part in these checks, so they are not repeated in each time step.
+    // These checks do not depend on the opening, so a time step does not repeat them.
     const std::uint64_t shape = shape_digest();
     if (checked_.digest != shape) {
       kind_->check_values(state_.values);

@@ -80,8 +80,8 @@ struct ValveKind {
   // Refuses another state whose curves or patches are not built like the valve's. The message calls this state `name`, such as
   // "the open state". NULL if all states of the kind are built alike.
   void (*check_states)(const ValveState &valve, const ValveState &other, const char *name);
-  // True if leaflets meet only at common vertices of their triangles, such as at commissures. Otherwise leaflets may touch
-  // anywhere, and their triangles may penetrate each other by as much as the triangles' error.
+  // True if leaflets meet only where their triangles have common vertices, for example at commissures. Otherwise leaflets may
+  // touch anywhere, and their triangles may penetrate each other by as much as the triangles' error.
   bool has_exact_contacts = false;
   // True if the orifice is seen along the valve's z axis. Otherwise the orifice is seen along the vector area of the edges that
   // are farthest from its middle. This vector area would be oblique in valves whose cusps differ and whose open edges reach
@@ -124,7 +124,8 @@ class Valve {
   const ValveKind &kind() const { return *kind_; }
   const ParameterValues &values() const { return state_.values; }
 
-  // If a name without a leaflet is no parameter of the valve itself, it sets the parameter of this name in every leaflet.
+  // A name without a leaflet means the valve's own parameter. If the valve has no such parameter, the name means the parameter of
+  // every leaflet.
   void set(std::string_view name, std::int64_t n_values, const double *new_values);
   void get(std::string_view name, std::int64_t n_values, double *out) const;
   // Returns the least and the largest value of a parameter. The name must mean only one parameter.
@@ -171,12 +172,12 @@ class Valve {
   // Makes the patches at the current opening.
   PatchSet make_patches() const;
   // Makes the patches of `before`, an earlier state of this valve. `before` must be of the same kind and build. `known` has the
-  // patches of that state if they have been made already, or is null.
+  // patches of that state, or is null if they have not been made yet.
   PatchSet make_patches_before(const Valve &before, const PatchSet *known) const;
   // Returns a number that every change of the valve changes. Copies have the same number. Valves with the same number have the
   // same patches, to the last bit. The number is not 0.
   std::uint64_t revision() const { return revision_; }
-  // Fails if this valve cannot be a state of a valve of the given kind, with or without a warp.
+  // Fails if this valve cannot be a state of another valve, which is of the given kind and has a warp if `is_warped`.
   void check_is_state_of(const ValveKind &kind, bool is_warped, const StateNames &names) const;
   // Makes the patches without a search for folds. A message of failure begins with the state's name.
   PatchSet make_patches_unsearched(const char *name) const;
@@ -193,7 +194,7 @@ class Valve {
   void check_open_values() const;
   static std::uint64_t next_revision();
 
-  // The cuts of a shape at its landmarks. The cuts are kept, because they stay the same while the valve opens and the targets
+  // The cuts of a shape at its landmarks. The cuts are kept, because they do not change while the valve opens or the targets
   // move.
   struct KnownCuts {
     std::uint64_t shape_digest;

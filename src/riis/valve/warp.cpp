@@ -14,7 +14,8 @@
 namespace riis {
 namespace {
 
-// Sources count as planar if their rms distance from their mean plane is below `thinnest_share` of their largest rms extent.
+// Sources count as planar if they are nearly in a plane: the rms distance from it is below `thinnest_share` of their largest rms
+// extent.
 constexpr double thinnest_share = 0.05;
 // Sources also count as planar if the noise would change the stretch across the plane by more than `largest_stretch_error`.
 constexpr double largest_stretch_error = 0.1;
@@ -290,9 +291,9 @@ double WarpLandmarks::solve(double lambda) {
   return square;
 }
 
-// Returns the lambda at which the sum of squares of all residuals is a given share of its expected value. The noise gives the
-// expected value, 3 noise^2 for each free landmark. The sum of squares grows with lambda, so at most one lambda gives the wanted
-// share. Returns infinity if even the affine map has a smaller sum.
+// Returns the lambda at which the residuals' sum of squares is a given share of its expected value. The noise makes this value 3
+// noise^2 for each free landmark. The sum of squares grows with lambda, so at most one lambda gives the wanted share. Returns
+// infinity if even the affine map has a smaller sum.
 double WarpLandmarks::smoothing_for_noise() {
   const double noise = noise_ / size_, wanted = residual_share * 3 * noise * noise * static_cast<double>(n_free_);
   if (wanted == 0) return 0;

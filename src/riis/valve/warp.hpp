@@ -62,7 +62,7 @@ class BlendedWarp {
   double opening_;
 };
 
-// The quality of a map: its distances from the targets, its smoothing and its least determinant.
+// The quality of a map: how far it misses the targets, its smoothing and its least determinant.
 struct WarpQuality {
   double rms_residual, largest_residual;  // distances of mapped sources from their targets
   std::int64_t largest_landmark;
@@ -82,12 +82,12 @@ class WarpLandmarks {
 
   std::size_t size() const { return sources_.size(); }
   const Vector<Vec3> &sources() const { return sources_; }
-  // True if the landmarks are so near a plane that they do not determine an affine map. The map then stretches the direction
-  // across the plane as the landmarks stretch the plane.
+  // True if the landmarks are too near to a plane to determine an affine map. The map then stretches the direction across the
+  // plane as the landmarks stretch the plane.
   bool is_planar() const { return is_planar_; }
 
-  // Returns an (n, n) matrix. The product of this matrix and the displacements gives the weights of a map that meets its targets.
-  // Displacements are measured in the map's `size`. The product of displacements and weights is the map's bending.
+  // Returns an (n, n) matrix. Its product with the displacements gives the weights of a map that meets its targets. The product
+  // of displacements and weights is the map's bending. Displacements are measured in the map's `size`.
   Vector<double> bending_matrix();
 
   // Writes the map to the targets, and the map's quality. The same targets give the same bits. Accepts a map of any quality.
@@ -132,7 +132,7 @@ class WarpLandmarks {
 PatchSet without_images(const PatchSet &set);
 
 // Returns the same patches with warped curves. Curves are cut at landmarks first. Each warped part has the warped ends and the
-// directions of the warped end tangents. The lengths of these tangents are chosen by least squares, so that the warped part is as
+// directions of the warped end tangents. The lengths of these tangents are fitted by least squares, to bring the warped part as
 // near as possible to the warped points. Arcs are bent anew between warped curves. With `check`, fails with
 // RIIS_INVALID_PARAMETER for a warp that folds at a patch or turns a part of the patch over. The message names the place and the
 // value.

@@ -194,8 +194,8 @@ struct MaterialOfCurve {
   }
 };
 
-// Estimates the length of a span between two near parameters by Gauss's rule of 3 points. Both states use the same rule, so a
-// point that does not slide gets exactly the slide 0.
+// Estimates the length of a span between two near parameters by Gauss's rule of 3 points. Both states use this rule, so that a
+// point that does not slide has a slide of exactly 0.
 double length_near(const Bezier &span, double from, double to) {
   const double middle = 0.5 * (from + to), reach = 0.5 * (to - from) * 0.77459666924148337704;
   return (to - from) / 18 *
@@ -291,7 +291,7 @@ class LabelGrid {
 // Points of a mapped patch on the same grid.
 using MappedGrid = std::array<Vec3, (n_fold_cells + 1) * (n_fold_cells + 1)>;
 
-// The normal of a cell, whose length is twice the cell's area, and whether the cell is too narrow for a meaningful normal.
+// The normal of a cell, as long as twice the cell's area. Also says whether the cell is too narrow to have a meaningful normal.
 struct CellNormal {
   // `at` gives the points of the grid. The cell begins at point (i, j).
   template <class At>
