@@ -85,8 +85,7 @@ struct Handle {
   mutable Uses uses = {};
 };
 
-// The handles that a call uses until its end. For each handle, the list also says whether the call writes it. A call may name a
-// handle twice.
+// The handles that a call uses until its end. The list also says which of them the call writes. A call may name a handle twice.
 class UsesOfCall {
  public:
   UsesOfCall() noexcept : outer_(std::exchange(innermost(), this)) {}

@@ -92,7 +92,7 @@ void fill_from_valve(riis_surface &surface, const riis_valve *valve, const riis_
   surface.options = options;
 }
 
-// Returns the caller's options, or the options of the surface's last update if the caller passes none.
+// Returns the caller's options. If the caller passes none, returns those of the surface's last update.
 riis_surface_options options_for(const riis_surface &surface, const riis_surface_options *options,
                                  const char *name = "options") {
   return riis::completed(options, name, options ? riis::default_surface_options : surface.options);

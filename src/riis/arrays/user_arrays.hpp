@@ -50,7 +50,7 @@ class Keyframes {
   // Copies all arrays. Checks the faces and the first frame's vertices, and fails as triangles_from_arrays does. A face without
   // area is refused only when a surface is made. Messages about bad coordinates name the frame.
   Keyframes(const riis_surface_arrays &arrays, const riis_keyframe_arrays &frames);
-  Keyframes(Keyframes &&) = default;  // moving a vector leaves its elements, such as the times, at their address
+  Keyframes(Keyframes &&) = default;  // moving a vector keeps its elements, such as the times, in place
 
   // Writes positions and velocities (3, n_vertices). For dt == 0 the velocity is the derivative of the interpolation. Linear
   // interpolation has two derivatives at a key, and the later one counts. For any other dt the velocity is the mean over the time

@@ -32,8 +32,8 @@ KeepsMemory::~KeepsMemory() = default;
 
 namespace {
 
-// Blocks have 2^k bytes, from 64 bytes to 4 MiB. A kept block holds the address of the next kept block of its size. Larger
-// arrays are rare, so keeping their memory would cost more than allocating it again.
+// Blocks have 2^k bytes, from 64 bytes to 4 MiB. The kept blocks of a size form a list: each holds the address of the next.
+// Larger arrays are rare, so keeping their memory would cost more than allocating it again.
 struct Block {
   Block *next;
 };

@@ -101,8 +101,8 @@ double length_between(const Speed &speed, double tolerance, double t0, double t1
   return adaptive_length(speed, t0, t1, quadrature(speed, t0, t1), tolerance, 40);
 }
 
-// Returns the parameter up to which the curve has a given share of its length. Approximates the speed by the parabola through
-// its values at 0, 1/2 and 1.
+// Guesses the parameter at which the curve has reached a given share of its length. Approximates the speed by the parabola
+// through its values at 0, 1/2 and 1.
 double first_guess(const Speed &speed, double share) {
   const double start = speed(0), middle = speed(0.5), end = speed(1);
   const double slope = 4 * middle - 3 * start - end, bend = 2 * (start - 2 * middle + end);
@@ -236,7 +236,7 @@ static double rough_curvature(const Vec3 (&first)[n], const Vec3 (&second)[m], V
   return std::sqrt(largest_sq) / (least_speed * least_speed * least_speed);
 }
 
-// Differences of a curve's control points give the control points of its derivative.
+// The control points of the derivatives are differences of the curve's control points.
 static double rough_curvature(const Bezier &curve) {
   const auto &q = curve.control;
   const Vec3 chord = curve.last() - curve.first();

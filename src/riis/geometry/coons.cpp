@@ -21,8 +21,8 @@ double smallest_step(const Vector<double> &t) {
   return smallest;
 }
 
-// Bounds the distance between a side and its curve, for each pair of neighbouring grid lines. The bound is the error of the
-// side's segment between the two lines, plus the shift of shared lines along the side.
+// Bounds the distance between a side and its curve, for each pair of neighbouring grid lines. The bound is a sum: the error of
+// the side's segment between the two lines, and the distance by which shared lines shift along the side.
 Vector<double> errors_between(const Vector<GridLine> &lines, const Polyline &side, double GridLine::*t) {
   Vector<double> errors(lines.size() - 1, 0.0);
   if (!(side.length > 0)) return errors;

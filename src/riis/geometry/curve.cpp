@@ -72,9 +72,9 @@ class Flattening {
     return bend_ && t1 - t0 > narrowest_for_velocity && bend_->off_linear(t0, t1) > max_bend_;
   }
 
-  // The error of a part compares it with its chord, point by point at equal shares of their lengths. As for linear interpolation,
-  // the error is at most length^2 / 8 times the largest curvature. Joints do not change this bound, because the direction is
-  // continuous there. If the curve's derivative may be 0, the length bounds the error.
+  // The error of a part is the largest distance between part and chord at equal shares of their lengths. As for linear
+  // interpolation, it is at most length^2 / 8 times the largest curvature. Joints do not change this bound, because the direction
+  // is continuous there. If the curve's derivative may be 0, the length bounds the error.
   template <class LargestCurvature>
   bool accept(Vec3 last, double distance_to_chord, double part_length, const LargestCurvature &largest_curvature,
               double t1) {

@@ -66,7 +66,7 @@ class Curve {
 
   Curve reversed() const;
 
-  // Returns the same curve with its ends moved onto the ends of neighbouring curves. The ends may move only by rounding errors.
+  // Returns the curve with its ends moved to the ends of neighbouring curves, to which they are equal except for rounding.
   Curve through(Vec3 first, Vec3 last) const;
 
  private:
@@ -165,16 +165,16 @@ struct Polyline {
   double length;          // the length of that curve
 };
 
-// Returns the polyline through the points, parametrised by its own length. The polyline replaces no curve, so its errors are 0.
-// Drops repeated points, so that t ascends strictly. Needs at least one point.
+// Returns the polyline through the points, parametrised by its own length. Its errors are 0, because it replaces no curve. Drops
+// repeated points, so that t ascends strictly. Needs at least one point.
 Polyline make_polyline(const Vector<Vec3> &points);
 
 // Returns a polyline that replaces a curve. Every segment is within max_error (> 0) of the curve. The t of a vertex is its share
 // of the curve's length, whereas the paper takes the share of the polyline's length. The vertex at t is therefore the curve's
 // point at t, whatever the tolerance.
 Polyline make_polyline(const Curve &curve, double max_error);
-// Makes the polyline of a curve that moves. On each segment, the estimated distance of the velocity from a linear function is at
-// most max_bend. `velocity` has the velocities of the spans' control points.
+// Makes the polyline of a curve that moves. On each segment, the velocity is estimated to be within max_bend of a linear
+// function. `velocity` has the velocities of the spans' control points.
 Polyline make_polyline(const Curve &curve, double max_error, const Vector<Bezier> &velocity, double max_bend);
 
 // Returns the same polyline in the opposite direction.

@@ -37,8 +37,8 @@ PointOnTriangle closest_point_on_triangle(Vec3 p, Vec3 a, Vec3 b, Vec3 c) {
     const double distance_sq = dot(difference, difference);
     if (distance_sq < best.distance_sq) best = {distance_sq, point, {weight_a, weight_b, weight_c}};
   };
-  // If the parameter is limited to an end, the result is the corner itself. All triangles with this corner therefore agree on the
-  // distance to the last bit.
+  // If the parameter is limited to an end, the result is the corner itself. All triangles with this corner thus give the distance
+  // with the same bits.
   const auto on_edge = [](Vec3 first, Vec3 edge, Vec3 last, double t) { return t == 1.0 ? last : first + t * edge; };
   offer(on_edge(a, ab, b, t_ab), 1 - t_ab, t_ab, 0);
   offer(on_edge(b, bc, c, t_bc), 0, 1 - t_bc, t_bc);

@@ -144,7 +144,7 @@ LevelledGrid with_planned_levels(QuadGrid grid, double max_error, const Vector<i
   const Vec3 *below = in.points.data(), *above = below + in.u.size();
   for (std::size_t j = 0; j + 1 < in.v.size(); ++j, ++below, ++above)
     for (std::size_t i = 0; i + 1 < in.u.size(); ++i, ++level, ++error, ++below, ++above) {
-      // Most quads are not subdivided, and the bound from their twist alone is small enough.
+      // For most quads, which are not subdivided, the bound from the twist alone is small enough.
       const double at_equal_uv = *level == 0 ? quad_flatness({below[0], below[1], above[1], above[0]}) : infinity;
       count(at_equal_uv <= max_error - *error ? Level{0, *error + at_equal_uv}
                                               : planned_level(in, i, j, max_error, *level),

@@ -60,7 +60,7 @@ void check_pointers(const StridedReals<Real> &points, const char *what, const ch
 struct ComponentNames {
   const char *prefix, *names[3], *stride;
 };
-// Refuses components that overlap because the stride is wrong: one begins inside another, more than a stride after its beginning.
+// Refuses components that overlap because the stride is wrong: one begins inside another, beyond the first stride of the other.
 // Examples are one array xyz with the stride 1, and separate arrays with the stride 3. Equal components are allowed if
 // `may_be_equal`, because one array may serve two axes. The caller has checked n and the stride, in numbers of `size` bytes.
 void check_apart(std::int64_t n, const void *const (&components)[3], std::int64_t stride, std::int64_t size,
@@ -70,8 +70,8 @@ void check_apart(std::int64_t n, const void *const (&components)[3], std::int64_
 template <class Real>
 void check_point(const StridedReals<Real> &points, std::int64_t i, const char *what, riis_status bad_coordinate);
 
-// Returns point i of points that were checked when the caller passed them. The caller may have changed the coordinates since
-// then, so they are checked again. Fails as check_points does.
+// Returns point i, and checks it again. The points were checked when the caller passed them, but the caller may have changed
+// coordinates since then. Fails as check_points does.
 inline Vec3 checked_point(const StridedPoints &points, std::int64_t i, const char *what, riis_status bad_coordinate) {
   const Vec3 p = points[i];
   if (!is_usable(p)) check_points(points, what, bad_coordinate);

@@ -548,8 +548,8 @@ RIIS_INLINE void make_frames(const GroupCorners &corners, TriangleGroup &group,
     const Doubles3 middle = one_half * (a + b);
     put_axis(e.unit, middle, group.e, group.e_origin, from);
     put(half_ab, group.half_ab + from);
-    // Returns the part of v at right angles to e. If the triangle is needle-shaped, rounding leaves a part along e, which a
-    // second call removes.
+    // Returns the part of v at right angles to e. For a needle-shaped triangle, rounding leaves a part along e. A second call
+    // removes it.
     const auto across = [&](Doubles3 v) RIIS_LAMBDA { return v - dot(v, e.unit) * e.unit; };
     // If the triangle's height is lost in rounding, the part at right angles to e is only rounding error. It may again run along
     // e.

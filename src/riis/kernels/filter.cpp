@@ -180,9 +180,9 @@ void nearest_groups(const FilterTask &task, const Boxes &boxes, const int32_t *c
   for (int i = 0; i < 16; ++i) nearest[i] = static_cast<int32_t>(positions[i]);
 }
 
-// Let f be the square of a place's distance from a box, minus the square of the place's distance from a point. This difference f
-// is a concave function of the place, and a sum over the axes. The least f in another box is therefore a sum over the axes. Along
-// each axis, the least value is at one of the two ends of the box.
+// For a place, let f be the square of its distance from a group's box, minus the square of its distance from the point. f is a
+// concave function of the place, and a sum over the axes. The least f among the places of a box is therefore also a sum over the
+// axes. Along each axis, the least value is at one of the box's two ends.
 void competing_groups(const FilterTask &task, const Boxes &boxes, const PointsOfBoxes &points,
                       const int32_t *candidates, int32_t n_candidates, uint16_t *competes) {
   const Floats zero = Floats::all(0), tolerance = Floats::load(points.tolerance);
@@ -220,9 +220,9 @@ RIIS_INLINE uint32_t wanted_in_half(const LeafTask &leaf, int h) { return leaf.w
 RIIS_INLINE int32_t first_node_of(const LeafTask &leaf) { return leaf.position * nodes_per_leaf; }
 RIIS_INLINE uint32_t leaf_of(int32_t node) { return static_cast<uint32_t>(node) / nodes_per_leaf; }
 
-// Takes a leaf to the surface's frame. For every group and every node, computes the square of a lower bound on their distance.
-// Lists each node that may be within reach, with the group that has the least bound. If only one side of the surface counts, a
-// node is listed only if a group within reach keeps it.
+// Takes a leaf to the surface's frame. For every pair of a group and a node, computes the square of a lower bound on the
+// distance. Lists each node that may be within reach, with the group that has the least bound. If only one side of the surface
+// counts, a node is listed only if a group within reach keeps it.
 template <bool is_one_sided>
 RIIS_INLINE void begin_leaf(const FilterTask &task, LeafTask &leaf, ClusterTask &cluster, float *lower_bounds) {
   const int32_t first_node = first_node_of(leaf), n_before = cluster.n_listed;
@@ -292,7 +292,7 @@ RIIS_INLINE bool list_others(const LeafTask &leaf, ClusterTask &cluster, const f
     limit[h] = Floats::load(cluster.best + first_node + 16 * h) + Floats::all(leaf.limits.tolerance);
     first_group[h] = Floats::load(cluster.first_group + first_node + 16 * h);
   }
-  // The numbers are local variables, because the compiler must assume that a store to the list changes members.
+  // Local variables are used instead of members, because the compiler must assume that a store to the list changes members.
   int32_t n = cluster.n_listed, k = cluster.next_group;
   for (; k < leaf.n_groups && n <= most_listed - nodes_per_leaf; ++k) {
     const int32_t group = leaf.near_groups[k];
@@ -449,7 +449,7 @@ int32_t filter_nodes(const FilterTask &task, ClusterTask &cluster, const PairArr
     compare_all<is_one_sided>(task, cluster);
     cluster.next_listed = 0;
   }
-  // Writes those listed nodes whose group is still near after the whole list was compared. The position to write advances only
+  // Once the whole list is compared, writes those listed nodes whose group is still near. The position to write advances only
   // after a node whose group is near. Writing every node avoids a branch that the processor could not predict.
   const GroupBounds *const bounds = task.bounds;
   int32_t *const node_of_pair = pairs.node, *const triangle_of_pair = pairs.triangle;

@@ -99,7 +99,7 @@ struct FilterTask {
 // box.
 struct alignas(64) PointsOfBoxes {
   float xyz[3][16];
-  float tolerance[16];  // the most by which the computed squares of two equal distances from a place in the box differ
+  float tolerance[16];  // the most by which the computed squares of two equal distances differ, at any place in the box
 };
 
 // One leaf of a cluster, and the groups that may be near this leaf.
@@ -129,7 +129,7 @@ struct ClusterTask {
   LeafTask leaf[leaves_per_cluster];
   float *lower_bounds;  // room for nodes_per_leaf bounds for each near group of each leaf, aligned
   LinesAhead ahead;     // filter_cluster empties it
-  bool is_done;         // the last call of filter_cluster sets this
+  bool is_done;         // set by the last call of filter_cluster
 
   // Only the filter uses the following members. The arrays have room for whole registers. A node is given by its position in the
   // cluster.
@@ -138,7 +138,7 @@ struct ClusterTask {
   int32_t node[most_listed + 16], group[most_listed + 16];
   float nearest_sq[most_listed + 16];       // the square of the node's distance to the group
   uint16_t triangles[most_listed + 16];     // the group's triangles at this distance, up to the tolerance
-  uint16_t in_band[most_listed + 16];       // the part of `triangles` that does not leave the node out of the band
+  uint16_t in_band[most_listed + 16];       // those of `triangles` that keep the node in the band
   FilterLimits limits[leaves_per_cluster];  // the limits of each leaf, by its position
   alignas(64) float xyz[3][nodes_per_cluster];
   float best[nodes_per_cluster];         // the least of reach_sq and of all computed squares of distances
@@ -203,8 +203,8 @@ struct FilterKernels {
   bool (*near_boxes)(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
                      uint16_t *near);
   // Clears the bits of boxes that are out of reach of the group's box along its own axes. If only one side of the surface counts,
-  // a box that all groups leave out loses all its bits. Returns false if no bit is left. `near` comes from near_boxes, so lanes
-  // without a box have no bits.
+  // a box that all groups leave out loses all its bits. Returns false if no bit is left. In `near`, which comes from near_boxes,
+  // lanes without a box have no bits.
   bool (*near_own_boxes)(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
                          uint16_t *near);
   // From n numbers, copies those whose entry in `marks` has the given bit, without gaps. Returns the number of copied numbers.

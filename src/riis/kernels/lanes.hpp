@@ -259,8 +259,8 @@ RIIS_INLINE Row low_halves(Row a, Row b) { return _mm256_permute2f128_pd(a, b, 0
 RIIS_INLINE Row high_halves(Row a, Row b) { return _mm256_permute2f128_pd(a, b, 0x31); }
 #endif
 
-// Gathers n points for each of eight lanes. The coordinates of a lane's points follow each other at address(lane). No other
-// number is read.
+// Gathers n points for each of eight lanes. A lane's points are stored one after another from address(lane) on. No other number
+// is read.
 template <int n, class Address>
 RIIS_INLINE void gather_points(const Address &address, Doubles (&xyz)[n][3]) {
 #if defined(__AVX2__)
@@ -273,7 +273,7 @@ RIIS_INLINE void gather_points(const Address &address, Doubles (&xyz)[n][3]) {
   };
   for (int part = 0; part < Doubles::n_registers; ++part) {
     Row rows[n][4];
-    // Uses each address at once, because a processor has too few registers to keep all addresses.
+    // Uses each address as soon as it is known, because a processor has too few registers to keep all addresses.
     for (int i = 0; i < 4; ++i) {
 #if defined(__AVX512F__)
       const double *const from = address(i), *const later = address(i + 4);

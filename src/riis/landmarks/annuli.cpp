@@ -123,7 +123,7 @@ Outline outline_of(const Landmarks &landmarks) {
   return {ring, landmarks.mean_of(ring), unit(area_of(landmarks, ring)), spread.deviation[0]};
 }
 
-// The points of an annulus in the coordinates of a valve, and their extent.
+// The points of an annulus, turned to the coordinates of a valve, and the range of their coordinates.
 struct TurnedOutline {
   std::vector<Vec3> points;
   Vec3 lower{0, 0, 0}, upper{0, 0, 0};  // z is not used
@@ -265,14 +265,14 @@ void check_side(const LandmarkModel &fitted, const Landmarks &landmarks) {
 // The distance between the two horns in a view along the annulus' normal, as the landmarks show it.
 struct ShownDepth {
   double depth;
-  bool has_posterior_horn;  // if false, the depth goes to the annulus point that is farthest from the anterior horn
+  bool has_posterior_horn;  // if false, the annulus point farthest from the anterior horn takes its place
 };
 
 // The heights of an annulus' two horns above its sides, along its normal.
 struct HornHeights {
   std::size_t anterior_landmark, posterior_landmark;
   double anterior, posterior;
-  double usual_difference;  // the difference that the valve's proportions give
+  double usual_difference;  // the difference in the valve's proportions
   double depth;             // the distance between the horns
 };
 

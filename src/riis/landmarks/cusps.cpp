@@ -236,7 +236,7 @@ std::vector<double> shown_sectors(const Landmarks &landmarks, const CuspAxes &ax
   return shown;
 }
 
-// The sizes of cusps on circles: which sizes the caller holds, and the template's sizes.
+// The sizes of cusps on circles: their values in the template, and which of them the caller holds.
 class CircleSizes {
  public:
   CircleSizes(const Valve &valve, const CuspsOnCircles &names, const Landmarks &landmarks, const CuspAxes &axes,
@@ -253,9 +253,9 @@ class CircleSizes {
     for (double &sector : own_) sector *= 360 / sum;
   }
 
-  // Returns whether models fit the sectors. If the caller holds all sectors, they stay as in the template. If the caller holds
-  // only some, the other sectors are fitted. If the caller holds none, there is a model for each choice, and the landmarks
-  // decide.
+  // Returns, for each model that will be tried, whether it fits the sectors. If the caller holds all sectors, they stay as in the
+  // template. If the caller holds only some, the other sectors are fitted. If the caller holds none, there is a model for each
+  // choice, and the landmarks decide.
   std::vector<bool> fits_sectors() const {
     if (!has_sectors()) return {false};
     const std::size_t n_held = count_held([](std::size_t cusp) { return of_cusp(cusp, "sector"); });
@@ -332,7 +332,7 @@ class CircleSizes {
     model.derived.push_back(mean);
   }
 
-  // The last sector that is not held is 360 degrees minus the other sectors.
+  // Of the sectors that are not held, the last one is 360 degrees minus all others.
   void add_sectors(CirclesModel &model, double commissure_radius) const {
     const std::vector<double> shown = shown_sectors(landmarks_, axes_);
     const double reach = 0.5 * commissure_radius * (pi / 180);  // a sector grows on both sides of its cusp's middle

@@ -21,7 +21,7 @@ constexpr double determined_share = 1.0 / 15;
 // degree of freedom for each additional size. A decrease counts if it exceeds the distribution's mean by `surely_more` standard
 // deviations.
 constexpr double surely_more = 3;
-// Residuals below `exact_share` of the stated noise show that the landmarks have no noise.
+// If the residuals are below `exact_share` of the stated noise, the landmarks count as exact.
 constexpr double exact_share = 0.01;
 // Rounding of exact landmarks, as a share of the valve's radius.
 constexpr double rounding_share = 1e-9;
@@ -188,8 +188,8 @@ double LinearValue::at(const std::vector<double> &values) const {
 
 LandmarkFit fit(LandmarkModel &model, const Landmarks &landmarks, const std::vector<Pose> &starts) {
   const std::size_t n_landmarks = landmarks.list.size();
-  // In the first fit, every size has an additional residual that draws it to its expected value. The first fit thus ends near a
-  // real valve even if the landmarks say little.
+  // In the first fit, every size has an additional residual that draws it to its expected value. Even if the landmarks say
+  // little, the first fit thus ends near a real valve.
   Pose best{};
   std::vector<FittedSize> best_sizes;
   double least = std::numeric_limits<double>::infinity();

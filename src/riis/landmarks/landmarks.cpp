@@ -102,7 +102,7 @@ std::string words_for(const Landmarks &landmarks, std::size_t i) {
 }
 
 void check_unit(const Landmarks &landmarks) {
-  if (landmarks.list.size() < 2) return;  // one landmark has no size, and every kind of valve needs more landmarks
+  if (landmarks.list.size() < 2) return;  // one landmark has no size; a later check asks for more landmarks
   double size = 0;
   for (const Landmark &landmark : landmarks.list)
     size += length(landmark.point) / static_cast<double>(landmarks.list.size());

@@ -190,7 +190,7 @@ struct WarpPairs {
 };
 
 // Slides the places along the attachment until the warp through all landmarks bends least (F. L. Bookstein 1997). Neighbouring
-// places then keep suitable distances, and the warp has no folds between them.
+// places then keep their distances, so that the warp does not fold between them.
 void slide_along_attachment(const Vector<AttachmentPart> &parts, const Landmarks &landmarks,
                             const std::vector<Vec3> &local, double radius, std::vector<Vec3> &places) {
   constexpr int most_slides = 8;
@@ -214,8 +214,8 @@ void slide_along_attachment(const Vector<AttachmentPart> &parts, const Landmarks
       const auto here = nearest_on(parts, {}, pairs.sources[i], landmark.leaflet_ids[0]);
       if (here) sliding.push_back({i, here->tangent, map.at(pairs.sources[i]).along(here->tangent)});
     }
-    // A place that moves changes the displacement of its landmark. At the minimum of the bending, no such change lowers the
-    // bending further.
+    // Moving a place changes the displacement of its landmark, and thus the bending. At the minimum of the bending, no move
+    // lowers it further.
     const std::size_t n = sliding.size();
     std::vector<double> matrix(n * n), steps(n);
     for (std::size_t i = 0; i < n; ++i) {

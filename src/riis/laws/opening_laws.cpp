@@ -116,8 +116,8 @@ riis_opening_switch_state advance(const riis_opening_switch &law, const riis_ope
     now.pressure_difference = filtered(before.pressure_difference, pressure_difference, step, law.filter_time);
     now.flow = filtered(before.flow, flow, step, law.filter_time);
   }
-  // A valve that has just changed its phase does not change back within dwell_time. Noise in the pressure and the flow of the
-  // solver therefore does not make the valve flutter.
+  // After a change of phase, the valve does not change back within dwell_time. Noise in the pressure and the flow of the solver
+  // therefore does not make the valve flutter.
   const bool may_turn = std::isnan(before.turn_time) || time - before.turn_time >= law.dwell_time;
   const bool opens = before.phase == RIIS_PHASE_CLOSING && now.pressure_difference > law.open_above;
   const bool closes = before.phase == RIIS_PHASE_OPENING && now.flow < law.close_below;
@@ -184,7 +184,7 @@ AngleState runge_kutta(const AngleLaw &law, AngleState at, double from, double t
   return at + (seconds / 6) * (k1 + 2 * k2 + 2 * k3 + k4);
 }
 
-// Keeps the angle between its stops. At a stop, the leaflet has no speed in the direction of this stop.
+// Keeps the angle between its stops. A leaflet at a stop does not move on in the direction of the stop.
 AngleState stopped(AngleState at, double least, double most) {
   if (at.angle <= least) return {least, std::max(at.rate, 0.0)};
   if (at.angle >= most) return {most, std::min(at.rate, 0.0)};

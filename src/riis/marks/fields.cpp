@@ -111,8 +111,8 @@ class TriangleFields {
     }
   }
 
-  // Replaces the velocity of each node with ties by the mean over all leaflets that are equally near. A leaflet's velocity is
-  // the mean over its tied points. `range` is a range of ties: a node belongs to the range that contains the node's first tie.
+  // Replaces the velocity of each node with ties by the mean over all leaflets that are equally near. A leaflet's velocity is the
+  // mean over its tied points. `range` is a range of ties. It includes the nodes whose first tie is in it.
   void take_means(const Range &range) const {
     const std::int64_t begin = next_node(range.begin), end = next_node(range.end);
     MeanOfLeaflets mean(-1, {0, 0, 0});

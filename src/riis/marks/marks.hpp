@@ -70,7 +70,7 @@ struct NodeList {
 // Fields. A field is a number or vector at a node's closest point, such as the velocity, which a solver needs for its force.
 // Each requested field becomes an array over the nodes within the limit, for the closest triangles that the search found.
 
-// The field NodeFields::height, which every marking with an offset has, and which no caller can request.
+// The field NodeFields::height. Every marking with an offset has it, but no caller can request it.
 inline constexpr std::int32_t field_height = 1 << 30;
 
 // Fields, and the number of the surface's directions, which RIIS_FIELD_GRADIENT needs.
@@ -203,7 +203,7 @@ struct ListedNodes {
 
 struct Marks {
   ListedNodes within;       // nodes within the distance limit, or in a band with an offset
-  ListedNodes marked;       // used only if the limit is wider than the half thickness; otherwise `within` has them
+  ListedNodes marked;       // used if the limit exceeds the half thickness; else `within` serves for both
   bool was_marked = false;  // false until the first marking
   WantedData data;          // the data of the last marking
   bool limit_is_wider = false;

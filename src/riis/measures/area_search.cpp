@@ -22,8 +22,8 @@ AreaSearch::AreaSearch(Area area, double from, double to, std::int32_t n_samples
   sample(from, to, n_samples, grows);
   if (points_.empty()) return;
   part();
-  // Extremes are added to the samples, because areas between a sample and a nearby extreme would otherwise be out of reach. Their
-  // values are noted first, because each added extreme shifts the positions of later points.
+  // Areas between a sample and a nearby extreme would be out of reach, so the extremes are added to the samples. Their values are
+  // noted first, because each added extreme shifts the positions of later points.
   std::vector<double> places;
   for (const Part &one : parts_) places.push_back(points_[one.last].value);
   for (const double place : {least().value, most().value}) places.push_back(place);

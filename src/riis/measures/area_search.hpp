@@ -37,8 +37,8 @@ class AreaSearch {
   const std::vector<double> &turns() const { return turns_; }
   std::int64_t n_refused() const { return n_refused_; }
 
-  // Returns a value with this area, up to the tolerance as a share of the area. If several values have the area, the value
-  // nearest to `near` is returned. If the area jumps past the wanted area, the nearer end of the jump is returned. Returns
+  // Returns a value with this area. The area may be off by `tolerance`, a share of the area. If several values have the area, the
+  // value nearest to `near` is returned. If the area jumps past the wanted area, the nearer end of the jump is returned. Returns
   // nothing if the area is out of reach.
   std::optional<Point> find(double area, double near, double tolerance) const;
 

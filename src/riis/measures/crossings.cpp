@@ -113,8 +113,8 @@ CommonSegment common_segment(const Triangle &a, const Triangle &b) {
 
 constexpr float nowhere = std::numeric_limits<float>::infinity();
 
-// A box in the groups' frame, in single precision. Rounding keeps the order of numbers, so boxes with a common point still have a
-// common point after rounding.
+// A box in the groups' frame, in single precision. Rounding keeps the order of numbers, so boxes that overlap still overlap after
+// rounding.
 struct Box {
   float lower[3]{nowhere, nowhere, nowhere}, upper[3]{-nowhere, -nowhere, -nowhere};
 

@@ -36,7 +36,7 @@ std::vector<std::int64_t> pieces_of(const TriangleSet &set) {
   return lowest;
 }
 
-// A side of a triangle: the distinct positions of its ends.
+// A side of a triangle. `low` and `high` are the numbers of its ends' positions.
 struct TriangleSide {
   std::int64_t piece, low, high, triangle;
   bool is_upwards;
@@ -81,7 +81,8 @@ std::vector<std::vector<Neighbour>> neighbours_of(const TriangleSet &set, const 
     for (const std::int64_t vertex : {sides[i].low, sides[i].high})
       single_at[{sides[i].piece, vertex}].push_back(sides[i]);
   }
-  // A vertex may lie inside the edge of a neighbouring triangle. Two edges then lead from one vertex in one direction.
+  // A vertex may lie inside the edge of a neighbouring triangle. Two edges of different lengths then lead from one vertex in the
+  // same direction.
   for (const auto &[at, single] : single_at) {
     const std::int64_t vertex = at.second;
     std::vector<Vec3> direction;

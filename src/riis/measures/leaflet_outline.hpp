@@ -46,7 +46,7 @@ struct SeenOutline {
 // The directions of a valve before its outline is known.
 struct ValveDirections {
   Vec3 axis, sideways;  // its z axis, warped and placed, and its x axis, placed
-  bool keeps_axis;      // the outline is seen along `axis`, and not along the vector area of its edges
+  bool keeps_axis;      // whether the outline is seen along `axis`, or else along the vector area of its edges
 };
 
 // Returns the outline, with the axis on the side of the valve's axis. Triangles from arrays have no valve, so their axis is on

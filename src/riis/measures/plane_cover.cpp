@@ -347,7 +347,7 @@ Cover cover_of(const std::vector<PlanePoint> &vertices, const std::vector<std::i
     for (int k = 0; k < 3; ++k) {
       Use &use = uses[key(id(i, k), id(i, k + 1))];
       if (use.n < 1 || (use.n == 2 && std::abs(use.sides) == 2)) continue;
-      use.n = -1;  // the second triangle of this edge does not add the edge again
+      use.n = -1;  // so that the edge's second triangle does not add it again
       cover.rim.push_back({view(vertices)[id(i, k)], view(vertices)[id(i, k + 1)]});
     }
   return cover;

@@ -15,8 +15,8 @@
 namespace riis {
 namespace {
 
-// The interval of openings is cut at all multiples of 1 / n_steps inside it. The volumes of adjacent intervals therefore add up.
-// Between two cuts each point moves along a straight line.
+// An interval of openings is cut at all multiples of 1 / n_steps. These cuts are the same for every interval, so the volumes of
+// adjacent intervals add up. Between two cuts each point moves along a straight line.
 constexpr int n_steps = 64;
 
 // Each patch is cut into n by n quads. The number n is between `fewest` and `most`. The whole valve then has about

@@ -150,7 +150,7 @@ class RowMaker {
       const Range nodes = nodes_of(number);
       const Entry *const ends = next_of(n_parts_ - 1);
       const ArrayView<const Entry> entries(block.as<Entry>(), static_cast<std::int64_t>(ends[nodes.end - 1]));
-      const Lists lists = lists_;  // a copy, which tells the compiler that stores to is_seen do not change the lists
+      const Lists lists = lists_;  // a copy, so that the compiler knows that stores to is_seen do not change it
       std::int64_t begin = 0, n_columns = 0;
       for (std::int64_t node = nodes.begin; node < nodes.end; ++node) {
         const auto end = static_cast<std::int64_t>(ends[node]);

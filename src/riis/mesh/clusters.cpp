@@ -13,7 +13,7 @@ namespace riis {
 namespace {
 
 // Checks that all boxes lie within the frame. The caller may have moved nodes, or made coordinates unusable, without telling the
-// mesh. The errors of single precision are bounded only for coordinates of at most 1.
+// mesh. Outside of the frame, coordinates exceed 1, and the errors of single precision have no bound.
 bool are_within_frame(const Clusters &clusters) {
   return std::all_of(clusters.boxes.begin(), clusters.boxes.end(), [](const Clusters::Box &box) {
     return std::all_of(box.lower, box.lower + 3, [](float x) { return x >= -1; }) &&

@@ -19,8 +19,8 @@
 
 namespace riis {
 
-// The coordinates of a leaf's nodes in double precision, stored together. In the caller's array these nodes may be far apart, but
-// the decision reads them together.
+// The coordinates of a leaf's nodes in double precision, stored together. The decision reads them together, but they may be far
+// apart in the caller's array.
 struct LeafPoints {
   double xyz[3 * nodes_per_leaf];
 };

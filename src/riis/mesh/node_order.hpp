@@ -87,9 +87,10 @@ struct NodeItem {
 template <class Node>
 using NodeItems = UnfilledVector<NodeItem<Node>>;
 
-// The places where parts are cut. With by_clusters, large parts are cut between clusters and small parts between leaves, into at
-// most four parts each time. Clusters are then compact. With by_leaves, all cuts are between leaves. The number of parts is
-// chosen so that leaves become as wide as they are long. Cuts by leaves take half as many passes, but make long clusters.
+// The places where parts are cut. With by_clusters, a part is cut into at most four parts at a time. Large parts are cut between
+// clusters, and small parts between leaves. Clusters are then compact. With by_leaves, all cuts are between leaves. The number of
+// parts is chosen so that leaves become as wide as they are long. Cuts by leaves take half as many passes, but make long
+// clusters.
 enum class Cuts { by_clusters, by_leaves };
 
 // Sorts nodes so that near nodes follow each other. Each pass divides the longest axis of a part's box into bins, and counts the

@@ -225,8 +225,8 @@ RestInside::RestInside(const MovedPatch &moved, const PatchMaterial &material) {
 }
 
 PatchMaterial::PatchMaterial(const MovedPatch &moved)
-    // A patch of arcs whose bulge is 0 in both states equals the Coons patch of its sides at the same (u, v). Only a patch
-    // with a bulge is therefore treated as a patch of arcs.
+    // A patch of arcs whose bulge is 0 in both states equals the Coons patch of its sides at the same (u, v). Only a patch with a
+    // bulge in one of the states is therefore treated as a patch of arcs.
     : has_arcs(moved.now.patches[moved.patch].bulge != 0 || moved.before.patches[moved.patch].bulge != 0),
       v0(moved, &Patch::v0),
       v1(moved, &Patch::v1) {

@@ -108,8 +108,8 @@ void check_width(const Loads &loads, const Hold &hold, double n_nodes, const std
        " from their middle; give a larger loads.radius, or more rows of nodes");
 }
 
-// Returns the field of a leaflet. Among all fields with the leaflet's force and moment, this field has the least sum of |force|^2
-// / w. With moments about the nodes' middle, force and moment have separate equations. The equations of the moment have a 3 x 3
+// Returns the field of a leaflet. Many fields have the leaflet's force and moment. This one has the least sum of |force|^2 / w.
+// With moments about the nodes' middle, force and moment have separate equations. The equations of the moment have a 3 x 3
 // matrix, which is diagonal in the axes of the nodes' covariance.
 Field field_of(const Loads &loads, const Hold &hold, Vec3 force, Vec3 moment, const double *sums) {
   for (std::int64_t k = 0; k < n_load_sums; ++k)

@@ -23,8 +23,8 @@ double coefficient_at(const Resistance &resistance, double distance) {
   return resistance.factor * (1 + cosine_of_pi(distance / eps)) / (2 * eps);
 }
 
-// Returns the derivative of K with respect to the distance from the middle of the band. The sine is 0 in the middle and at the
-// edge of the band. Measured from the nearer of these two places, it loses fewer digits.
+// Returns the derivative of K with respect to the distance from the middle of the band. The derivative is a sine, which is 0 in
+// the middle and at the edge of the band. Measured from the nearer of these places, its angle loses fewer digits.
 double slope_at(const Resistance &resistance, double distance) {
   const double eps = resistance.band.half_thickness;
   if (!(distance < eps)) return 0;

@@ -75,8 +75,8 @@ void Minimizer::query(std::int64_t patch, Vec3 p, ClosestOnPatches &best) const 
     const Vec3 d = to_surface(at);
     return dot(d, d);
   };
-  // Returns the step along a line that moves the point S by at most a tenth of `enough`. A step shorter than 1e-9 would be lost
-  // in the rounding of the squared distance.
+  // Returns a step along a line. The step moves the point S by at most a tenth of `enough`. A step shorter than 1e-9 would be
+  // lost in the rounding of the squared distance.
   const auto step_of = [&](Parameters along) {
     const double speed = std::abs(along.u) * extents.width + std::abs(along.v) * extents.height;
     const double longest = std::max(std::abs(along.u), std::abs(along.v));

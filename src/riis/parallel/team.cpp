@@ -56,8 +56,8 @@ bool wait_awake(const Condition &holds) {
   }
 }
 
-// The state of a team's loop, in one word. The word holds the loop's number, how many workers are inside the loop, and how
-// many more may enter. A worker therefore enters only a loop that still has a place.
+// The state of a team's loop, in one word. The word holds the loop's number, how many workers are inside the loop, and how many
+// more may enter. One atomic operation thus lets a worker enter only a loop that still has a place.
 struct State {
   static constexpr std::uint64_t one_inside = 1, one_place = std::uint64_t{1} << 16, one_loop = std::uint64_t{1} << 32;
   static constexpr std::uint64_t all_places = one_loop - one_place;
@@ -101,7 +101,7 @@ class Team {
     const State closed{state_.load(std::memory_order_relaxed)};
     const auto n = static_cast<std::uint64_t>(n_places);
     state_.store(closed.word + State::one_loop + n * State::one_place);
-    // Only sleeping workers are woken, because the other workers find the loop by themselves.
+    // Workers that are awake find the loop by themselves, so only sleeping workers are woken.
     const int n_awake = n_workers_ - n_asleep_.load();
     for (int n_to_wake = take_asleep(n_places - n_awake); n_to_wake > 0; --n_to_wake) may_start_.post();
     work(context, 0);
@@ -172,9 +172,9 @@ class Team {
   int n_workers_ = 0, n_processors_ = 1;
 };
 
-// The idle teams. At the end of the process, idle teams are not destroyed, because their workers still wait. There are as many
-// teams as the caller has had threads inside loops at one time. The first few teams are static, so a call needs no memory for
-// them.
+// The idle teams. At the end of the process, idle teams are not destroyed, because their workers still wait. The number of teams
+// is the largest number of threads that the caller has had inside loops at one time. The first few teams are static, so a call
+// needs no memory for them.
 constexpr std::size_t n_first_teams = 16;
 alignas(Team) unsigned char first_teams[n_first_teams][sizeof(Team)];
 std::mutex teams_mutex;

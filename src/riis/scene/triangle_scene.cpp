@@ -77,7 +77,7 @@ struct TriangleScene::Implementation {
   std::shared_ptr<std::remove_pointer_t<RTCDevice>> device = shared_device();
   MadeOnce<Scene> scene;
   Geometry geometry;
-  bool tree_fits = false;  // whether the tree, when it was last built, had the same groups
+  bool tree_fits = false;  // whether the tree was last built over the same groups
 
   // Returns Embree's tree over the groups. Builds the tree if no query has built it since the groups were made.
   RTCScene tree() {

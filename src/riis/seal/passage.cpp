@@ -135,7 +135,8 @@ class Opening {
     return made;
   }
 
-  // Returns the edges to closed nodes whose own rows lack these edges. Most adjacencies are symmetric and have no such edges.
+  // Returns the edges that lead to closed nodes but are missing in these nodes' own rows. Most adjacencies are symmetric and have
+  // no such edges.
   std::vector<OneWayEdge> one_way_edges() {
     constexpr std::int64_t rows_per_task = 4096;
     if (Edges::is_symmetric) return {};

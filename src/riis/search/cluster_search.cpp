@@ -350,7 +350,7 @@ class ClusterSearch {
     }
   }
 
-  // The pairs of node and triangle in a cluster that the filter did not dismiss. The pairs are stored until double precision
+  // The pairs of a cluster's nodes and of triangles that the filter did not dismiss. The pairs are stored until double precision
   // decides them.
   struct Pairs {
     const Open &cluster;
@@ -373,7 +373,8 @@ class ClusterSearch {
     return error;
   }
 
-  // Prepares the filter to leave out nodes on the side away from the band's offset (docs/theory/clusters.md, "One side").
+  // Prepares the filter for a band with an offset, so that it leaves out nodes on the other side (docs/theory/clusters.md, "One
+  // side").
   void look_at_one_side(const Band &band, double error) {
     const double half_thickness = band.half_thickness * groups_.frame.scale;
     if (!(half_thickness <= large)) return;
@@ -558,7 +559,7 @@ class ClusterSearch {
     }
     decide(own, pairs);
     while (pairs.ahead.near) pairs.ahead.request_one();
-    // Every node with pairs is written to the list, but the position in the list advances only after a node within the limit.
+    // Every node with pairs is written, without a branch. The position in the list advances only after a node within the limit.
     UnfilledVector<FoundNode> &found = view(found_.by_thread)[thread];
     const std::size_t n_before = found.size();
     std::size_t n_paired = 0;

@@ -18,7 +18,7 @@ namespace riis {
 struct ClusterScratch {
   static constexpr std::int32_t room_for_pairs = 4096;
 
-  // A near cluster and its near groups. The lists of one thread contain these groups, from `first` on.
+  // A near cluster and its near groups. The groups are in the thread's lists, from `first` on.
   struct Item {
     std::int64_t cluster;
     std::size_t first, n;

@@ -120,7 +120,7 @@ struct SearchReport {
   std::int64_t n_queries;
   int n_threads;
   bool complete;
-  std::int64_t n_unreached;  // number of nodes that only the proof of the neighbour search found
+  std::int64_t n_unreached;  // the nodes that the neighbour search found only by its proof
 };
 
 // Every search fills FoundNodes in any order. A search that reads an unusable coordinate fails with RIIS_INVALID_MESH.

@@ -182,7 +182,7 @@ Vector<double> segments(const Needs &needs, double most) {
   return made;
 }
 
-// Takes as few positions as segments() takes, but makes the errors of the segments as equal as the positions allow.
+// Takes as many positions as segments(), but chooses them so that the segments' errors are as equal as possible.
 Vector<double> balanced_segments(const Needs &needs, double most) {
   Vector<double> made = segments(needs, most);
   double low = 0, high = most;
@@ -270,9 +270,9 @@ class Planner {
     plan.lines = {lines(patch.v0, patch.v1), lines(patch.u0, patch.u1)};
   }
 
-  // The curves at opposite sides of a Coons patch belong to one family, and so do the curves across the patch's neighbours. The
-  // patches have few lines if the curves of a family have the same vertices. Each curve runs in the direction of the first curve
-  // of its family, or against it.
+  // The curves at opposite sides of a Coons patch belong to one family. A family thus runs through a row of neighbouring patches.
+  // The patches have few lines if the curves of a family have the same vertices. Each curve runs in the direction of the first
+  // curve of its family, or against it.
   struct Family {
     Vector<std::size_t> curves;
     Vector<bool> runs_against;

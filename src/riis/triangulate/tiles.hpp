@@ -89,7 +89,7 @@ class Tiles {
   std::int64_t n_vertices_ = 0, room_ = 0;
 };
 
-// Returns true if nothing in the set replaces this triangle, which was left out.
+// Returns true if the set has nothing in place of this triangle, which was left out.
 bool is_missed(const TriangleSet &set, const LeftOut &triangle);
 
 // Returns the triangulation's request, with the allowed error reduced by the patches' own deviation. Fails if the remaining error

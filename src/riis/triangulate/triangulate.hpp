@@ -18,8 +18,8 @@
 namespace riis {
 
 // Grids whose lines stay the same while a valve opens (docs/theory/triangles.md, "Fixed triangulation"). A plan is made from the
-// patches of a valve at many openings. The plan's lines keep the allowed error at all these openings. Grids on these lines, with
-// their errors, can be made at any opening.
+// patches of a valve at many openings. The plan's lines keep the allowed error at all these openings. At any opening, grids can
+// be made on these lines, with bounds of their errors.
 struct PatchPlan {
   bool has_arcs = false;  // whether the patch is a patch of arcs at some opening
 
@@ -53,10 +53,10 @@ struct GridPlan {
   std::size_t n_rows = 1;  // the number of rows of all patches of arcs
 };
 
-// Makes the plan from the patches at each of the openings. The patches of all openings must use one numbering of curves. The
-// error of a curve of a Coons patch is at most max_error times of_curves times the curve's tightness. The curves of other patches
-// stay within a share of their own. Fails with RIIS_LIMIT_EXCEEDED for more than max_triangles, and with RIIS_INVALID_PARAMETER
-// if no number of lines is enough.
+// Makes the plan from the patches at each of the openings. The patches of all openings must use one numbering of curves. A curve
+// of a Coons patch has an error of at most max_error * of_curves, times the curve's tightness. The curves of other patches stay
+// within a share of their own. Fails with RIIS_LIMIT_EXCEEDED for more than max_triangles, and with RIIS_INVALID_PARAMETER if no
+// number of lines is enough.
 GridPlan plan_grids(const Vector<PatchSet> &states, double max_error, double of_curves,
                     const Vector<double> &tightness);
 

@@ -177,7 +177,8 @@ void check_together(const ParameterValues &values) {
   }
 }
 
-// Checks every curve of one state. At any opening, curves lie between the curves of the two checked states and need no check.
+// Checks every curve of one state. The curves at other openings need no check, because they lie between those of the two checked
+// states.
 void check_values(const ParameterValues &values) {
   check_together(values);
   for (std::size_t cusp = 0; cusp < n_cusps; ++cusp) {

@@ -32,7 +32,7 @@ enum OfCommissure { height, fusion, n_of_commissure };
 enum OfCusp { sector, own_effective_height, own_coaptation_height, own_open_radius_ratio, n_of_cusp };
 // clang-format on
 
-// An open free edge that does not hang must be shorter than `most_of_edge` times the closed free edge.
+// Without sag, the open free edge must be shorter than `most_of_edge` times the closed free edge.
 constexpr double most_of_edge = 0.998;
 // While the valve opens, the height of the free edge above the root must stay at least `least_height` times root_radius.
 constexpr double least_height = 0.05;
@@ -415,7 +415,7 @@ void check_values(const ParameterValues &list) {
   check_fusion(values);
 }
 
-// An open state may have other sizes than the closed valve, but must have the same cusps.
+// An open state may have other sizes than the closed valve, but not other cusps.
 void check_same_cusps(const ValveValues &closed, const ValveValues &open) {
   for (std::size_t k = 0; k < closed.n_cusps(); ++k) {
     if (closed.sectors()[k] != open.sectors()[k])

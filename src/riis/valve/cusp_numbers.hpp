@@ -23,7 +23,7 @@ inline constexpr std::array<Abscissa, 4> gauss_4{{{0.06943184420297371239, 0.173
                                                   {0.66999052179242813240, 0.32607257743127307131},
                                                   {0.93056815579702628761, 0.17392742256872692869}}};
 
-// The arc with which the attachment of a wide cusp begins at the symmetry plane, given by the arc's angle.
+// The arc with which the attachment of a wide cusp begins at the symmetry plane. Its angle is given by sine and cosine.
 struct AttachmentArc {
   double sine, cosine;
   double reach;  // the length of its end tangents, divided by the second piece's start tangent

@@ -21,8 +21,8 @@ enum class Mirror { none, in_x, in_y };
 inline constexpr std::size_t no_patch = static_cast<std::size_t>(-1);
 
 // The placement of a patch. The patch may first be mirrored. After mirroring, the patch is turned and moved. All images of a
-// patch come from the same operations on the same points. A patch and its mirror image therefore meet in the mirror's plane to
-// the last bit.
+// patch come from the same operations on the same points. To the last bit, a patch and its mirror image therefore meet in the
+// mirror's plane.
 struct PatchImage {
   Mirror mirror;
   Rotation rotation;
@@ -160,7 +160,7 @@ struct PatchSet {
   // Only warped patches have this list. Each curve has an entry, except the lines between the sides of a skirt. On these lines,
   // the points at equal shares of the length are the same material anyway.
   Vector<std::optional<MaterialPoints>> material = {};
-  // Only warped patches have this list. For each patch, the list says to which places the map takes points inside the patch.
+  // Only warped patches have this list. Its entries say to which places the map takes points inside each patch.
   Vector<MappedInside> mapped_inside = {};
   // Only valves whose skirts lead away from the axis of the attachment have this list. The patches of such valves have one image
   // each.

@@ -36,8 +36,8 @@ constexpr double least_rise = 0.5;
 constexpr double most_turn_as_at_rest = pi / 4;
 // The disc about the axis that is warped has `n_corners` corners.
 constexpr int n_corners = 24;
-// To differentiate a turned direction, the difference is taken between two points, `direction_step` times the length on either
-// side.
+// A turned direction is differentiated by the difference between two points, each at `direction_step` times the length from the
+// place.
 constexpr double direction_step = 1e-4;
 
 Vec3 without_placement(const PatchImage &image, Vec3 p) {
@@ -490,8 +490,8 @@ void aim_skirt(PatchSet &set, SkirtAxis axis) {
 }
 
 void aim_warped_skirt(PatchSet &set, const PatchSet &at_rest, const BlendedWarp &warp) {
-  // So that strips meet, sides with one line at rest also have one line after the warp. Cusps with separate lines at rest get
-  // separate lines after the warp.
+  // So that strips meet, sides with a common line at rest also have a common line after the warp. Cusps with separate lines at
+  // rest get separate lines after the warp.
   struct Group {
     AxisLine axis;
     Vector<Step> steps;

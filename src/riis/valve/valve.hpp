@@ -35,8 +35,8 @@ struct ParameterRule {
   }
 };
 
-// A second name for a parameter, under which the value is a multiple of the parameter's value. The factor is a power of 2, so no
-// value is rounded.
+// A second name for a parameter. The value under this name is the parameter's value times a factor, a power of 2, so that nothing
+// is rounded.
 struct OtherName {
   const char *name;
   double factor;
@@ -100,9 +100,8 @@ struct ValveKind {
 // Adds the parameter "skirt_length" to a kind.
 ValveKind with_skirt(ValveKind kind, SkirtAxis axis);
 
-// The kinds of valves that are defined by parameters. Each kind is in a file of its name, with two exceptions. The kinds with two
-// to four coapting cusps are in valve/coapting.cpp. The kinds with coapting leaflets on an annulus are in
-// valve/atrioventricular.cpp.
+// The kinds of valves that are defined by parameters. Most kinds are in files with their names. The kinds with two to four
+// coapting cusps are in valve/coapting.cpp. The kinds with coapting leaflets on an annulus are in valve/atrioventricular.cpp.
 const ValveKind &aortic_valve_kind();
 const ValveKind &bicuspid_valve_kind();
 const ValveKind &bileaflet_valve_kind();

@@ -136,7 +136,7 @@ WarpLandmarks::WarpLandmarks(const Vector<Vec3> &sources, double noise, const ch
   const double root_n = std::sqrt(static_cast<double>(n));
   const double widest = std::sqrt(values[0]) / root_n, middle = std::sqrt(values[1]) / root_n,
                thinnest = std::sqrt(values[2]) / root_n;
-  // The nearest pair is found first, because landmarks in one place also lie on a line.
+  // The nearest pair is checked first: landmarks in one place also lie on a line, but need another message.
   Vector<std::size_t> nearest_to;
   for (std::size_t i = 0; i < n; ++i) {
     double least = std::numeric_limits<double>::infinity();

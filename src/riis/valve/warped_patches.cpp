@@ -140,8 +140,8 @@ class MapAtEnds {
   std::size_t next_ = 0;
 };
 
-// The material points of a curve before any image is placed. The weights belong to the points of a mapped span, and define the
-// polynomial through these points.
+// The material points of a curve before any image is placed. The weights are those of a mapped span's points, for the polynomial
+// through these points.
 struct MaterialOfCurve {
   explicit MaterialOfCurve(const Curve &curve) {
     const CurvePoints points(curve, false, material_shares());
@@ -432,7 +432,7 @@ PatchSet warped(const PatchSet &set, const BlendedWarp &warp, const LandmarkCuts
   bend_arcs(made);
   for (std::size_t i = 0; i < material.size(); ++i) locate_on_curve(made.curves[i], *material[i]);
   made.material = std::move(material);
-  // Only kinds without rates have arcs. The arcs themselves are not checked, because an arc may be straight at an opening.
+  // Only kinds without rates have arcs. The arcs themselves do not tell, because an arc may be straight at an opening.
   const bool has_arcs = set.rates.empty();
   const auto at_rest = [&](std::size_t curve) -> const std::array<PointOnSpan, n_material> & {
     return of_curves[curve]->on_curve;
