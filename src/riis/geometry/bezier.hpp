@@ -19,7 +19,7 @@ struct Bezier {
   static Bezier quadratic(Vec3 q0, Vec3 q1, Vec3 q2) { return {2, {q0, q1, q2, Vec3{0, 0, 0}}}; }
   static Bezier cubic(Vec3 q0, Vec3 q1, Vec3 q2, Vec3 q3) { return {3, {q0, q1, q2, q3}}; }
   static Bezier line(Vec3 q0, Vec3 q1) { return quadratic(q0, 0.5 * (q0 + q1), q1); }
-  // Returns a curve that stays in one point. Such curves are the collapsed sides of patches.
+  // Returns a curve that stays in one point. Such curves serve as collapsed sides of patches.
   static Bezier point(Vec3 q) { return quadratic(q, q, q); }
 
   Bezier reversed() const {

@@ -81,7 +81,7 @@ struct OneSide {
   float least_depth;  // a node with less depth may be in front of the triangle
   float least_sum;    // a node is out of the band if distance^2 + twice_shift * depth exceeds this number
   // For each group, a limit along the group's first axis, multiplied by `behind`. A node beyond the limit is out of the band at
-  // each triangle of the group. The limit is infinite if there is no such place. The pointer is null if nodes on both sides are
+  // each triangle of the group. The limit is infinite if no node is surely out. The pointer is null if nodes on both sides are
   // wanted.
   const float *end_of_band = nullptr;
 };

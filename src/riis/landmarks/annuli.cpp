@@ -168,7 +168,7 @@ Vec3 atrial_side(const Landmarks &landmarks, Vec3 normal, Vec3 forward) {
   return by_commissures;
 }
 
-// Returns words for a message that name the landmark with the largest residual.
+// Returns the words with which a message names the landmark with the largest residual.
 std::string advice_for(const LandmarkFit &fit, const Landmarks &landmarks) {
   const auto worst = std::max_element(fit.residuals.begin(), fit.residuals.end());
   return std::string("the worst residual is ") + Message(rounded(landmarks.scale * *worst, 3)).text() + " at " +
@@ -265,7 +265,7 @@ void check_side(const LandmarkModel &fitted, const Landmarks &landmarks) {
 // The distance between the two horns in a view along the annulus' normal, as the landmarks show it.
 struct ShownDepth {
   double depth;
-  bool has_posterior_horn;  // if false, the annulus point farthest from the anterior horn takes its place
+  bool has_posterior_horn;  // if false, the annulus point farthest from the other horn stands in
 };
 
 // The heights of an annulus' two horns above its sides, along its normal.

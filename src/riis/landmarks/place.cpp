@@ -190,7 +190,7 @@ struct WarpPairs {
 };
 
 // Slides the places along the attachment until the warp through all landmarks bends least (F. L. Bookstein 1997). Neighbouring
-// places then keep their distances, so that the warp does not fold between them.
+// places are then at suitable distances, so that the warp does not fold between them.
 void slide_along_attachment(const Vector<AttachmentPart> &parts, const Landmarks &landmarks,
                             const std::vector<Vec3> &local, double radius, std::vector<Vec3> &places) {
   constexpr int most_slides = 8;

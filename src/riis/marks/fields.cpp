@@ -286,7 +286,7 @@ struct TieOrder {
   }
 };
 
-// Stores the numbers of each vertex that the fields need side by side, so that the fields of a node read few places in memory.
+// For each vertex, stores side by side the numbers that the fields need. The fields of a node then read few places in memory.
 void gather_at_vertices(const TriangleSet &set, std::int32_t fields, int n_threads, FieldScratch &scratch) {
   const bool has_velocity = fields & RIIS_FIELD_VELOCITY, has_uv = fields & RIIS_FIELD_UV;
   if (!has_velocity && !has_uv) return;

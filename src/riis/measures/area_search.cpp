@@ -124,7 +124,8 @@ void AreaSearch::part() {
     } else if (direction == 0) {
       direction = has_grown ? 1 : has_fallen ? -1 : 0;
     }
-    // While the area grows, the lowest point counts only from the highest point on. While the area falls, the reverse holds.
+    // While the area grows, the lowest point is sought only behind the highest point so far. While the area falls, the reverse
+    // holds.
     if (direction > 0) low = high;
     if (direction < 0) high = low;
   }

@@ -181,9 +181,9 @@ Through<Vec3> rest_of_offsets(const MovedPatch &moved, const SideMaterial &base,
     nodes[k] = 0.5 * (base.nodes()[k] + edge.nodes()[k]);
     const Vec3 move_of_base = now.mapped_base[k] - before.mapped_base[k],
                move_of_edge = now.mapped_edge[k] - before.mapped_edge[k];
-    // The mapped middle lies beside the middle of the warped arc. The slope of the displacement gives the displacement from the
-    // one to the other. For an arc that is a side, only steps of v count, because the neighbouring patch has the same arc but
-    // other steps of u.
+    // The mapped middle lies beside the middle of the warped arc. The slope of the displacement gives the difference between the
+    // displacements of these two points. For an arc that is a side, only steps of v count, because the neighbouring patch has the
+    // same arc but other steps of u.
     const Vec3 across = now.edge[k] - now.base[k], beside = now.mapped_middle[k] - now.middle(k);
     const bool is_side = k == 0 || k == last;
     const StepsBeside steps =

@@ -51,9 +51,9 @@ class Through {
   std::array<T, n_material> factors_{};
 };
 
-// Tells which points of a side are the same material in both states. Without a warp, points at equal shares of the length are. A
-// warp stretches curves unevenly, so a point may have had another share before. A warped curve also differs a little from the
-// mapped points of the original curve. `rest` compensates for changes of this difference.
+// Tells which points of a side are the same material in both states. Without a warp, these are the points at equal shares of the
+// length. A warp stretches curves unevenly, so a point may have had another share before. A warped curve also differs a little
+// from the mapped points of the original curve. `rest` compensates for changes of this difference.
 class SideMaterial {
  public:
   SideMaterial() = default;  // of a side that is not warped

@@ -27,8 +27,8 @@ class MovedJoints {
     std::stable_sort(joints_.begin(), joints_.end(), [](const Joint &a, const Joint &b) { return a.from < b.from; });
   }
 
-  // Returns where, in the other state, the line is that cuts the range between two lines. In an adapted grid, this line is at a
-  // joint far enough from both ends, or else in the middle.
+  // A line cuts the range between two other lines: at a joint far enough from both ends, or else in the middle. Returns where
+  // this line is in the other state.
   double cut(double from, double to, double moved_from, double moved_to) const {
     for (const Joint &joint : joints_)
       if (joint.from > 0.875 * from + 0.125 * to && joint.from < 0.125 * from + 0.875 * to) return joint.to;

@@ -108,7 +108,7 @@ std::int64_t NearestEdges::of(std::int32_t leaflet_id, Vec3 point) const {
   // With rounding, a box may seem a little farther than an edge inside it. The bound is therefore made a little smaller, so that
   // the search never skips a box with an equally near edge.
   const auto bound = [&](std::int64_t box) { return (1 - 1e-12) * view(boxes_)[box].bounds.distance_sq_to(point); };
-  std::array<std::int64_t, 64> open;  // boxes still to be visited: at most one for each level, of fewer than 64
+  std::array<std::int64_t, 64> open;  // boxes still to be visited: at most one on each of fewer than 64 levels
   std::size_t n_open = 0;
   open[n_open++] = tree->root;
   while (n_open > 0) {

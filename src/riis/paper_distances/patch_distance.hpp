@@ -89,8 +89,8 @@ class PatchDistance {
   // Returns false only if the surface certainly has no point within the limit of p.
   virtual bool may_be_within(Vec3 p, double limit) const = 0;
 
-  // Returns true if the method measures the distance of every p to one fixed set of points. Two results then differ by at most
-  // the distance between their p.
+  // Returns true if the method measures the distance of every p to one fixed set of points. The results for two points then
+  // differ by at most the distance between the points.
   virtual bool is_of_fixed_points() const = 0;
 
   virtual const char *name() const = 0;

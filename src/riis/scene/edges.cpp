@@ -89,7 +89,7 @@ class Cancelling {
   }
 
  private:
-  // The edges of each vertex that begin there, or that end there, as the member `end` says.
+  // For each vertex, the edges that begin there, or else those that end there. `end` says which.
   struct Ends {
     std::int64_t OpenEdge::*end;
     std::multimap<std::int64_t, std::size_t> with;

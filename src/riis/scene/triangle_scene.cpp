@@ -58,11 +58,11 @@ std::shared_ptr<std::remove_pointer_t<RTCDevice>> shared_device() {
 constexpr double far_away = 1e6;
 
 // Returns the radius, in the frame's units, that makes Embree visit every triangle whose computed distance from q is at most
-// `distance`. In single precision, Embree compares the square of the radius with sums of squares, from the rounded point to boxes
-// rounded outwards. The unit roundoff is e = 2^-24. The point is off by at most sqrt(3) e max|q|. The relative error is at most 6
-// e for the subtractions, squares and sums together, and at most e for the radius' square. The factor 1 + 2^-20 = 1 + 16 e and
-// the term 4 e max|q| cover all these errors, and this function's own rounding. `rounding` covers the rounding of the kernel. The
-// term 2^-60 keeps the radius' square a normal float.
+// `distance`. Embree works in single precision. It compares the square of the radius with the squared distance from the rounded
+// point to a box, which is rounded outwards. The unit roundoff is e = 2^-24. The point is off by at most sqrt(3) e max|q|. The
+// relative error is at most 6 e for the subtractions, squares and sums together, and at most e for the radius' square. The factor
+// 1 + 2^-20 = 1 + 16 e and the term 4 e max|q| cover all these errors, and this function's own rounding. `rounding` covers the
+// rounding of the kernel. The term 2^-60 keeps the radius' square a normal float.
 float inflated_radius(double distance, Vec3 q, double rounding) {
   const double largest = largest_coordinate(q);
   return round_up(distance * (1.0 + 0x1p-20) + largest * 0x1p-22 + rounding + 0x1p-60);

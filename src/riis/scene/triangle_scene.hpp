@@ -41,7 +41,7 @@ struct TieRule {
 };
 
 struct Tie {
-  std::int64_t point;  // the query point's number, which the search chooses; in the result the node
+  std::int64_t point;  // a number that the search gives the query point; in the result, the node
   ClosestTriangle triangle;
 };
 

@@ -65,7 +65,7 @@ struct alignas(64) Finder {
   }
 
   // Returns false only if no point of the surface is within the radius of p. One query with a radius often replaces the queries
-  // of many edges. The margin is several times the rounding, also that of p, which lies near the surface.
+  // of many edges. The margin is several times the rounding, including the rounding of p, which lies near the surface.
   bool may_be_within(Vec3 p, double radius) const {
     const TriangleScene &scene = request->surface.scene();
     return scene.closest(p, radius * (1 + 1e-9) + 4 * scene.rounding(), request->instructions).triangle >= 0;

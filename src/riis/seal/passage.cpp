@@ -18,11 +18,10 @@
 namespace riis {
 namespace {
 
-// Nodes are ordered by the half thickness from which on each of them is marked. Without an offset, this half thickness is the
+// Each node is marked from some half thickness on, and the nodes are ordered by it. Without an offset, this half thickness is the
 // node's distance.
 
-// For each of the nodes there is a half thickness from which on it is marked. Returns the largest of them. Refuses nodes in the
-// band.
+// Returns the least half thickness that marks all of these nodes. Refuses nodes in the band.
 double largest_thickness(const SearchRequest &request, const char *name, ArrayView<const std::int64_t> ids) {
   constexpr std::int64_t nodes_per_task = 256, few = 2048;
   const int n_threads = request.n_threads.for_part(ids.size(), few);

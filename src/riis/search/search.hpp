@@ -144,8 +144,8 @@ struct TriangleDistances {
     return scene.closest(p, limit, instructions, ties);
   }
 
-  // Returns a number d. From the surface, every point q has a distance of at least d - |q - p|. A large d proves that all points
-  // near p are far from the surface. The result is infinity if d is above the limit.
+  // Returns a number d: every point q is at least d - |q - p| away from the surface. A large d proves that all points near p are
+  // far from the surface. The result is infinity if d is above the limit.
   double lower_bound(Vec3 p, double limit) const {
     return std::sqrt(scene.closest(p, limit, instructions).distance_sq);
   }

@@ -96,7 +96,7 @@ bool is_missed(const TriangleSet &set, const LeftOut &triangle);
 // is too small, or if the earlier state is built differently.
 Triangulation checked(const PatchSet &set, const Triangulation &asked);
 
-// Adds the rims of the patches. Also keeps the grids, for the bound of velocity errors and for directions.
+// Adds the rims of the patches. Also keeps the grids, from which the rates in a direction are computed.
 void finish(const PatchSet &set, Vector<LevelledGrid> grids, TriangleSet &triangles);
 
 [[noreturn]] void fail_for_vanished(const PatchSet &set, std::size_t patch, const char *where);

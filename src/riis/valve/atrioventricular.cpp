@@ -317,8 +317,8 @@ Leaflet open_leaflet(const Sizes &sizes, const Annulus &annulus, std::size_t k, 
   return made;
 }
 
-// A leaflet first turns about its hinges, and then becomes straight. Lengths therefore change later than angles. At the same
-// pace, neighbouring leaflets would touch during the motion.
+// A leaflet first turns about its hinges, and then becomes straight. Lengths therefore change later than angles. If both changed
+// at the same pace, neighbouring leaflets would touch during the motion.
 double behind(double share) { return share * share; }
 
 // Swings a vector about its hinge: blends the vectors of the two states, and gives the result the blended length.

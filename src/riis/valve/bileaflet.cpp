@@ -83,7 +83,7 @@ struct Shape {
 };
 
 Shape blended(const ValveState &closed, const ValveState &open, double at) {
-  // Returns an equal value of both states without blending. A housing that does not move thus keeps its bits.
+  // A value that both states have is not blended, so that a housing that does not move keeps its bits.
   const auto both = [&](Parameter parameter) {
     const double from = closed.values[parameter][0], to = open.values[parameter][0];
     return from == to ? from : blend(from, to, at);

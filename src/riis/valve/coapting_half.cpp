@@ -19,7 +19,8 @@ constexpr int n_crease_steps = 2;
 constexpr std::size_t n_crease_spans = 8;
 constexpr double crease_stiffness = 0.03;
 
-// From the share `turned_from` of the edge on, a fused part has room for a parting curve without a crease at the coaptation line.
+// A fused part with at least the share `turned_from` of the edge has room for a parting curve without a crease at the coaptation
+// line.
 constexpr double turned_from = 0.3;
 
 // Along the coaptation line K, the derivative of the lower patch by v is T = K - c + (1 - u) Y + u A, with the chord c of K. Y

@@ -14,8 +14,8 @@ namespace {
 
 // A landmark lies on a curve if its distance is at most `share_on_curve` of the curve's length.
 constexpr double share_on_curve = 0.01;
-// A landmark makes no cut nearer than `least_part`, in the span's parameter, to an end of the span or to another cut. The warped
-// curve has the right point and direction there, so it is also right beside them.
+// A landmark makes no cut nearer than `least_part`, in the span's parameter, to an end of the span or to another cut. At ends and
+// cuts, the warped curve has the right point and direction, so it is also right beside them.
 constexpr double least_part = 1.0 / 256;
 // The nearest point of a span is searched beside the best of `n_search_steps` even steps.
 constexpr int n_search_steps = 16;
@@ -26,7 +26,7 @@ double polygon_length(const Bezier &span) {
   return sum;
 }
 
-// Returns false only if the span is certainly out of the point's reach, because the box of its control points is.
+// Returns false only if the box of the control points, and thus the span, is out of the point's reach.
 bool is_near_box(const Bezier &span, Vec3 p, double reach) {
   for (double Vec3::*axis : {&Vec3::x, &Vec3::y, &Vec3::z}) {
     double least = span.first().*axis, most = least;

@@ -22,8 +22,8 @@ enum Parameter {
 // Half the angle of a cusp in degrees, from its symmetry plane to the end of its free edge.
 constexpr double half_angle = 60;
 
-// The rules for sizes that the caller did not set. If a caller changed only other sizes, and these sizes stayed, the cusps would
-// cross (docs/theory/trileaflet.md).
+// The rules for sizes that the caller did not set. Without these rules, the cusps would cross if a caller changed other sizes
+// (docs/theory/trileaflet.md).
 using Rule = std::array<double, 3>;
 Rule bending_height_rule(const ParameterValues &values) { return {0.5 * values[leaflet_height][0]}; }
 Rule bending_radius_in_rule(const ParameterValues &values) { return {0.32 * values[root_radius][0]}; }

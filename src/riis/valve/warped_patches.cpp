@@ -432,7 +432,7 @@ PatchSet warped(const PatchSet &set, const BlendedWarp &warp, const LandmarkCuts
   bend_arcs(made);
   for (std::size_t i = 0; i < material.size(); ++i) locate_on_curve(made.curves[i], *material[i]);
   made.material = std::move(material);
-  // Only kinds without rates have arcs. The arcs themselves do not tell, because an arc may be straight at an opening.
+  // Only kinds without rates have arcs. The arcs themselves do not show it, because an arc may be straight at an opening.
   const bool has_arcs = set.rates.empty();
   const auto at_rest = [&](std::size_t curve) -> const std::array<PointOnSpan, n_material> & {
     return of_curves[curve]->on_curve;
