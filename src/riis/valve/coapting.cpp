@@ -22,7 +22,8 @@ namespace riis {
 namespace {
 
 // The positions in the lists of specs below. Behind them, the lists have the parameters of all commissures, then of all cusps,
-// then of bumps. clang-format off
+// then of bumps.
+// clang-format off
 enum Parameter {
   root_radius, commissure_radius, commissure_height, effective_height, coaptation_height, gap, bottom_angle, belly, edge_rise,
   attachment_width, attachment_drop, open_radius_ratio, commissure_expansion, translation, opening, skirt_length, edge_stretch,
