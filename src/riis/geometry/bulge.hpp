@@ -1,6 +1,7 @@
-// SPDX-License-Identifier: Apache-2.0 Patches of arcs from one curve to another (paper, appendix, "Leaflet surfaces"). At each u,
-// an arc joins the base (the annulus) to the edge (the leaflet's free edge). The arc is a quadratic Bézier curve. Its middle
-// control point is the middle of its chord plus the offset
+// SPDX-License-Identifier: Apache-2.0
+// Patches of arcs from one curve to another (paper, appendix, "Leaflet surfaces"). At each u, an arc joins the base (the annulus)
+// to the edge (the leaflet's free edge). The arc is a quadratic Bézier curve. Its middle control point is the middle of its chord
+// plus the offset
 //     O(u) = factor |W| unit(W x T),  W(u) = edge(u) - base(u),  T(u) the base's direction.
 // Thus D(u,v) = (1-v) base(u) + v edge(u) + 2 v (1-v) O(u). (The paper offsets along edge' x base', by a number that is not a
 // length. The product edge' x base' is 0 where edge' is 0, and changes its sign at the edge's corners: docs/theory/mitral.md.)

@@ -1,6 +1,6 @@
-// SPDX-License-Identifier: Apache-2.0 Turns patches into grids of quads (paper, 3.3 "Surface structure", and the appendix,
-// "Leaflet surfaces"). The four sides of a patch are polylines that meet at their ends. The grid has a line at each parameter of
-// a vertex on these sides.
+// SPDX-License-Identifier: Apache-2.0
+// Turns patches into grids of quads (paper, 3.3 "Surface structure", and the appendix, "Leaflet surfaces"). The four sides of a
+// patch are polylines that meet at their ends. The grid has a line at each parameter of a vertex on these sides.
 #pragma once
 
 #include <cstddef>

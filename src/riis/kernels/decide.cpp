@@ -1,7 +1,7 @@
-// SPDX-License-Identifier: Apache-2.0 Computations in double precision for eight triangles at a time. The decision kernel repeats
-// geometry/point_triangle.cpp operation by operation, so every lane has the bits of that function. Here are also the functions
-// that make the triangles' frames for the filter. This file is compiled for each instruction set, and never with contracted
-// multiplications and additions.
+// SPDX-License-Identifier: Apache-2.0
+// Computations in double precision for eight triangles at a time. The decision kernel repeats geometry/point_triangle.cpp
+// operation by operation, so every lane has the bits of that function. Here are also the functions that make the triangles'
+// frames for the filter. This file is compiled for each instruction set, and never with contracted multiplications and additions.
 #include "kernels/lanes.hpp"
 #include "kernels/table.hpp"
 

@@ -1,7 +1,8 @@
-// SPDX-License-Identifier: Apache-2.0 This file computes with sixteen floats or eight doubles at once. The code uses the
-// registers of the instruction set for which the including file is compiled. Everything has internal linkage. Files for different
-// instruction sets must not share a function, because the linker could take the function from the wrong file. For the same
-// reason, this file includes no header with inline functions that the compiler may emit as separate functions.
+// SPDX-License-Identifier: Apache-2.0
+// This file computes with sixteen floats or eight doubles at once. The code uses the registers of the instruction set for which
+// the including file is compiled. Everything has internal linkage. Files for different instruction sets must not share a
+// function, because the linker could take the function from the wrong file. For the same reason, this file includes no header
+// with inline functions that the compiler may emit as separate functions.
 #pragma once
 
 // RIIS_PORTABLE_LANES selects the code for processors without SSE2 or NEON. Tests also run this code on processors with SSE2 or

@@ -1,6 +1,7 @@
-// SPDX-License-Identifier: Apache-2.0 Runs work in an arena of the pool, with TBB's limit of threads adjusted for this work.
-// Embree's scenes are built in such an arena, and concurrent walks run in one. TBB thus uses only the caller's n_threads threads
-// for them, and not all threads of the process.
+// SPDX-License-Identifier: Apache-2.0
+// Runs work in an arena of the pool, with TBB's limit of threads adjusted for this work. Embree's scenes are built in such an
+// arena, and concurrent walks run in one. TBB thus uses only the caller's n_threads threads for them, and not all threads of the
+// process.
 #pragma once
 
 #if !defined(RIIS_STD_THREADS)

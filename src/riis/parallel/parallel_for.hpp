@@ -1,6 +1,6 @@
-// SPDX-License-Identifier: Apache-2.0 Loops over a fixed number of blocks. The exhaustive search and the loops of a time step run
-// on OpenMP's threads. If a loop had to wait long for one of these threads, the loops of a time step run on a team for some time.
-// Only parallel_for.cpp uses OpenMP.
+// SPDX-License-Identifier: Apache-2.0
+// Loops over a fixed number of blocks. The exhaustive search and the loops of a time step run on OpenMP's threads. If a loop had
+// to wait long for one of these threads, the loops of a time step run on a team for some time. Only parallel_for.cpp uses OpenMP.
 #pragma once
 
 #include <cstdint>
