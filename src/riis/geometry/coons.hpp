@@ -58,9 +58,9 @@ struct SideVectors {
 // QuadGrid::points.
 Vector<Vec3> coons_combination(const Vector<double> &u, const Vector<double> &v, const SideVectors &sides);
 
-// Makes the grid of the Coons patch. The patch is bilinear inside every quad, so the grid represents it exactly. Two lines are
-// merged unless this would move a point along a side by more than max_merge_shift. Unless `lines` is null, the lines are written
-// there.
+// Makes the grid of the Coons patch. The grid represents the patch exactly, because the patch is bilinear inside every quad. Two
+// lines are merged unless this would move a point along a side by more than max_merge_shift. Unless `lines` is null, the lines
+// are written there.
 QuadGrid make_quad_grid(const PatchSides &sides, double max_merge_shift, GridLines *lines = nullptr);
 // Makes the grid on given lines, whose ends are vertices of the sides.
 QuadGrid make_quad_grid(const PatchSides &sides, const GridLines &lines);

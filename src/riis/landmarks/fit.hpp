@@ -90,7 +90,7 @@ struct DerivedSize {
   double standard_error = 0;
 };
 
-// A valve in its own frame, as the fit sees it. Lengths are in centimetres.
+// What the fit has to know of a valve, in the valve's own frame. Lengths are in centimetres.
 class LandmarkModel {
  public:
   virtual ~LandmarkModel() = default;

@@ -194,7 +194,7 @@ struct WarpPairs {
 void slide_along_attachment(const Vector<AttachmentPart> &parts, const Landmarks &landmarks,
                             const std::vector<Vec3> &local, double radius, std::vector<Vec3> &places) {
   constexpr int most_slides = 8;
-  constexpr double most_of_gap = 0.3;  // the largest move of a place towards its neighbour at once
+  constexpr double most_of_gap = 0.3;  // the most that a place moves at once, as a share of the way to its neighbour
   for (int round = 0; round < most_slides; ++round) {
     const WarpPairs pairs(landmarks, local, radius, true, places);
     WarpLandmarks warp(pairs.sources, 0, "landmarks");

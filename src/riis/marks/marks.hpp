@@ -174,7 +174,7 @@ OrderScratch::Counts prepare_order(const Surface &surface, const FoundNodes &fou
                                    OrderScratch &scratch);
 
 // Fills the lists. Fills `marked` only if the limit is wider than the half thickness. `numbers` is the range that contains the
-// numbers of all found nodes. Call prepare_order with the same arguments before this function.
+// numbers of all found nodes. Before this function, prepare_order must be called with the same arguments.
 void put_in_order(const Surface &surface, bool limit_is_wider, const Range &numbers, int n_threads,
                   OrderScratch &scratch, NodeList &within, NodeList &marked);
 

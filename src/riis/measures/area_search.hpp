@@ -57,7 +57,7 @@ class AreaSearch {
 
   Area area_;
   std::vector<Point> points_;           // ascending by value
-  std::vector<char> is_after_refused_;  // for each point, whether a value between it and the point before was refused
+  std::vector<char> is_after_refused_;  // for each point, whether a value between it and the previous point was refused
   std::vector<Part> parts_;
   std::vector<double> turns_;
   std::size_t least_ = 0, most_ = 0;

@@ -164,8 +164,8 @@ class NodeSorter {
   };
 
   // A stream is a run of bins whose items are written to consecutive places, one item after another. A bin that contains a cut is
-  // a stream by itself. All bins between two bins with a cut are one stream. There are fewer streams than bins, so the writes are
-  // faster.
+  // a stream by itself. All bins between two bins with a cut are one stream. Writing to few streams is faster than writing to
+  // many bins.
   struct Streams {
     static constexpr int most = 2 * most_parts - 1;
     std::array<std::uint8_t, n_bins> of_bin;

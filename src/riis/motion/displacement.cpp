@@ -333,7 +333,7 @@ Vector<Vec3> displacements_of(const MovedPatch &moved, const SideOnGrid &on, con
   const MovedSide side(moved, on.side, on.material);
   Vector<Vec3> points(lines.size(), Vec3{0, 0, 0});
   if (side.is_at_rest()) return points;
-  // The vertices of polylines are points of the curve, so they are known.
+  // Lines at vertices of the polyline end on known points of the curve.
   Vector<std::size_t> unknown;
   const Vector<std::size_t> &places = lines.places();
   bool has_unknown = false;

@@ -23,9 +23,9 @@ struct Edge {
 
 // Returns a length up to which no edge leaks. If an edge of at most this length meets the surface in a point, one of its nodes is
 // at most half the length away from this point. This node is thus within the half thickness and marked. With an offset, the
-// length is smaller, because only nodes within a smaller distance are certainly in the band. The margins are several times the
-// rounding, so this also holds for computed distances. Returns -1, so that no edge counts as short, in two cases: marks may be
-// missing, or they come from other distances than those to the triangles.
+// length is smaller, because only nodes within a smaller distance are certainly in the band. With margins of several times the
+// rounding, the length is also right for computed distances. Returns -1, so that no edge counts as short, in two cases: marks may
+// be missing, or they come from other distances than those to the triangles.
 double length_that_cannot_leak(const Surface &surface, const Marks &marks) {
   if (surface.other_distance() || !marks.stats.complete) return -1;
   return 2 * surface.band().sure_distance() * (1 - 0x1p-40) - 4 * surface.scene().rounding();

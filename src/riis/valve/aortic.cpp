@@ -223,7 +223,7 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
 }  // namespace
 
 const ValveKind &aortic_valve_kind() {
-  // The kind is made when it is first used, and is never destroyed, so it serves until the process ends.
+  // The kind is made at its first use. It is never destroyed, so that it serves until the process ends.
   static const ValveKind &kind = *new ValveKind(with_skirt(make_kind(), SkirtAxis::of_cusp));
   return kind;
 }

@@ -624,7 +624,7 @@ std::array<Bezier, 4> saddle_annulus(const SaddleAnnulus &annulus) {
   return made;
 }
 
-// The kinds are made when they are first used, and are never destroyed, so they serve until the process ends.
+// Each kind is made at its first use. It is never destroyed, so that it serves until the process ends.
 const ValveKind &mitral_coapting_valve_kind() {
   static const ValveKind &kind = *new_kind<2, mitral_coapting_valve_kind>(
       "mitral_coapting",

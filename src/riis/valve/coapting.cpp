@@ -459,7 +459,7 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
 
 }  // namespace
 
-// The kinds are made when they are first used, and are never destroyed, so they serve until the process ends.
+// Each kind is made at its first use. It is never destroyed, so that it serves until the process ends.
 const ValveKind &bicuspid_valve_kind() {
   static const ValveKind &kind = *new ValveKind(make_kind<2>("bicuspid", 0.1));
   return kind;

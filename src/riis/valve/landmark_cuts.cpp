@@ -74,7 +74,7 @@ void add_cut(Vector<PointOnSpan> &cuts, const PointOnSpan &cut) {
   cuts.insert(at, cut);
 }
 
-// Returns the place on a curve at which a landmark cuts it, or nothing.
+// Returns the place at which a landmark cuts the curve, or nothing if it does not.
 std::optional<PointOnSpan> cut_by(const Vector<Bezier> &spans, Vec3 landmark, double reach) {
   PointOnSpan nearest{0, 0};
   double least = reach;

@@ -318,7 +318,7 @@ std::array<Bezier, 3> half_annulus(const MitralAnnulus &annulus) {
 }
 
 const ValveKind &mitral_valve_kind() {
-  // The kind is made when it is first used, and is never destroyed, so it serves until the process ends.
+  // The kind is made at its first use. It is never destroyed, so that it serves until the process ends.
   static const ValveKind &kind = *new ValveKind(with_skirt(make_kind(), SkirtAxis::vertical));
   return kind;
 }

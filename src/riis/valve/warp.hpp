@@ -67,7 +67,7 @@ struct WarpQuality {
   double rms_residual, largest_residual;  // distances of mapped sources from their targets
   std::int64_t largest_landmark;
   double smoothing;          // lambda; infinite if the map is affine
-  double least_determinant;  // the derivative's least determinant, half way from each landmark to the nearest other one
+  double least_determinant;  // the least determinant of the map's derivative, half way between near landmarks
   Vec3 least_point;          // where the determinant is least
   std::int64_t least_landmark;
 };
@@ -124,8 +124,7 @@ class WarpLandmarks {
   Vector<double> pivot_;
 };
 
-// Every image of a patch becomes a patch of its own, and a warp may move its curves (docs/theory/warp.md). The patches of a valve
-// become patches with one image each.
+// A warp moves the curves of a valve's patches (docs/theory/warp.md). Every image of a patch first becomes a patch of its own.
 
 // Returns the patches with every image as a patch of its own. The patches keep their order and their labels u and v. Patches that
 // met before still share their curves. Patches that already have one image each keep the numbers of their curves.

@@ -149,7 +149,7 @@ struct MaterialOfCurve {
     weigh();
   }
 
-  // Returns the same points after the curve was cut at these ascending places.
+  // Returns the same points for the curve after it is cut at these places, which ascend.
   MaterialOfCurve after_cuts(const Vector<PointOnSpan> &cuts) const {
     MaterialOfCurve made = *this;
     for (PointOnSpan &at : made.on_curve) {
