@@ -34,7 +34,7 @@ constexpr std::int32_t most_samples = 100'001;
 const riis_area_search default_search{sizeof(riis_area_search), nullptr, nullptr, no_number, no_number, 1e-8, 33,
                                       RIIS_AREA_GEOMETRIC};
 
-// The number that changes until the orifice has an area: the opening, the scale of the placement, or a parameter.
+// The number that the search changes: the opening, the scale of the placement, or a parameter.
 enum class Sought { opening, scale, parameter };
 
 Sought sought_by(const std::string &name) {
@@ -74,12 +74,12 @@ class AreaTrials {
 
   bool seeks_opening() const { return sought_ == Sought::opening; }
 
-  // Samples of the opening are evenly spaced, as in the tables of openings. Each sample of a size is the previous sample times a
-  // constant factor.
+  // Returns whether each sample is the previous sample times a constant factor. Samples of the opening are evenly spaced instead,
+  // as in the tables of openings.
   bool grows(const Values &values) const { return !seeks_opening() && values.from > 0; }
 
-  // Returns the area at a value, or nothing for a value that makes no valve or no orifice. After the samples were taken, such a
-  // value is an error.
+  // Returns the area at a value. While the search takes samples, a value that makes no valve or no orifice gives nothing. Later,
+  // such a value is an error.
   std::optional<double> area_at(double value) {
     ++n_surfaces;
     try {
@@ -130,7 +130,8 @@ class AreaTrials {
       options_.scale = value;
     else
       valve_.set(name_, 1, &value);
-    // A fixed triangulation is made for one shape and one scale, so another value needs a new one.
+    // A fixed triangulation is made for one shape and one scale. Another value of a parameter or of the scale therefore needs a
+    // new triangulation.
     const bool is_planned_anew = options_.triangulation == RIIS_TRIANGULATION_FIXED && !seeks_opening();
     if (!surface_ || is_planned_anew) {
       surface_ = std::make_unique<riis_surface>();

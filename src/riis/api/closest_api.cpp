@@ -40,7 +40,7 @@ void write_closest(const riis_closest_arrays &to, std::int64_t i, const riis::Pa
   if (to.normal) riis::put_vector(to.normal, i, patch.normal_at(found.u, found.v));
 }
 
-// Refuses arrays that have values only for distances to triangles. A caller who passes an array expects values in it.
+// Refuses an array that only distances to triangles can fill. A caller who passes an array expects values in it.
 void refuse_what_is_of_triangles(const riis_closest_arrays &to, const riis::PatchDistance &method) {
   for (const char *name : {to.barycentric ? "barycentric" : nullptr, to.side ? "side" : nullptr})
     if (name)
@@ -51,7 +51,7 @@ void refuse_what_is_of_triangles(const riis_closest_arrays &to, const riis::Patc
 double checked_limit(const riis_closest_options &options) {
   if (!(options.distance_limit >= 0))
     riis::fail(RIIS_INVALID_ARGUMENT, "options.distance_limit is ", options.distance_limit, "; it must be at least 0");
-  // If there is no limit, far_distance does not matter.
+  // Without a limit, no point is too far, so far_distance is not used.
   if (std::isfinite(options.distance_limit))
     riis::check_far_distance("options.far_distance", options.far_distance, options.distance_limit);
   return options.distance_limit;

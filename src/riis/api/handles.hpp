@@ -41,11 +41,13 @@ enum class HandleKind : std::uint64_t {
   warp = 0x7269697377617270
 };
 
-// Returns whether this is a kind of a handle: its first four letters are "riis". A destroyed handle's memory holds other values.
+// Returns whether a handle's first word holds a kind, whose first four letters are "riis". A destroyed handle's memory holds
+// other values.
 constexpr bool is_kind(HandleKind kind) noexcept { return static_cast<std::uint64_t>(kind) >> 32 == 0x72696973; }
 
-// The calls that use a handle now. While a call writes a handle, a call of another thread that uses it fails instead of crashing
-// (riis.h, "Threads"). Calls that only read count themselves without waiting, and impose no order on each other.
+// The calls that use a handle now. While one thread's call writes a handle, a call of another thread fails if it uses this
+// handle. Without the check, it could crash (riis.h, "Threads"). Calls that only read are counted without a lock, so they never
+// wait.
 class Uses {
  public:
   // Returns false if a call of another thread excludes this call.
@@ -65,7 +67,7 @@ class Uses {
   bool is_readable() const noexcept { return !is_written_.load() || is_inherited(); }
 
  private:
-  // In a child of fork(), calls that the parent's threads had begun never end.
+  // Returns true in a child of fork(). The child lacks the parent's other threads, so a call that they began never ends there.
   bool is_inherited() const noexcept { return getpid() != maker_; }
   bool is_unread() const noexcept {
     const std::uint64_t n_ended = n_ended_.load(std::memory_order_acquire);
@@ -83,8 +85,7 @@ struct Handle {
   mutable Uses uses = {};
 };
 
-// The handles that a call uses until its end. For each handle, the list also says whether the call writes it. A call may name a
-// handle twice.
+// The handles that a call uses until its end. The list also says which of them the call writes. A call may name a handle twice.
 class UsesOfCall {
  public:
   UsesOfCall() noexcept : outer_(std::exchange(innermost(), this)) {}
@@ -122,8 +123,9 @@ riis_status guarded_with_handles(Body &&body) noexcept {
   });
 }
 
-// Returns the handle, or fails if it is null or of another kind, or if a call of another thread excludes this call. A call writes
-// the handles that it does not take as const. Short calls are not counted, because many threads would wait for the count.
+// Returns the handle. Fails if the handle is null or of another kind, or if a call of another thread excludes this call. A handle
+// that is not const counts as written. Short calls pass is_counted = false, because many threads at once would wait for the
+// count.
 template <class AnyHandle>
 AnyHandle *require_handle(AnyHandle *handle, const char *argument, bool is_counted = true) {
   require(handle, argument);
@@ -145,8 +147,8 @@ riis_status create_handle(AnyHandle **handle, const char *argument) noexcept {
   });
 }
 
-// The body of a destroy function. A handle of another kind is not destroyed, and neither is a handle that another thread uses. A
-// leak is better than memory that is freed as the wrong type or too early.
+// The body of a destroy function. A handle of another kind, or one that another thread uses, is not destroyed: a leak is better
+// than memory that is freed as the wrong type or too early.
 template <class AnyHandle>
 void destroy_handle(AnyHandle **handle, const char *argument) noexcept {
   if (!handle || !*handle) return;

@@ -64,8 +64,8 @@ riis::InstructionSet instructions_asked_for(std::int32_t instructions) {
   return set;
 }
 
-// Returns the arrays of a list, with NULL for an empty array. The array of a field stays NULL if the field was computed only for
-// K.
+// Returns the arrays of a list, with NULL for an empty array. The array of a field also stays NULL if the caller did not request
+// it, and it was only computed for K.
 riis_mark_list arrays_of(const riis::ListedNodes &list, const riis::WantedData &data) {
   const auto array = [](const auto &values) { return values.empty() ? nullptr : values.data(); };
   const auto field = [&](std::int32_t which, const auto &values) {
@@ -123,7 +123,7 @@ void check_components(const char *name, Real *const (&components)[3], bool may_l
     if (!components[c]) riis::fail(RIIS_INVALID_ARGUMENT, name, "[", c, "] is NULL");
 }
 
-// Checks the caller's array that has one entry for each node. A process without nodes may pass NULL.
+// Checks an array of the caller with one entry for each node. A process without nodes may pass NULL.
 const double *require_of_nodes(const double *array, const char *name, std::int64_t n_nodes) {
   return n_nodes == 0 ? array : require(array, name);
 }

@@ -70,7 +70,8 @@ void write_orifice(const riis::Surface &surface, const riis::Surface *wall, cons
   riis::write_struct(orifice, struct_size, "orifice", orifice_of(surface, wall, whole));
 }
 
-// Tries openings of a valve in a mesh. PassageTrials calls the public functions, which refuse bad input.
+// Finds the passage through a mesh at each opening that the search tries. PassageTrials calls the public functions, which refuse
+// bad input.
 class PassageTrials {
  public:
   PassageTrials(const riis_valve *valve, const riis_mesh *mesh, const riis_passage_ends *ends,
@@ -103,7 +104,8 @@ class PassageTrials {
   riis_surface *surface_ = nullptr;
 };
 
-// Returns the volume of one leaflet after the placement, or the sum of all leaflets without the skirt, which has the largest id.
+// Returns the volume that one leaflet sweeps after the placement. RIIS_ALL_LEAFLETS gives the sum over the leaflets without the
+// skirt, whose id is the largest.
 double placed_volume(const riis::SweptVolumes &volumes, std::int32_t leaflet_id, bool has_skirt,
                      const riis_surface_options &options) {
   const std::int32_t skirt = has_skirt ? volumes.rbegin()->first : -1;

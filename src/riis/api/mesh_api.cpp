@@ -46,7 +46,7 @@ void copy_nodes(const riis_points *given, riis::Mesh &mesh) {
   });
 }
 
-// Fails with RIIS_INVALID_MESH for the first coordinate of an axis that is not usable or does not ascend.
+// Fails with RIIS_INVALID_MESH at the first coordinate of an axis that is unusable, or that is not above the previous one.
 void check_axis(const char *name, const std::vector<double> &axis) {
   for (std::int64_t i = 0; i < riis::view(axis).size(); ++i) {
     const double x = riis::view(axis)[i];
@@ -86,7 +86,7 @@ std::unique_ptr<const riis::Grid> checked_grid(const riis_grid *given) {
   return std::make_unique<const riis::Grid>(std::move(axes), whole.first, stride, n_numbers);
 }
 
-// Some numbers of a grid may have no node. Refuses an edge at such a number.
+// Refuses an edge at a number that has no node. A grid may have such numbers, for example as padding.
 void check_rows_of_grid(const riis::Adjacency &rows, const riis::MeshNodes &nodes) {
   for (std::int64_t i = 0; i < rows.n_rows; ++i)
     rows.for_each_neighbor(i, [&](std::int64_t j) {
@@ -135,7 +135,7 @@ riis_status riis_mesh_update_copy(riis_mesh *mesh, const riis_points *nodes) {
 
 riis_status riis_mesh_prepare(riis_mesh *mesh, int32_t n_threads) {
   return guarded_with_handles([&] {
-    const riis_mesh *const as_read = mesh;  // const, because other threads may make the same clusters meanwhile
+    const riis_mesh *const as_read = mesh;  // const, so that other threads may prepare this mesh at the same time
     const riis::Mesh &content = require_handle(as_read, "mesh")->mesh;
     const int n = riis::threads_for(n_threads, "n_threads", content.nodes().n, riis::nodes_per_thread);
     if (content.nodes().grid) return;

@@ -71,8 +71,8 @@ constexpr std::int64_t first_size_of(const riis_coaptation *) { return 24; }
 constexpr std::int64_t first_size_of(const riis_gap *) { return 64; }
 constexpr std::int64_t first_size_of(const riis_direction *) { return 24; }
 
-// Refuses a struct of a wrong size. A correct size is a multiple of 8, from the first release's size to the size of the library's
-// own struct.
+// Refuses a wrong size of a struct. The size must be a multiple of 8, at least the size in the first release, and at most the
+// library's own size.
 template <class Struct>
 void check_struct_size(std::int64_t size, const char *name) {
   static_assert(std::is_trivially_copyable_v<Struct> && sizeof(Struct) % 8 == 0);

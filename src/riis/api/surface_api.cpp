@@ -68,7 +68,7 @@ struct EarlierArguments {
 };
 
 riis::EarlierValve earlier_of(const EarlierArguments &given, const riis_surface_options &options_now) {
-  // A dt outside of the limits is a mistake of the caller. Within the limits no velocity comes near overflow.
+  // No caller means a dt outside of these limits. Within the limits no velocity comes near overflow.
   if (!(std::abs(given.dt) >= 1e-30 && std::abs(given.dt) <= 1e30))
     riis::fail(RIIS_INVALID_ARGUMENT, "dt is ", given.dt,
                "; it must be the time from valve_before to valve, from 1e-30 to 1e+30 in magnitude");
@@ -92,7 +92,7 @@ void fill_from_valve(riis_surface &surface, const riis_valve *valve, const riis_
   surface.options = options;
 }
 
-// Returns the caller's options, or the options of the surface's last update if the caller passes none.
+// Returns the caller's options. If the caller passes none, returns those of the surface's last update.
 riis_surface_options options_for(const riis_surface &surface, const riis_surface_options *options,
                                  const char *name = "options") {
   return riis::completed(options, name, options ? riis::default_surface_options : surface.options);

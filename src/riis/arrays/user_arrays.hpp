@@ -14,7 +14,7 @@
 
 namespace riis {
 
-// The skirt of the caller's faces as the caller described it, and the edges at which it begins.
+// The caller's description of a skirt on the faces, and the edges at which the skirt begins.
 struct UserSkirt {
   double length = 0;                   // before placement; 0: no skirt
   std::vector<std::uint8_t> attached;  // (n_vertices), or empty
@@ -32,7 +32,7 @@ struct UserFaces {
   UserSkirt skirt;
 };
 
-// Copies the faces. `memory` is an object whose memory the function reuses. The next two functions fail with
+// Copies the faces. `memory` is an object whose memory the function reuses. This function and triangles_from_arrays fail with
 // RIIS_INVALID_ARGUMENT, RIIS_INVALID_SURFACE or RIIS_LIMIT_EXCEEDED. The message names the field, the face or vertex, and the
 // value.
 UserFaces faces_from_arrays(const riis_surface_arrays &arrays, UserFaces memory = {});
@@ -47,19 +47,18 @@ TriangleSet triangles_from_arrays(const UserFaces &faces, const riis_surface_arr
 
 class Keyframes {
  public:
-  // Copies all arrays. Fails as triangles_from_arrays does for the faces and the first frame's vertices. A face without area is
-  // refused later, when a surface is made. Messages about bad coordinates name the frame.
+  // Copies all arrays. Checks the faces and the first frame's vertices, and fails as triangles_from_arrays does. A face without
+  // area is refused only when a surface is made. Messages about bad coordinates name the frame.
   Keyframes(const riis_surface_arrays &arrays, const riis_keyframe_arrays &frames);
-  Keyframes(Keyframes &&) = default;  // moving a vector leaves its elements, such as the times, at their address
+  Keyframes(Keyframes &&) = default;  // moving a vector keeps its elements, such as the times, in place
 
-  // Writes positions and velocities (3, n_vertices). For dt == 0 the velocity is the derivative of the interpolation. At a key of
-  // linear interpolation, the velocity is the derivative after the key. For another dt the velocity is the mean from time - dt to
-  // time.
+  // Writes positions and velocities (3, n_vertices). For dt == 0 the velocity is the derivative of the interpolation. Linear
+  // interpolation has two derivatives at a key, and the later one counts. For any other dt the velocity is the mean between the
+  // times time - dt and time.
   void at(double time, double dt, std::vector<double> &xyz, std::vector<double> &velocity) const;
 
   const UserFaces &faces() const { return faces_; }
-  // Returns the faces, so that the edges of the skirt can be found in the first frame. The function first_frame returns the
-  // vertices of this frame.
+  // The caller finds the edges of the skirt on these faces, with the vertices that first_frame returns.
   UserFaces &faces() { return faces_; }
   riis_surface_arrays first_frame() const;
 

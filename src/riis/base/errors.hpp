@@ -26,7 +26,7 @@ template <class... Parts>
 // Returns the calling thread's last error, or "" if no call of this thread has failed.
 const char *recorded_error() noexcept;
 
-// Records the message of the exception that is being handled, and returns its status.
+// Called inside a catch block. Records the message of the current exception, and returns its status.
 riis_status record_current_exception() noexcept;
 
 // Runs the body of a public function. Turns every exception into a status. The body runs in the default floating-point

@@ -10,8 +10,8 @@ namespace riis {
 template <class T>
 class MadeOnce {
  public:
-  // Returns the value. If the value does not exist yet, one thread calls make(value) first. If making the value fails, the next
-  // call tries again.
+  // Returns the value. Before the value exists, one thread calls make(value), and the others wait. If making the value fails, the
+  // next call tries again.
   template <class Make>
   T &get(const Make &make) {
     if (is_made_.load(std::memory_order_acquire)) return value_;

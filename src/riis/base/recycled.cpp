@@ -32,20 +32,21 @@ KeepsMemory::~KeepsMemory() = default;
 
 namespace {
 
-// Blocks have 2^k bytes, from 64 bytes to 4 MiB. A kept block holds the address of the next kept block of its size. Larger
-// arrays are rare, so keeping their memory would cost more than allocating it again.
+// Blocks have 2^k bytes, from 64 bytes to 4 MiB. The kept blocks of a size form a list: each holds the address of the next.
+// Larger arrays are rare, so keeping their memory would cost more than allocating it again.
 struct Block {
   Block *next;
 };
 constexpr int smallest_class = 6, largest_class = 22;
 constexpr std::size_t largest_block = std::size_t{1} << largest_class;
 
-// Each thread takes from its own pool first, so threads seldom wait for each other. A thread may give back memory that another
-// thread took. A thread with an empty pool therefore looks into the other pools before it asks the system.
+// A thread first takes memory from its own pool, so threads seldom wait for each other. The thread that gives memory back may not
+// be the thread that took it, so one pool can run empty while others fill. A thread with an empty pool therefore looks into the
+// other pools before it asks the system.
 constexpr unsigned n_pools = 16;
 
-// A lock that a thread holds for a few instructions. Two threads seldom need it at the same time. Locking a mutex would take half
-// of the time of an allocation.
+// A lock that threads hold only for a few instructions, so a thread that finds it locked just tries again. Locking a mutex would
+// take half of the time of an allocation.
 class ShortLock {
  public:
   void lock() noexcept {
@@ -61,7 +62,7 @@ struct alignas(64) Pool {
   ShortLock in_use;
   std::array<Block *, largest_class - smallest_class + 1> kept{};
 
-  // Returns a kept block of this size class, or null if no such block is kept.
+  // Returns a kept block of this size class, or null if there is none.
   Block *take(std::size_t size) {
     const std::lock_guard<ShortLock> lock(in_use);
     Block *first = kept[size];
@@ -80,8 +81,8 @@ unsigned own_pool() {
   return own;
 }
 
-// A process may be forked while another thread holds a pool's lock. In the child the other thread does not exist, so its lock
-// would stay held. Therefore the forking thread takes all locks first.
+// A process may be forked while another thread holds a pool's lock. The child lacks that thread, so its lock would stay locked.
+// Therefore the forking thread takes all locks first.
 bool prepare_for_forks() noexcept {
   const auto unlock = [] {
     for (Pool &pool : pools) pool.in_use.unlock();

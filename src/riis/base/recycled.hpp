@@ -40,7 +40,7 @@ using UnfilledVector = std::vector<T, UnfilledAllocator<T, std::allocator>>;
 void *take_memory(std::size_t n_bytes);
 void give_memory_back(void *memory, std::size_t n_bytes) noexcept;
 
-// Frees the memory that is kept now. Call this function after work that took much more memory than a time step takes.
+// Frees the memory that is kept now. Call this function after work that has taken much more memory than a time step.
 void free_kept_memory() noexcept;
 
 // Memory is kept while at least one object of this type exists. When the last such object is destroyed, the memory is freed.

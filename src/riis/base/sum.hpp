@@ -5,8 +5,8 @@
 
 namespace riis {
 
-// Adds numbers by Neumaier's method (1974), which also adds up the rounding errors. For any number of nodes, the sum over all
-// leaflets thus equals the sum over the whole surface to a few units in the last place.
+// Adds numbers by Neumaier's method (1974), which also adds up the rounding errors. For any number of nodes, the leaflets' sums
+// thus add up to the sum over the surface to a few units in the last place.
 class Sum {
  public:
   void add(double x) {

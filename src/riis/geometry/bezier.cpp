@@ -81,7 +81,7 @@ double adaptive_length(const Speed &speed, double t0, double t1, double whole, d
          adaptive_length(speed, middle, t1, right, 0.5 * tolerance, depth - 1);
 }
 
-// Returns an error that is negligible for the length of this curve.
+// Returns the error that is allowed in the length of this curve.
 double length_tolerance(const Bezier &curve) {
   double control_length = 0, largest = 0;
   for (std::size_t i = 0; i <= degree_of(curve); ++i) {
@@ -89,20 +89,20 @@ double length_tolerance(const Bezier &curve) {
     if (i > 0) control_length += distance(curve.control[i - 1], q);
     largest = std::max({largest, std::abs(q.x), std::abs(q.y), std::abs(q.z)});
   }
-  // The second term of the tolerance covers rounding, which matters for a curve that is short compared with its coordinates. The
-  // third term is for a curve that is shorter than the edges of any triangle (triangulate/triangle_set.hpp), because the squares
-  // of its coordinates underflow.
+  // The second term of the tolerance covers rounding, which matters if a curve is short but has large coordinates. The third term
+  // is for a curve so short that the squares of its coordinates underflow. Such a curve is shorter than any triangle's edge
+  // (triangulate/triangle_set.hpp).
   return 1e-13 * control_length + 1e-14 * largest + 1e-74;
 }
 
 double length_between(const Speed &speed, double tolerance, double t0, double t1) {
-  // The largest number of halvings is 40. At a cusp (|B'| = 0) each halving only halves the error, so 40 halvings leave an error
-  // of about 1e-12 of the length.
+  // A part is halved at most 40 times. At a cusp (|B'| = 0) each halving only halves the error, so an error of about 1e-12 of the
+  // length remains.
   return adaptive_length(speed, t0, t1, quadrature(speed, t0, t1), tolerance, 40);
 }
 
-// Returns the parameter up to which the curve has a given share of its length. Approximates the speed by the parabola through
-// its values at 0, 1/2 and 1.
+// Guesses the parameter at which the curve has reached a given share of its length. Approximates the speed by the parabola
+// through its values at 0, 1/2 and 1.
 double first_guess(const Speed &speed, double share) {
   const double start = speed(0), middle = speed(0.5), end = speed(1);
   const double slope = 4 * middle - 3 * start - end, bend = 2 * (start - 2 * middle + end);
@@ -143,8 +143,8 @@ struct SpeedOnPart {
 };
 
 // Finds the parameters of given ascending lengths from the start of the part. Each parameter is found from the previous
-// parameter. Returns false if the lengths do not add up to the length of the part. This happens at a cusp, for example, because
-// one quadrature for each step is accurate only where the speed is nearly a polynomial.
+// parameter. Returns false if the lengths do not add up to the length of the part. Each step is one quadrature, which is
+// inaccurate where the speed is far from a polynomial, as at a cusp.
 bool find_in_one_pass(const SpeedOnPart &part, const double *behind, std::size_t n, double *t) {
   const Speed &speed = part.speed;
   const double close_enough = 1e-14 * part.whole_length;
@@ -203,7 +203,7 @@ double arc_length(const Bezier &curve, double t0, double t1) {
   return length_between(Speed(curve), length_tolerance(curve), t0, t1);
 }
 
-// Every point has its own variable. From an array, the compiler would store the points and load them again immediately.
+// Each point is a variable of its own. The compiler would store the points of an array in memory, and load them again at once.
 std::pair<Bezier, Bezier> split(const Bezier &curve, double t) {
   const auto &q = curve.control;
   const Vec3 a = mix(q[0], q[1], t), b = mix(q[1], q[2], t), ab = mix(a, b, t);
@@ -220,8 +220,8 @@ double flatness(const Bezier &curve) {
 }
 
 // Bounds the curvature |B' x B''| / |B'|^3. The bound is infinite if the derivative may be 0 somewhere. B' and B'' are Bézier
-// curves with the control points `first` and `second`. Products of these control points bound the numerator. The least component
-// of B' along the chord, taken over its control points, bounds the denominator from below.
+// curves with the control points `first` and `second`. Products of these control points bound the numerator. Along the chord, B'
+// is at least as long as the shortest of its control points, which bounds the denominator from below.
 template <std::size_t n, std::size_t m>
 static double rough_curvature(const Vec3 (&first)[n], const Vec3 (&second)[m], Vec3 chord) {
   double least_along = std::numeric_limits<double>::infinity(), largest_sq = 0;
@@ -236,7 +236,7 @@ static double rough_curvature(const Vec3 (&first)[n], const Vec3 (&second)[m], V
   return std::sqrt(largest_sq) / (least_speed * least_speed * least_speed);
 }
 
-// Differences of a curve's control points give the control points of its derivative.
+// The control points of the derivatives are differences of the curve's control points.
 static double rough_curvature(const Bezier &curve) {
   const auto &q = curve.control;
   const Vec3 chord = curve.last() - curve.first();
@@ -250,8 +250,8 @@ static double rough_curvature(const Bezier &curve) {
 }
 
 double rough_curvature(const Bezier &curve, double t0, double t1) {
-  // Blossoms of B' and B'' give the control points of this part's derivatives. The part's chord is parallel to the sum of the
-  // three vectors in `first`.
+  // The blossoms of B' and B'' give the control points of the derivatives on this part of the curve. The part's chord is parallel
+  // to the sum of the three vectors in `first`.
   const Speed along(curve);
   const Vec3 first[3] = {along.constant + t0 * (along.linear + t0 * along.quadratic),
                          along.constant + (0.5 * (t0 + t1)) * along.linear + (t0 * t1) * along.quadratic,
@@ -273,7 +273,8 @@ double parameter_at_length(const Bezier &curve, double curve_length, double behi
   if (!(curve_length > 0)) return 0;
   const Speed speed(curve);
   const double tolerance = length_tolerance(curve), close_enough = 1e-14 * curve_length;
-  // Applies Newton's method to the length from 0 to t, within an interval that shrinks.
+  // Newton's method finds the t at which the length from 0 to t is `behind`. The interval from below to above contains this t and
+  // shrinks.
   double below = 0, above = 1, t = first_guess(speed, behind / curve_length);
   double excess = length_between(speed, tolerance, 0, t) - behind;
   for (int i = 0; i < 60 && !(std::abs(excess) <= close_enough); ++i) {

@@ -19,7 +19,7 @@ struct Bezier {
   static Bezier quadratic(Vec3 q0, Vec3 q1, Vec3 q2) { return {2, {q0, q1, q2, Vec3{0, 0, 0}}}; }
   static Bezier cubic(Vec3 q0, Vec3 q1, Vec3 q2, Vec3 q3) { return {3, {q0, q1, q2, q3}}; }
   static Bezier line(Vec3 q0, Vec3 q1) { return quadratic(q0, 0.5 * (q0 + q1), q1); }
-  // Returns a curve that stays in one point, for a collapsed side of a patch.
+  // Returns a curve that stays in one point. Such curves serve as collapsed sides of patches.
   static Bezier point(Vec3 q) { return quadratic(q, q, q); }
 
   Bezier reversed() const {
@@ -53,8 +53,8 @@ double arc_length(const Bezier &curve, double t0 = 0.0, double t1 = 1.0);
 // Returns the two parts left and right of t, by de Casteljau's algorithm.
 std::pair<Bezier, Bezier> split(const Bezier &curve, double t);
 
-// Returns the t in [0,1] for which the curve from 0 to t has the length `behind`, with 0 <= behind <= curve_length.
-// `curve_length` is the length of the whole curve. For a curve of length 0, t is 0.
+// Returns the t in [0,1] up to which the curve has the length `behind`, 0 <= behind <= curve_length. `curve_length` is the length
+// of the whole curve. For a curve of length 0, t is 0.
 double parameter_at_length(const Bezier &curve, double curve_length, double behind);
 
 // Writes to t the results of parameter_at_length for ascending lengths `behind`. One pass over the curve takes a fraction of the

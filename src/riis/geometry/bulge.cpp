@@ -17,8 +17,8 @@
 namespace riis {
 namespace {
 
-// Ball arithmetic: bounds a vector or a number on a range by a middle value and the largest distance from it. Each operation
-// gives a range that holds every possible value. Rounding of the bounds is ignored, because it is far smaller than the bounds.
+// Ball arithmetic describes all values of a vector or a number by a middle value and the largest distance from it. Each operation
+// gives a ball that holds every possible result. Rounding of the bounds is ignored, because it is far smaller than the bounds.
 
 // A ball of numbers: all numbers within `radius` of `middle`.
 struct Interval {
@@ -64,8 +64,8 @@ inline Interval square(const Ball &a) {
 // Inverts positive numbers.
 inline Interval inverse(double least, double largest) { return Interval::between(1 / largest, 1 / least); }
 
-// Returns the part of `a` that is perpendicular to a unit vector, for all unit vectors of the ball `unit`. The projections by two
-// unit vectors differ by the sine of the angle between these vectors, which is at most their distance.
+// Returns the part of `a` that is perpendicular to a unit vector, for all unit vectors of the ball `unit`. Projections along two
+// unit vectors differ by the sine of the angle between the vectors. This sine is at most the distance between the vectors.
 inline Ball across(const Ball &a, const Ball &unit) {
   return {a.middle - dot(a.middle, unit.middle) * unit.middle, a.radius + length(a.middle) * unit.radius};
 }
@@ -128,8 +128,8 @@ std::optional<Along> along_span(const Bezier &span, double speed) {
   if (!(speed > 0)) return Along{};
   const Derivatives d(span);
   const bool is_cubic = d.n == 3;
-  // `middle` is B' in the middle of the span. From the middle to either end, the change of B' is the integral of B'' over half of
-  // the range of t.
+  // `middle` is B' in the middle of the span. B' changes from there to either end by the integral of B'' over half of the range
+  // of t.
   const Vec3 middle = is_cubic ? 0.25 * (d.first[0] + 2 * d.first[1] + d.first[2]) : 0.5 * (d.first[0] + d.first[1]);
   const double size = length(middle);
   if (!(size > 0)) return std::nullopt;
@@ -162,7 +162,7 @@ class OffsetDerivatives {
   OffsetDerivatives(const Ball &w, const Along &base, const Along &edge, double factor)
       : w_(w), base_(base), edge_(edge), factor_(factor) {
     // E is the edge's tangent, and l and a are the speeds, so W' = l E - a T. M = W x T has the derivative M' = l E x T + W x T'.
-    // The product T x T is 0, and is left out because a ball for it would not be 0.
+    // The product T x T is left out. It is 0, but the product of two balls would not be 0.
     m_ = cross(w, base.tangent);
     if (!(m_.least_length() > 0)) return;
     has_direction_ = true;
@@ -177,7 +177,7 @@ class OffsetDerivatives {
     across1_ = across(m1_, normal_);
   }
 
-  // Returns whether O has a direction, which it has if W is nowhere parallel to T.
+  // Returns whether O has a direction. It has one if W is nowhere parallel to T.
   bool has_direction() const { return has_direction_; }
 
   // O is factor |W| N with N = M / |M|, and N' is the part of M' across N, divided by |M|.
@@ -208,7 +208,7 @@ class OffsetDerivatives {
   Interval m_inverse_, w_size_, size1_;
 };
 
-// Returns O at two points that lie at the same share of the lengths of their curves.
+// Returns O between two points of base and edge. Both points lie at the same share of their curve's length.
 Vec3 offset_at(const Curve &base, const PointOnSpan &on_base, const Curve &edge, const PointOnSpan &on_edge,
                double factor) {
   const Curve::PointAndTangent there = base.with_tangent(on_base);
@@ -230,8 +230,8 @@ Bulge::Place Bulge::place(double u) const {
 OffsetBounds bound_offset(const ArcRange &range, double factor) {
   const Vec3 start = range.edge.front().first() - range.base.front().first();
   const Vec3 end = range.edge.back().last() - range.base.back().last();
-  // On the range, a point of a curve moves by at most the length of the curve's part. The distance of W from its nearer end value
-  // is therefore at most half the sum of the two parts' lengths.
+  // Along the range, a point moves on each curve by at most the length of that curve's part. The distance of W from its nearer
+  // end value is therefore at most half the sum of the two parts' lengths.
   const double w_ends = std::max(length(start), length(end));
   const double w_far = w_ends + 0.5 * range.du * (range.base_length + range.edge_length);
   const OffsetBounds unknown{infinity, 2 * std::abs(factor) * w_far};
@@ -304,7 +304,7 @@ double Bulge::error_between(double u0, double u1, int n, double second) const {
   return between;
 }
 
-// Bounds the jump of O' at u, which is the difference between its values on both sides.
+// Bounds the jump of O' at u: the difference between its values just before and just after u.
 double Bulge::jump(double u) const {
   const Ball w{edge_.at(u) - base_.at(u), 0};
   Ball first[2];

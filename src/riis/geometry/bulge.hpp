@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Patches of arcs from one curve to another (paper, appendix, "Leaflet surfaces"). Lines join the base (the annulus) to the edge
-// (the leaflet's free edge) at equal u. Each line is a quadratic Bézier curve. The middle control point of this curve is the
-// middle of the straight line plus the offset
+// Patches of arcs from one curve to another (paper, appendix, "Leaflet surfaces"). At each u, an arc joins the base (the annulus)
+// to the edge (the leaflet's free edge). The arc is a quadratic Bézier curve. Its middle control point is the middle of its chord
+// plus the offset
 //     O(u) = factor |W| unit(W x T),  W(u) = edge(u) - base(u),  T(u) the base's direction.
 // Thus D(u,v) = (1-v) base(u) + v edge(u) + 2 v (1-v) O(u). (The paper offsets along edge' x base', by a number that is not a
 // length. The product edge' x base' is 0 where edge' is 0, and changes its sign at the edge's corners: docs/theory/mitral.md.)
@@ -18,11 +18,11 @@ namespace riis {
 // Returns O from W and T, or 0 if O has no direction.
 Vec3 arc_offset(Vec3 width, Vec3 along, double factor);
 
-// Returns O on a side that is itself an arc, from the arc's control points. The two patches with this side therefore get the
-// same bits.
+// Returns O on a side that is itself an arc. Two patches that share the side get the same bits, because O comes from the arc's
+// control points.
 inline Vec3 arc_offset(const Bezier &arc) { return arc.control[1] - 0.5 * (arc.control[0] + arc.control[2]); }
 
-// The parts of both curves on a range of u with the width du, and the lengths of the whole curves.
+// The parts of base and edge on a range of u whose width is du, and the lengths of both whole curves.
 struct ArcRange {
   const Vector<Bezier> &base, &edge;
   double base_length, edge_length;
@@ -52,8 +52,8 @@ class Bulge {
   // Returns the start of the arc at u.
   Vec3 on_base(double u) const { return base_.at(u); }
 
-  // Bounds the distance of O(u) from its linear interpolation between a place and a later place, for all u between them. The
-  // bound falls with the square of the distance. If W becomes parallel to T, O has no direction, and the bound stays at 2
+  // Bounds the distance of O(u) from its linear interpolation between two places, for all u between them. The bound falls with
+  // the square of the distance between the places. If W becomes parallel to T, O has no direction, and the bound stays at 2
   // |factor| |W|. The function refines the bound only until it is at most `enough`.
   double linear_error(const Place &from, const Place &to, double enough) const;
 

@@ -21,8 +21,8 @@ double smallest_step(const Vector<double> &t) {
   return smallest;
 }
 
-// Bounds the distance between a side and its curve, for each pair of neighbouring grid lines. The bound is the error of the
-// side's segment between the two lines, plus the shift of shared lines along the side.
+// Bounds the distance between a side and its curve, for each pair of neighbouring grid lines. The bound is a sum: the error of
+// the side's segment between the two lines, and the distance by which shared lines shift along the side.
 Vector<double> errors_between(const Vector<GridLine> &lines, const Polyline &side, double GridLine::*t) {
   Vector<double> errors(lines.size() - 1, 0.0);
   if (!(side.length > 0)) return errors;
@@ -37,7 +37,7 @@ Vector<double> errors_between(const Vector<GridLine> &lines, const Polyline &sid
 
 Vector<GridLine> lines_between(const Polyline &side0, const Polyline &side1, double max_merge_shift) {
   const double longer = std::max(side0.length, side1.length);
-  // A grid line that two vertices share stands at the mean of their parameters. The point of each side thus moves by at most half
+  // A grid line that joins two vertices lies at the mean of their parameters. On each side, the point thus moves by at most half
   // the difference of the parameters.
   return merge_parameters(side0, side1, longer > 0 ? 2.0 * max_merge_shift / longer : 0.0);
 }
@@ -72,8 +72,8 @@ class ArcRefinement {
   }
 
  private:
-  // Returns the place at which a range is cut. A cut at a joint removes a kink. The cut is therefore at a joint, if a joint is
-  // far enough from both ends. Otherwise the cut is in the middle.
+  // Returns where to cut a range: at a joint that is far enough from both ends, or else in the middle. A cut at a joint removes a
+  // kink.
   double cut(double from, double to) const {
     for (const double joint : bulge_.joints())
       if (joint > 0.875 * from + 0.125 * to && joint < 0.125 * from + 0.875 * to) return joint;
@@ -106,13 +106,13 @@ Vector<double> middles(const Vector<GridLine> &lines) {
 
 Vector<GridLine> merge_parameters(const Polyline &side0, const Polyline &side1, double merge_tolerance) {
   const Vector<double> t0 = own_parameters(side0), t1 = own_parameters(side1);
-  // The tolerance is so small that two vertices of one side never match the same vertex of the other side.
+  // The tolerance is small enough that a vertex of one side never matches two vertices of the other side.
   const double tolerance = std::min(merge_tolerance, 0.49 * std::min(smallest_step(t0), smallest_step(t1)));
   Vector<GridLine> lines;
   lines.reserve(t0.size() + t1.size());
   lines.push_back({0.0, 0.0, 0.0, true, true});
   for (std::size_t i = 1, j = 1; i + 1 < t0.size() || j + 1 < t1.size();) {
-    // If a side has no further inner vertex, infinity takes the place of its next parameter.
+    // Infinity stands for the next parameter of a side without a further inner vertex.
     const double a = i + 1 < t0.size() ? t0[i] : std::numeric_limits<double>::infinity();
     const double b = j + 1 < t1.size() ? t1[j] : std::numeric_limits<double>::infinity();
     if (std::abs(a - b) <= tolerance) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Turns patches into grids of quads (paper, 3.3 "Surface structure", and the appendix, "Leaflet surfaces"). Boundary polylines
-// that meet at their ends give grid points at the union of the polylines' parameters.
+// Turns patches into grids of quads (paper, 3.3 "Surface structure", and the appendix, "Leaflet surfaces"). The four sides of a
+// patch are polylines that meet at their ends. The grid has a line at each parameter of a vertex on these sides.
 #pragma once
 
 #include <cstddef>
@@ -17,11 +17,11 @@ struct PatchSides {
   const Polyline *side_v0, *side_v1, *side_u0, *side_u1;
 };
 
-// A line of the grid. Two vertices on opposite sides whose parameters nearly agree share a line, so no sliver quads arise. Both
-// vertices keep their places. Neighbouring patches therefore meet without cracks.
+// A line of the grid. If the parameters of two vertices on opposite sides nearly agree, one line joins the vertices, so no sliver
+// quads arise. Both vertices keep their places. Neighbouring patches therefore meet without cracks.
 struct GridLine {
   double t0, t1;                                // the line's parameters on the first and the second of its two sides
-  double middle;                                // the mean of both, which is the line's u (or v) in the grid
+  double middle;                                // the mean of t0 and t1, which is the line's u (or v) in the grid
   bool is_vertex0 = false, is_vertex1 = false;  // whether the line ends on a vertex of that side
 };
 
@@ -58,16 +58,16 @@ struct SideVectors {
 // QuadGrid::points.
 Vector<Vec3> coons_combination(const Vector<double> &u, const Vector<double> &v, const SideVectors &sides);
 
-// Makes the grid of the Coons patch. The patch is bilinear inside every quad, so the grid represents it exactly. Lines are
-// merged if this moves no point along a side by more than max_merge_shift. Writes the lines to `lines` if this pointer is not
-// null.
+// Makes the grid of the Coons patch. The grid represents the patch exactly, because the patch is bilinear inside every quad. Two
+// lines are merged unless this would move a point along a side by more than max_merge_shift. Unless `lines` is null, the lines
+// are written there.
 QuadGrid make_quad_grid(const PatchSides &sides, double max_merge_shift, GridLines *lines = nullptr);
 // Makes the grid on given lines, whose ends are vertices of the sides.
 QuadGrid make_quad_grid(const PatchSides &sides, const GridLines &lines);
 
 // A patch of arcs consists of the straight lines from side_v0, the base, to side_v1, the edge, plus 2 v (1-v) O(u)
-// (geometry/bulge.hpp). The grid of such a patch is made in two steps, lines and then rows, because patches that share an arc
-// must have equally many rows.
+// (geometry/bulge.hpp). Patches that share an arc must have equally many rows. The lines of all such patches are therefore made
+// first, and their rows afterwards.
 struct ArcLines {
   Vector<GridLine> u_lines;
   Vector<Vec3> offsets;   // O on each line

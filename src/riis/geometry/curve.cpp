@@ -14,8 +14,8 @@ namespace {
 
 // A curve has at most 2^20 parts, because more parts would make more triangles than the library can hold.
 constexpr int max_depth = 20;
-// The velocity halves only parts that are wider than `narrowest_for_velocity`. If a curve's derivative is nearly 0 somewhere,
-// such halving would not end.
+// Only parts wider than `narrowest_for_velocity` are halved because of their velocity. Otherwise halving would not end where a
+// curve's derivative is nearly 0.
 constexpr double narrowest_for_velocity = 1.0 / 32;
 
 // Collects the chords of parts. Each part is within max_error of its chord.
@@ -72,9 +72,9 @@ class Flattening {
     return bend_ && t1 - t0 > narrowest_for_velocity && bend_->off_linear(t0, t1) > max_bend_;
   }
 
-  // Compares the point of the part with the point of the chord at each share of their lengths. The distance of two such points is
-  // at most length^2 / 8 times the largest curvature, as for linear interpolation. Joints do not change this bound, because the
-  // direction is continuous there. If the curve's derivative may be 0, the distance is at most the length.
+  // The error of a part is the largest distance between part and chord at equal shares of their lengths. As for linear
+  // interpolation, it is at most length^2 / 8 times the largest curvature. Joints do not change this bound, because the direction
+  // is continuous there. If the curve's derivative may be 0, the length bounds the error.
   template <class LargestCurvature>
   bool accept(Vec3 last, double distance_to_chord, double part_length, const LargestCurvature &largest_curvature,
               double t1) {
@@ -335,7 +335,7 @@ const Vector<Bezier> &CurvePoints::between(std::size_t i, std::size_t j) {
   parts_.reserve(to.span - from.span + 1);
   for (std::size_t span = from.span; span <= to.span; ++span) {
     const double t0 = span == from.span ? from.t : 0, t1 = span == to.span ? to.t : 1;
-    // If the last point lies at the start of its span, the part contains nothing of that span.
+    // If the part ends at the start of a span, it contains nothing of this span.
     if (t1 > t0) parts_.push_back(part_of(curve_.spans()[span], t0, t1));
   }
   if (parts_.empty()) parts_.push_back(Bezier::point(point(i)));
@@ -363,7 +363,7 @@ Polyline make_polyline(const Vector<Vec3> &points) {
   Polyline polyline{{points.front()}, {0.0}, {}, 0.0};
   for (const Vec3 &point : points) {
     const double step = distance(polyline.points.back(), point);
-    // A step that is too short to change the sum is left out, because it would give two points the same t.
+    // A step too short to change the sum would give two points the same t, so it is left out.
     if (!(polyline.length + step > polyline.length)) continue;
     polyline.length += step;
     polyline.points.push_back(point);
@@ -371,7 +371,7 @@ Polyline make_polyline(const Vector<Vec3> &points) {
     polyline.errors.push_back(0.0);
   }
   if (polyline.length > 0) {
-    // The last point is always the given point, even if the step to it was left out, because neighbours share it.
+    // Neighbours share the last point. It is therefore kept to the last bit, even if the step to it was left out.
     polyline.points.back() = points.back();
     for (double &t : polyline.t) t /= polyline.length;
   }

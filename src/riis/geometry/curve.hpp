@@ -21,9 +21,8 @@ struct PointOnSpan {
   double t;
 };
 
-// Each span begins at the end of the previous span, and in the direction in which the previous span ends. At a joint, the
-// curvature may therefore jump, but the direction does not. (A curve with corners is stored as several curves, and its patch as
-// several patches.)
+// Each span begins where the previous span ends, and continues in the same direction. At a joint, the curvature may therefore
+// jump, but the direction does not. (A curve with corners is stored as several curves, and its patch as several patches.)
 class Curve {
  public:
   Curve(const Bezier &span);  // NOLINT(google-explicit-constructor): a single span is a curve
@@ -56,8 +55,8 @@ class Curve {
   };
   std::array<PointOnSpan, 7> divide(const Place &from, const Place &to) const;
 
-  // Returns a part of one span. If `after` is true, the part begins at this share of the length and ends with the span.
-  // If `after` is false, the part begins with the span and ends at this share.
+  // Returns the part of a span beside the point at this share of the length. If `after` is true, the part leads from this point
+  // to the end of the span. Otherwise the part leads from the start of the span to this point.
   Bezier span_beside(double share, bool after) const;
 
   // Returns the part from share0 to share1, share0 < share1.
@@ -67,7 +66,7 @@ class Curve {
 
   Curve reversed() const;
 
-  // Returns the same curve with its ends moved onto the ends of neighbouring curves. The ends may move only by rounding errors.
+  // Returns the curve with its ends moved to the ends of neighbouring curves, to which they are equal except for rounding.
   Curve through(Vec3 first, Vec3 last) const;
 
  private:
@@ -109,22 +108,22 @@ class VelocityBend {
 
 // A polyline whose chords replace a curve.
 struct Flattened {
-  Vector<Vec3> points;    // points of the curve, from its first to its last; only the first if the length is 0
+  Vector<Vec3> points;    // points of the curve, from first to last; only the first for length 0
   Vector<double> t;       // the share of the curve's length at every point, a binary fraction from 0 to 1
   Vector<double> errors;  // for every chord: a bound on its distance from the curve, at equal shares of their lengths
 };
 
-// Halves the curve until two conditions hold for every part. First, its flatness shows that it lies within max_error (> 0) of its
-// chord. The distance of a Bézier span from its chord is at most 3/4 (cubic) or 1/2 (quadratic) of the span's flatness. Second,
-// the part and its chord are at most max_error apart at equal shares of their lengths. With `bend`, a part is also halved if its
+// Halves the curve until two conditions hold for every part. First, the part's flatness shows that the part lies within max_error
+// (> 0) of its chord. A Bézier span is at most 3/4 (cubic) or 1/2 (quadratic) of its flatness away from its chord. Second, the
+// part and its chord are at most max_error apart at equal shares of their lengths. With `bend`, a part is also halved if its
 // velocity is estimated to differ from a linear function by more than max_bend. Parts are halved by length, whereas the paper
-// (algorithm "Recursive de Casteljau subdivision") halves the parameter. A share of one curve therefore equals a share of another
-// curve to the last bit, or is at least one part away, so no slivers arise. A common point of two parts appears once. Fails with
-// RIIS_LIMIT_EXCEEDED for more than 2^20 parts.
+// (algorithm "Recursive de Casteljau subdivision") halves the parameter. The shares of any two curves are therefore binary
+// fractions: they agree to the last bit or differ by at least one part, so no slivers arise. A common point of two parts appears
+// once. Fails with RIIS_LIMIT_EXCEEDED for more than 2^20 parts.
 Flattened flatten(const Curve &curve, double max_error, const VelocityBend *bend = nullptr, double max_bend = 0);
 
 // Points of a curve at many shares of its length, found in one pass.
-// For a curve and ascending shares, this class has points, tangents, and bounds for the parts between the points.
+// This class also gives the tangents at these points, and bounds for the parts between them.
 class CurvePoints {
  public:
   // Finds the points at these shares, which ascend from 0 to 1. If is_reversed, the shares count from the curve's last point.
@@ -166,16 +165,16 @@ struct Polyline {
   double length;          // the length of that curve
 };
 
-// Returns the polyline through the points, parametrised by its own length. The polyline replaces no curve, so its errors are 0.
-// Drops repeated points, so that t ascends strictly. Needs at least one point.
+// Returns the polyline through the points, parametrised by its own length. Its errors are 0, because it replaces no curve. Drops
+// repeated points, so that t ascends strictly. Needs at least one point.
 Polyline make_polyline(const Vector<Vec3> &points);
 
-// Returns a polyline that replaces a curve. Every segment is within max_error (> 0) of the curve. The t of a vertex is its
-// share of the curve's length, not of the polyline's length as in the paper. For any tolerance, the vertex is therefore the
-// curve's point at its t.
+// Returns a polyline that replaces a curve. Every segment is within max_error (> 0) of the curve. The t of a vertex is its share
+// of the curve's length, whereas the paper takes the share of the polyline's length. The vertex at t is therefore the curve's
+// point at t, whatever the tolerance.
 Polyline make_polyline(const Curve &curve, double max_error);
-// Makes the polyline of a curve that moves. On each segment, the estimated distance of the velocity from a linear function is at
-// most max_bend. `velocity` has the velocities of the spans' control points.
+// Makes the polyline of a curve that moves. On each segment, the velocity is estimated to be within max_bend of a linear
+// function. `velocity` has the velocities of the spans' control points.
 Polyline make_polyline(const Curve &curve, double max_error, const Vector<Bezier> &velocity, double max_bend);
 
 // Returns the same polyline in the opposite direction.

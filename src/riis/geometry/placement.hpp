@@ -22,8 +22,8 @@ inline Rotation transposed(const Rotation &a) {
   return {{a.row_x.x, a.row_y.x, a.row_z.x}, {a.row_x.y, a.row_y.y, a.row_z.y}, {a.row_x.z, a.row_y.z, a.row_z.z}};
 }
 
-// Rotates by an angle in degrees about an axis of any length > 0. The sense is counter-clockwise for a viewer towards whom the
-// axis points. The result is exact for multiples of 90 degrees about a coordinate axis.
+// Rotates by an angle in degrees about an axis of any length > 0. A viewer towards whom the axis points sees a counter-clockwise
+// rotation. The result is exact for multiples of 90 degrees about a coordinate axis.
 Rotation rotation_about(Vec3 axis, double degrees);
 
 // Rotates by degrees about x, then about y, then about z. The rotation [x, y, z] of a cusp in the paper has this meaning.

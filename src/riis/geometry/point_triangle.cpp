@@ -37,8 +37,8 @@ PointOnTriangle closest_point_on_triangle(Vec3 p, Vec3 a, Vec3 b, Vec3 c) {
     const double distance_sq = dot(difference, difference);
     if (distance_sq < best.distance_sq) best = {distance_sq, point, {weight_a, weight_b, weight_c}};
   };
-  // If the parameter is limited to an end, the result is the corner itself. All triangles with this corner therefore agree on the
-  // distance to the last bit.
+  // If the parameter is limited to an end, the result is the corner itself. All triangles with this corner thus give the distance
+  // with the same bits.
   const auto on_edge = [](Vec3 first, Vec3 edge, Vec3 last, double t) { return t == 1.0 ? last : first + t * edge; };
   offer(on_edge(a, ab, b, t_ab), 1 - t_ab, t_ab, 0);
   offer(on_edge(b, bc, c, t_bc), 0, 1 - t_bc, t_bc);
@@ -48,9 +48,9 @@ PointOnTriangle closest_point_on_triangle(Vec3 p, Vec3 a, Vec3 b, Vec3 c) {
   const double inverse_nn = 1.0 / dot(n, n);
   Weights w = plane_weights(ap, ab, ac, n, inverse_nn);
   if (inside(w)) {
-    // In a needle-shaped triangle, the error of the weights is rounding divided by the sine of the smallest angle. Each
-    // projection of the remaining vector multiplies the error by about this ratio again. Triangles that are not needle-shaped
-    // need only the first projection.
+    // In a needle-shaped triangle, the weights have an error of about one rounding divided by the sine of the smallest angle.
+    // Each further projection, of the vector that remains, multiplies the error by this ratio. Other triangles need only the
+    // first projection.
     for (int repeat = 0; repeat < 6; ++repeat) {
       const Weights rest = plane_weights(ap - (w.b * ab + w.c * ac), ab, ac, n, inverse_nn);
       const Weights refined{w.b + rest.b, w.c + rest.c};

@@ -18,7 +18,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // `enough` requires.
 double split_error_at(const Quad &quad, int level, double enough) {
   // Below the level `few`, all parts of the quad are checked, because their number is small. From the level `few` on, the bound
-  // uses only the fact that each level divides the twist by exactly 4.
+  // follows from the twist alone, which each level divides by exactly 4.
   constexpr int few = 5;
   const double at_equal_uv = std::ldexp(quad_flatness(quad), -2 * level);
   if (level >= few || (at_equal_uv <= enough && enough < infinity)) return at_equal_uv;
@@ -51,7 +51,7 @@ Level subdivision_level(const QuadGrid &grid, std::size_t i, std::size_t j, doub
   }
 }
 
-// Returns the quad with both ends of its shortest edge moved to the middle of this edge. No point thus moves by more than half
+// Returns the quad after both ends of its shortest edge have moved to the middle of this edge. No point moves by more than half
 // the edge.
 Quad without_shortest_edge(const Quad &quad, double &shortest) {
   std::array<Vec3, 4> corner{quad.p00, quad.p10, quad.p11, quad.p01};
@@ -63,8 +63,8 @@ Quad without_shortest_edge(const Quad &quad, double &shortest) {
   return {corner[0], corner[1], corner[2], corner[3]};
 }
 
-// Returns the quad's planned level, with the error at this level. At a collapsed side, rounding may fold a quad at one opening
-// and not at the next. A bound for the quad without the collapsed edge ignores the fold.
+// Returns the quad's planned level, with the error at this level. At some openings, rounding folds a quad at a collapsed side.
+// The bound for the quad without the collapsed edge does not see this fold.
 Level planned_level(const QuadGrid &grid, std::size_t i, std::size_t j, double max_error, int level) {
   const Quad quad = quad_of(grid, i, j);
   const double left = max_error - grid.error(i, j);
@@ -93,8 +93,8 @@ void count(const Level &level, LevelledGrid &made) {
   if (n > 1) made.n_vertices += (n + 1) * (n + 1);
 }
 
-// Counts the triangles with two equal corners. Most such triangles lie along a collapsed side of the patch, so only quads at the
-// sides are counted.
+// Counts the triangles with two equal corners, in the quads at the patch's sides only. Most such triangles lie along a collapsed
+// side.
 void count_collapsed(LevelledGrid &made) {
   const QuadGrid &grid = made.grid;
   const std::size_t n_u = grid.u.size() - 1, n_v = grid.v.size() - 1;
@@ -144,7 +144,7 @@ LevelledGrid with_planned_levels(QuadGrid grid, double max_error, const Vector<i
   const Vec3 *below = in.points.data(), *above = below + in.u.size();
   for (std::size_t j = 0; j + 1 < in.v.size(); ++j, ++below, ++above)
     for (std::size_t i = 0; i + 1 < in.u.size(); ++i, ++level, ++error, ++below, ++above) {
-      // Most quads are not subdivided, and the bound from their twist alone is small enough.
+      // For most quads, which are not subdivided, the bound from the twist alone is small enough.
       const double at_equal_uv = *level == 0 ? quad_flatness({below[0], below[1], above[1], above[0]}) : infinity;
       count(at_equal_uv <= max_error - *error ? Level{0, *error + at_equal_uv}
                                               : planned_level(in, i, j, max_error, *level),

@@ -25,9 +25,9 @@ struct Quad {
 // bounds the distance between the quad and its two triangles at the same (u,v).
 inline double quad_flatness(const Quad &quad) { return 0.25 * length((quad.p00 - quad.p10) + (quad.p11 - quad.p01)); }
 
-// Bounds the distance between the bilinear quad and its two triangles as surfaces. The bound is kappa_quad in general. For
-// surfaces that are graphs over a plane parallel to both diagonals, the bound is at most half the component of the twist across
-// that plane (docs/theory/triangles.md).
+// Bounds the distance between the bilinear quad and its two triangles as surfaces. The bound is kappa_quad in general. Take a
+// plane parallel to both diagonals. If quad and triangles are graphs over this plane, half the component of the twist across it
+// is a bound (docs/theory/triangles.md).
 double split_error(const Quad &quad);
 
 inline Quad quad_of(const QuadGrid &grid, std::size_t i, std::size_t j) {

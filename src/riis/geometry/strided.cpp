@@ -21,7 +21,8 @@ struct Spread {
   }
 };
 
-// Takes two points at once. The x and y of each point are in one register, and the two z are in a third register.
+// Takes two points at once. One register has the x and y of the first point, a second has those of the second point, and a third
+// has both z.
 struct PairSpread {
   Spread xy[2], z;
   Two sum{};
@@ -46,7 +47,7 @@ struct PairSpread {
 Bounds bounds_of(const StridedPoints &points, double &sum) {
   const double *const x = points.x, *const y = points.y, *const z = points.z;
   const std::int64_t stride = points.stride;
-  // Two separate bounds are faster, because each comparison waits for the previous comparison of the same bounds.
+  // The loop keeps two separate bounds, because each comparison has to wait for the previous comparison of the same bounds.
   PairSpread pairs[2];
   std::int64_t i = 0;
   for (; i + 4 <= points.n; i += 4)
@@ -140,7 +141,7 @@ Bounds check_points(const StridedReals<Real> &points, const char *what, riis_sta
   check_pointers(points, what, prefix);
   double sum = 0;
   const Bounds bounds = bounds_of(points, sum);
-  // The sum of usable coordinates is finite, because each of them is at most max_coordinate.
+  // Usable coordinates are at most max_coordinate, so their sum is finite.
   const bool usable = points.n == 0 || (is_usable(bounds.lower) && is_usable(bounds.upper) && std::isfinite(sum));
   if (!usable) refuse_first_unusable(points, what, bad_coordinate);
   return bounds;

@@ -37,18 +37,17 @@ auto with_points(std::int64_t n, const void *const (&xyz)[3], std::int64_t strid
   return real_bits == 32 ? use(of(0.0f)) : use(of(0.0));
 }
 
-// Distances need fourth powers. With coordinates of at most max_coordinate and edges of at least min_edge, these powers stay
-// within the range of doubles.
+// Distances need fourth powers of coordinates and edges. Within these limits, the powers stay within the range of doubles.
 inline constexpr double max_coordinate = 1e60, min_edge = 1e-60;
 
 // Returns whether a coordinate is finite and not too large. Returns false for NaN.
 inline bool is_usable(double coordinate) { return std::abs(coordinate) <= max_coordinate; }
 inline bool is_usable(Vec3 p) { return is_usable(p.x) && is_usable(p.y) && is_usable(p.z); }
 
-// Checks pointers, stride and every coordinate. Returns the points' box, which the same pass finds. Fails with
-// RIIS_INVALID_ARGUMENT, or with bad_coordinate for the first unusable coordinate. The message of such a failure names the point
-// by `what` ("node", "point") and its number. `prefix`, such as "points.", precedes the names of arguments in messages. Only the
-// calling thread runs, because more threads would save no time, and the caller may not want them.
+// Checks pointers, stride and every coordinate. Returns the box of the points. Fails with RIIS_INVALID_ARGUMENT, or with
+// bad_coordinate for the first unusable coordinate. The message of such a failure names the point by `what` ("node", "point") and
+// its number. `prefix`, such as "points.", precedes the names of arguments in messages. Uses only the calling thread: more
+// threads would save no time, and the caller may not want them.
 template <class Real>
 Bounds check_points(const StridedReals<Real> &points, const char *what, riis_status bad_coordinate,
                     const char *prefix = "");
@@ -61,9 +60,9 @@ void check_pointers(const StridedReals<Real> &points, const char *what, const ch
 struct ComponentNames {
   const char *prefix, *names[3], *stride;
 };
-// Refuses a component that begins inside another component, but after that component's first stride. Examples are the components
-// of one array xyz with the stride 1, and separate arrays with the stride 3. Equal components are allowed if `may_be_equal`,
-// because one array may serve two axes. The caller has checked n and the stride, in numbers of `size` bytes.
+// Refuses components that overlap because the stride is wrong: one begins inside another, beyond the first stride of the other.
+// Examples are one array xyz with the stride 1, and separate arrays with the stride 3. Equal components are allowed if
+// `may_be_equal`, because one array may serve two axes. The caller has checked n and the stride, in numbers of `size` bytes.
 void check_apart(std::int64_t n, const void *const (&components)[3], std::int64_t stride, std::int64_t size,
                  const ComponentNames &names, bool may_be_equal = true);
 
@@ -71,8 +70,8 @@ void check_apart(std::int64_t n, const void *const (&components)[3], std::int64_
 template <class Real>
 void check_point(const StridedReals<Real> &points, std::int64_t i, const char *what, riis_status bad_coordinate);
 
-// Returns point i of points that were checked when the caller passed them. The caller may have changed the coordinates since
-// then, so they are checked again. Fails as check_points does.
+// Returns point i, and checks it again. The points were checked when the caller passed them, but the caller may have changed
+// coordinates since then. Fails as check_points does.
 inline Vec3 checked_point(const StridedPoints &points, std::int64_t i, const char *what, riis_status bad_coordinate) {
   const Vec3 p = points[i];
   if (!is_usable(p)) check_points(points, what, bad_coordinate);

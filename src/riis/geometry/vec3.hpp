@@ -34,7 +34,7 @@ inline void put_vector(double *list, std::int64_t i, Vec3 value) {
   list[3 * i + 2] = value.z;
 }
 
-// The box is empty until it contains a point or a box.
+// The box is empty until a point or another box is added.
 struct Bounds {
   static constexpr double infinity = std::numeric_limits<double>::infinity();
 

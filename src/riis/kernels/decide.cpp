@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computations in double precision for eight triangles at a time. The decision kernel repeats geometry/point_triangle.cpp
-// operation by operation, so every lane has the bits of that file. The file also makes the triangles' frames for the filter. This
-// file is compiled for each instruction set, and never with contracted multiplications and additions.
+// operation by operation, so every lane has the bits of that function. Here are also the functions that make the triangles'
+// frames for the filter. This file is compiled for each instruction set, and never with contracted multiplications and additions.
 #include "kernels/lanes.hpp"
 #include "kernels/table.hpp"
 
@@ -69,11 +69,11 @@ RIIS_INLINE Doubles root(Doubles a) {
 }
 
 // Returns 1 / sqrt(a) with an error of a few units in the last place. `a` must be a normal positive number. The last bits depend
-// on the instruction set, so no result for a caller may depend on these bits.
+// on the instruction set. The callers' results must therefore not depend on them.
 RIIS_INLINE Doubles inverse_root(Doubles a) {
 #if defined(__AVX512F__)
-  // The estimate has 14 correct bits, and two steps of Newton's method double this number twice. Two steps of Newton's method
-  // take less time than a root and a division.
+  // The estimate has 14 correct bits. Each of two steps of Newton's method doubles this number, and both steps take less time
+  // than a root and a division.
   count(&Counts::operations, Doubles::n);
   Doubles r{{(DoubleRegister)_mm512_rsqrt14_pd((__m512d)a.part[0])}};
   const Doubles half = Doubles::all(0.5) * a;
@@ -221,7 +221,7 @@ void differentiate(const PointsAndTriangles &pairs, const PointsOnTriangles &loc
     (weight * unit.y).store(weighted[k][1]);
     (weight * unit.z).store(weighted[k][2]);
   }
-  // This loop computes one point at a time, because gathering the rates of eight points would take longer.
+  // This loop takes one point at a time, because it would take longer to gather the rates of eight points.
   for (int32_t lane = 0; lane < n_points; ++lane) {
     const int64_t a = 3 * vertex[lane][0], b = 3 * vertex[lane][1], c = 3 * vertex[lane][2];
     const auto part = [&](int k, const double *rate) RIIS_LAMBDA {
@@ -313,7 +313,7 @@ void measure_triangles(const double *vertices, const int64_t *vertex_id, int32_t
 
 void frame_group(const PlainFrame &frame, const double *corners, const int32_t *triangle, int32_t n,
                  GroupCorners &framed) {
-  // Processes only as many triangles at a time as fit in one register, so that their addresses also stay in registers.
+  // Takes only as many triangles at a time as one register holds, so that the triangles' addresses also stay in registers.
   constexpr int at_once = Doubles::per_register;
   const DoubleRegister scale = frame.scale - DoubleRegister{};
   for (int from = 0; from < triangles_per_group; from += at_once) {
@@ -354,8 +354,8 @@ RIIS_INLINE void put(Doubles3 v, float (*to)[triangles_per_group], int from) {
   put(v.z, to[2] + from);
 }
 
-// Stores an axis in single precision. The origin is chosen so that `middle` has the coordinate 0. The origin is computed for the
-// rounded axis, so the error by rounding is proportional to the distance from `middle`.
+// Stores an axis in single precision, and the origin at which `middle` has the coordinate 0. The origin is computed for the
+// rounded axis. The rounding error of a coordinate is therefore proportional to the distance from `middle`.
 RIIS_INLINE void put_axis(Doubles3 axis, Doubles3 middle, float (*to)[triangles_per_group], float *origin, int from) {
   put(axis, to, from);
   const auto rounded = [](Doubles x) RIIS_LAMBDA {
@@ -389,7 +389,7 @@ RIIS_INLINE float round_down(double x) {
 }
 
 void frame_leaf(const PlainFrame &frame, const double *xyz, Leaf &leaf, float *lower, float *upper) {
-  // Eight nodes have 24 coordinates, so the pattern of centres repeats every three registers.
+  // The centre is subtracted from three registers at a time, which hold the x, y, z of eight nodes one after another.
   constexpr int n_in_turn = 3;
   alignas(64) double turn[n_in_turn * Doubles::n];
   for (int i = 0; i < n_in_turn * Doubles::n; ++i) turn[i] = frame.centre[i % 3];
@@ -453,8 +453,8 @@ struct Axes {
 };
 
 // Chooses the axes of eight groups: one across a group's triangles, one along its first edge, and one at right angles to both.
-// Any three axes at right angles would be correct, but these axes give a small box. `across` is the sum of the triangles'
-// normals, each as long as twice the triangle's area.
+// Any three axes at right angles would be correct, but these give a small box. `across` is the sum of the triangles' normals.
+// Each normal is as long as twice its triangle's area.
 RIIS_INLINE void choose_axes(Doubles3 across, Doubles3 along, Axes &axes) {
   const Doubles zero = Doubles::all(0), one = Doubles::all(1);
   // Divides by the largest component, so that the squares do not underflow for small triangles.
@@ -468,7 +468,7 @@ RIIS_INLINE void choose_axes(Doubles3 across, Doubles3 along, Axes &axes) {
   const Doubles::Mask has_edge = normalize(along);
   const Doubles::Mask steep = magnitude(across.x) < Doubles::all(0.6);
   along = choose(has_edge, along, {choose(steep, one, zero), choose(steep, zero, one), zero});
-  // Removes the part along `across` that rounding has left. The removed part is large if the edge runs nearly along `across`.
+  // Rounding has left a part along `across`, which is large if the edge runs nearly along `across`. This loop removes it.
   for (int i = 0; i < 2; ++i) {
     along = take_across_away(along);
     normalize(along);
@@ -548,11 +548,11 @@ RIIS_INLINE void make_frames(const GroupCorners &corners, TriangleGroup &group,
     const Doubles3 middle = one_half * (a + b);
     put_axis(e.unit, middle, group.e, group.e_origin, from);
     put(half_ab, group.half_ab + from);
-    // Returns the part of v at right angles to e. If the triangle is needle-shaped, rounding leaves a part along e, which a
-    // second call removes.
+    // Returns the part of v at right angles to e. For a needle-shaped triangle, rounding leaves a part along e. A second call
+    // removes it.
     const auto across = [&](Doubles3 v) RIIS_LAMBDA { return v - dot(v, e.unit) * e.unit; };
-    // If rounding left nothing of the triangle's height, the part at right angles to e is only rounding error, and may again run
-    // along e.
+    // If the triangle's height is lost in rounding, the part at right angles to e is only rounding error. It may again run along
+    // e.
     Doubles3 over = across(ac);
     const Doubles over_sq = dot(over, over);
     const Doubles::Mask has_height = both(over_sq > Doubles::all(0x1p-88) * dot(ac, ac), over_sq > Doubles::all(1e-59));

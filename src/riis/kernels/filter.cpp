@@ -40,8 +40,8 @@ RIIS_INLINE ToGroup measure_to_group(const TriangleGroup &group, Floats3 p, Floa
   const Floats past_ab = beyond(e, Floats::load(group.half_ab));
   Floats in_plane = multiply_add(past_ab, past_ab, f * f), inside = f;
 
-  // Takes an edge into account. The edge is given by its direction, the place of its middle, its place across and its half
-  // length.
+  // Includes the distance to an edge. Given are the edge's direction, the coordinate of its middle along this direction, its
+  // coordinate across, and its half length.
   const auto offer_edge = [&](Floats x, Floats y, const float *unit_x, const float *unit_y, const float *middle,
                               const float *side, const float *half) RIIS_LAMBDA {
     const Floats to_x = Floats::load(unit_x), to_y = Floats::load(unit_y);
@@ -89,8 +89,8 @@ bool near_boxes(const FilterTask &task, const Boxes &boxes, const int32_t *candi
   return found != 0;
 }
 
-// Along an axis, a box extends from its middle by the sum of its half sides, each multiplied by the axis's component along this
-// side.
+// The half extent of a box along an axis is a sum over its half sides. Each half side is multiplied by the axis's component along
+// this side.
 template <bool is_one_sided>
 RIIS_INLINE bool near_rotated_boxes(const FilterTask &task, const Boxes &boxes, const int32_t *candidates,
                                     int32_t n_candidates, uint16_t *near) {
@@ -139,7 +139,8 @@ bool near_own_boxes(const FilterTask &task, const Boxes &boxes, const int32_t *c
 }
 
 int32_t select(const int32_t *numbers, const uint16_t *marks, int32_t n, int32_t bit, int32_t *to) {
-  // The loop never writes more numbers than it has read, so a write of a whole register stays within the first n places.
+  // Each step writes a whole register. It stays within the first n places, because the loop never writes more numbers than it has
+  // read.
   int32_t n_selected = 0, k = 0;
   for (; k + 16 <= n; k += 16) {
     const uint32_t lanes = lanes_with_bit(marks + k, bit);
@@ -179,9 +180,9 @@ void nearest_groups(const FilterTask &task, const Boxes &boxes, const int32_t *c
   for (int i = 0; i < 16; ++i) nearest[i] = static_cast<int32_t>(positions[i]);
 }
 
-// Let f be the square of a place's distance from a box, minus the square of the place's distance from a point. This difference f
-// is a concave function of the place, and a sum over the axes. The least f in another box is therefore a sum over the axes. Along
-// each axis, the least value is at one of the two ends of the box.
+// For a place, let f be the square of its distance from a group's box, minus the square of its distance from the point. f is a
+// concave function of the place, and a sum over the axes. The least f among the places of a box is therefore also a sum over the
+// axes. Along each axis, the least value is at one of the box's two ends.
 void competing_groups(const FilterTask &task, const Boxes &boxes, const PointsOfBoxes &points,
                       const int32_t *candidates, int32_t n_candidates, uint16_t *competes) {
   const Floats zero = Floats::all(0), tolerance = Floats::load(points.tolerance);
@@ -219,9 +220,9 @@ RIIS_INLINE uint32_t wanted_in_half(const LeafTask &leaf, int h) { return leaf.w
 RIIS_INLINE int32_t first_node_of(const LeafTask &leaf) { return leaf.position * nodes_per_leaf; }
 RIIS_INLINE uint32_t leaf_of(int32_t node) { return static_cast<uint32_t>(node) / nodes_per_leaf; }
 
-// Takes a leaf to the surface's frame. For every group and every node, computes the square of a lower bound on their distance.
-// Lists each node that may be within reach, with the group that has the least bound. If only one side of the surface counts, a
-// listed node must also be kept by a group within reach.
+// Takes a leaf to the surface's frame. For every pair of a group and a node, computes the square of a lower bound on the
+// distance. Lists each node that may be within reach, with the group that has the least bound. If only one side of the surface
+// counts, a node is listed only if a group within reach keeps it.
 template <bool is_one_sided>
 RIIS_INLINE void begin_leaf(const FilterTask &task, LeafTask &leaf, ClusterTask &cluster, float *lower_bounds) {
   const int32_t first_node = first_node_of(leaf), n_before = cluster.n_listed;
@@ -282,8 +283,8 @@ RIIS_INLINE void begin_leaf(const FilterTask &task, LeafTask &leaf, ClusterTask 
   leaf.may_be_near = cluster.n_listed > n_before;
 }
 
-// Lists nodes of a leaf. Each node is listed with every group that may be as near as the best triangle so far, except the node's
-// first group. The list begins with the group cluster.next_group. Returns false if the list is full before the last group.
+// Lists the nodes of a leaf with their groups, from the group cluster.next_group on. A group is listed if it may be as near as
+// the node's best triangle so far, and is not the node's first group. Returns false if the list is full before the last group.
 RIIS_INLINE bool list_others(const LeafTask &leaf, ClusterTask &cluster, const float *lower_bounds) {
   const int32_t first_node = first_node_of(leaf);
   Floats limit[halves], first_group[halves];
@@ -291,7 +292,7 @@ RIIS_INLINE bool list_others(const LeafTask &leaf, ClusterTask &cluster, const f
     limit[h] = Floats::load(cluster.best + first_node + 16 * h) + Floats::all(leaf.limits.tolerance);
     first_group[h] = Floats::load(cluster.first_group + first_node + 16 * h);
   }
-  // The numbers are local variables, because the compiler must assume that a store to the list changes members.
+  // Local variables are used instead of members, because the compiler must assume that a store to the list changes members.
   int32_t n = cluster.n_listed, k = cluster.next_group;
   for (; k < leaf.n_groups && n <= most_listed - nodes_per_leaf; ++k) {
     const int32_t group = leaf.near_groups[k];
@@ -384,8 +385,8 @@ void begin_cluster(const FilterTask &task, ClusterTask &cluster) {
   task.one_side.end_of_band ? begin_leaves<true>(task, cluster) : begin_leaves<false>(task, cluster);
 }
 
-// Leaves a node out if each triangle that may be the closest one leaves the node out of the band. All groups near the node must
-// be in the list, so only the first n_leaves leaves are judged.
+// Drops a node if it is out of the band at every triangle that may be its closest one. Only the first n_leaves leaves are judged,
+// because all groups near their nodes are in the list.
 RIIS_INLINE void leave_out(ClusterTask &cluster, int32_t n_leaves) {
   uint32_t stays[leaves_per_cluster] = {};
   for (int32_t i = 0; i < cluster.n_listed; ++i) {
@@ -405,8 +406,8 @@ RIIS_INLINE void leave_out(ClusterTask &cluster, int32_t n_leaves) {
   }
 }
 
-// Compares the nodes with their first groups if no earlier call has done so. Then lists other groups for as many nodes as there
-// is room for, and compares the nodes with these groups.
+// Compares the nodes with their first groups, unless an earlier call has done so. Then lists other groups until the list is full,
+// and compares the nodes with these groups.
 template <bool is_one_sided>
 RIIS_INLINE void compare_all(const FilterTask &task, ClusterTask &cluster) {
   const bool is_first = cluster.next_leaf < 0;
@@ -448,7 +449,7 @@ int32_t filter_nodes(const FilterTask &task, ClusterTask &cluster, const PairArr
     compare_all<is_one_sided>(task, cluster);
     cluster.next_listed = 0;
   }
-  // Writes those listed nodes whose group is still near after the whole list was compared. The position to write advances only
+  // Once the whole list is compared, writes those listed nodes whose group is still near. The position to write advances only
   // after a node whose group is near. Writing every node avoids a branch that the processor could not predict.
   const GroupBounds *const bounds = task.bounds;
   int32_t *const node_of_pair = pairs.node, *const triangle_of_pair = pairs.triangle;

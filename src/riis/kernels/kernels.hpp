@@ -80,8 +80,9 @@ struct OneSide {
   float twice_shift;  // twice the distance of the band's middle from the surface
   float least_depth;  // a node with less depth may be in front of the triangle
   float least_sum;    // a node is out of the band if distance^2 + twice_shift * depth exceeds this number
-  // For each group, a place along the group's first axis, multiplied by `behind`. Beyond this place the whole group leaves a node
-  // out. The place is infinite if the group never leaves a node out. The pointer is null if nodes on both sides are wanted.
+  // For each group, a limit along the group's first axis, multiplied by `behind`. A node beyond the limit is out of the band at
+  // each triangle of the group. The limit is infinite if no node is surely out. The pointer is null if nodes on both sides are
+  // wanted.
   const float *end_of_band = nullptr;
 };
 
@@ -98,7 +99,7 @@ struct FilterTask {
 // box.
 struct alignas(64) PointsOfBoxes {
   float xyz[3][16];
-  float tolerance[16];  // the most by which the computed squares of two equal distances from a place in the box differ
+  float tolerance[16];  // the most by which the computed squares of two equal distances differ, at any place in the box
 };
 
 // One leaf of a cluster, and the groups that may be near this leaf.
@@ -114,21 +115,21 @@ struct LeafTask {
 };
 
 // Cache lines that the decision will read later. After every few distances, the filter prefetches some of these lines.
-// If all lines were prefetched at once, they would fill the processor's queue, and other loads would wait.
+// Prefetching all lines at once would fill the processor's queue, so that other loads would wait.
 struct LinesAhead {
   int32_t n;
   const char *line[256];
 };
 
 // Leaves of one cluster, which are filtered together. The filter lists nodes with groups, and computes the distances of the whole
-// list. If the nodes or pairs do not fit into the list or the caller's arrays, the filter continues in another call.
+// list. If the list or the caller's arrays are full, the filter continues in the next call.
 constexpr int32_t most_listed = 2 * nodes_per_cluster;
 struct ClusterTask {
   int32_t n_leaves;
   LeafTask leaf[leaves_per_cluster];
   float *lower_bounds;  // room for nodes_per_leaf bounds for each near group of each leaf, aligned
   LinesAhead ahead;     // filter_cluster empties it
-  bool is_done;         // the last call of filter_cluster sets this
+  bool is_done;         // set by the last call of filter_cluster
 
   // Only the filter uses the following members. The arrays have room for whole registers. A node is given by its position in the
   // cluster.
@@ -137,11 +138,11 @@ struct ClusterTask {
   int32_t node[most_listed + 16], group[most_listed + 16];
   float nearest_sq[most_listed + 16];       // the square of the node's distance to the group
   uint16_t triangles[most_listed + 16];     // the group's triangles at this distance, up to the tolerance
-  uint16_t in_band[most_listed + 16];       // the part of `triangles` that does not leave the node out of the band
+  uint16_t in_band[most_listed + 16];       // those of `triangles` that keep the node in the band
   FilterLimits limits[leaves_per_cluster];  // the limits of each leaf, by its position
   alignas(64) float xyz[3][nodes_per_cluster];
   float best[nodes_per_cluster];         // the least of reach_sq and of all computed squares of distances
-  float limit[nodes_per_cluster];        // groups up to the root of this number are near; -1 if no group is near
+  float limit[nodes_per_cluster];        // a group is near up to the root of this number; -1: no group is near
   float first_group[nodes_per_cluster];  // the group that the node was compared with first
 };
 
@@ -201,16 +202,16 @@ struct FilterKernels {
   // For each candidate group, writes a bit for each box within the group's reach. Returns false if no box is within any reach.
   bool (*near_boxes)(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
                      uint16_t *near);
-  // Each group also has a box along its own axes. Clears the bits of boxes beyond the reach of this box. If only one side of the
-  // surface counts, also clears all bits of a box that all groups leave out. Returns false if no box is left. `near` comes from
-  // near_boxes, so lanes without a box have no bits.
+  // Clears the bits of boxes that are out of reach of the group's box along its own axes. If only one side of the surface counts,
+  // a box that all groups leave out loses all its bits. Returns false if no bit is left. In `near`, which comes from near_boxes,
+  // lanes without a box have no bits.
   bool (*near_own_boxes)(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
                          uint16_t *near);
-  // Copies, without gaps, those of n numbers whose entry in `marks` has the given bit. Returns the number of copied numbers. `to`
-  // must have room for n numbers.
+  // From n numbers, copies those whose entry in `marks` has the given bit, without gaps. Returns the number of copied numbers.
+  // `to` must have room for n numbers.
   int32_t (*select)(const int32_t *numbers, const uint16_t *marks, int32_t n, int32_t bit, int32_t *to);
-  // Finds, for each of 16 boxes, the candidate group whose corner is nearest to the middle of the box. Writes the group's
-  // position among the candidates. The number n_candidates is above 0.
+  // For each of 16 boxes, finds the candidate group whose corner is nearest to the middle of the box. Writes its position among
+  // the candidates. The number n_candidates is above 0.
   void (*nearest_groups)(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
                          int32_t *nearest);
   // For each candidate group, writes a bit for each box in which the group may be nearer than the box's point.
@@ -220,7 +221,7 @@ struct FilterKernels {
   void (*begin_cluster)(const FilterTask &task, ClusterTask &cluster);
   // Compares the nodes with the triangles of groups that may be near. Writes at most `room` pairs of a node and a triangle, and
   // returns their number. The pairs include the closest triangles of every node within the limit. Each call continues where the
-  // previous call stopped, until is_done is true. For progress, a call needs room for triangles_per_group pairs.
+  // previous call stopped, until is_done is true. `room` must be at least triangles_per_group, or no call would make progress.
   int32_t (*filter_cluster)(const FilterTask &task, ClusterTask &cluster, const PairArrays &pairs, int32_t room);
   // Computes the squares of the distances of a point to the triangles of a group, in single precision. The point is in the
   // surface's frame.
@@ -236,9 +237,9 @@ struct DecisionKernels {
   // are given by the ids of their vertices, and n is above 0.
   void (*take_corners)(const double *vertices, const int64_t *vertex_id, int64_t n, double *corners, double *lower,
                        double *upper);
-  // Checks up to eight triangles, given by the ids of their vertices. Returns false if a triangle may have no area now, or after
-  // its corners have moved by up to an eighth of `shift`. The square of twice the area must exceed 4e-23 (|ab|^2 + |ac|^2)^2 +
-  // shift^2 (|ab|^2 + |ac|^2).
+  // Checks up to eight triangles, given by the ids of their vertices. Returns true if each triangle surely has an area, and still
+  // has one after its corners have moved by up to an eighth of `shift`. The square of twice the area must exceed 4e-23 (|ab|^2 +
+  // |ac|^2)^2 + shift^2 (|ab|^2 + |ac|^2).
   bool (*have_area)(const double *vertices, const int64_t *vertex_id, int32_t n, double shift);
   // Places n points (3, n). The results have the same bits as place(placement, place(image, p)).
   void (*place_points)(const PlacedBy &by, const double *points, int64_t n, double *placed);
@@ -253,8 +254,8 @@ struct DecisionKernels {
   // Makes the frames and the bounds of up to eight groups of triangles from their corners in the surface's frame. Each
   // bounds[k].n must be set.
   void (*make_groups)(const GroupCorners *corners, int32_t n, TriangleGroup *groups, GroupBounds *bounds);
-  // Computes the squares of the distances of n pairs of a point and a triangle, which are given by index. A triangle has 9
-  // doubles. The function may write up to 7 squares more than n.
+  // Computes the square of the distance for each of n pairs of a point and a triangle. Points and triangles are given by index. A
+  // triangle has 9 doubles. The function may write up to 7 squares more than n.
   void (*decide)(int32_t n, const int32_t *point, const int32_t *triangle, const double *points, const double *corners,
                  double *distance_sq);
   // Finds the closest points of the pairs, with the same bits as closest_point_on_triangle.
@@ -264,9 +265,9 @@ struct DecisionKernels {
   void (*mix_at_vertices)(const VertexNumbers *numbers, const int64_t *const *vertex, const PointsOnTriangles &located,
                           VertexNumbers *mixed);
   // Computes how fast the distances of the first n_points points change when the triangles' vertices move. The number n_points is
-  // above 0. The search passes the distances that it has already computed, so that the kernel need not take roots again. `vertex`
-  // has the ids of each pair's three vertices, and rates[i] has the rates of all vertices in direction i. The derivatives of one
-  // point are stored one after another. A derivative at distance 0 is 0.
+  // above 0. The caller passes the distances, which it has already computed, so that the kernel takes no roots. `vertex` has the
+  // ids of each pair's three vertices, and rates[i] has the rates of all vertices in direction i. The derivatives of one point
+  // are stored one after another. A derivative at distance 0 is 0.
   void (*differentiate)(const PointsAndTriangles &pairs, const PointsOnTriangles &located,
                         const double (&distance)[pairs_at_once], const int64_t *const *vertex,
                         const double *const *rates, int64_t n_directions, int32_t n_points, double *derivatives);
@@ -285,7 +286,8 @@ struct Kernels : FilterKernels, DecisionKernels {};
 enum class InstructionSet : int32_t { baseline = 0, avx2 = 1, avx512 = 2 };
 constexpr int n_instruction_sets = 3;
 
-// Returns true if this processor and its operating system have the instruction set, and the library was built with it.
+// Returns whether the instruction set can be used: processor and operating system must have it, and the library must have been
+// built for it.
 bool has(InstructionSet set);
 InstructionSet best_instruction_set();
 const Kernels &kernels(InstructionSet set);

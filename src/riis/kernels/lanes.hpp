@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // This file computes with sixteen floats or eight doubles at once. The code uses the registers of the instruction set for which
 // the including file is compiled. Everything has internal linkage. Files for different instruction sets must not share a
-// function, because the linker could take the function from the wrong file. This file also includes no header whose inline
-// functions the compiler may emit as separate functions.
+// function, because the linker could take the function from the wrong file. For the same reason, this file includes no header
+// with inline functions that the compiler may emit as separate functions.
 #pragma once
 
 // RIIS_PORTABLE_LANES selects the code for processors without SSE2 or NEON. Tests also run this code on processors with SSE2 or
@@ -62,8 +62,8 @@ struct ComparisonOf<DoubleRegister> {
   typedef LongRegister type;
 };
 
-// Returns a < b ? a : b. If `a` is NaN, the result is therefore b. NEON gives another result if only b is NaN, and for two zeros
-// of different signs. No result depends on this difference: if b is NaN, a is also NaN, and nothing reads the sign of a zero.
+// Returns a < b ? a : b. If `a` is NaN, the result is therefore b. NEON gives another result in two cases: only b is NaN, or a
+// and b are zeros of different signs. The first case does not occur, and nothing reads the sign of a zero.
 RIIS_INLINE FloatRegister least(FloatRegister a, FloatRegister b) {
 #if defined(__AVX512F__)
   return (FloatRegister)_mm512_min_ps((__m512)a, (__m512)b);
@@ -168,8 +168,8 @@ struct Lanes {
     for (int i = 0; i < n_registers; ++i) lanes.part[i] = x - Register{};
     return lanes;
   }
-  // load and store need memory aligned to 64 bytes. Both functions move each register as a whole. GCC would copy larger objects
-  // in parts of another size. A register that is read from two of these parts has to wait until both parts are written.
+  // load and store need memory aligned to 64 bytes. Both functions move one register at a time. GCC would copy a whole object in
+  // parts of another size. Reading a register that spans two parts has to wait until both parts are written.
   static RIIS_INLINE Lanes load(const Scalar *from) {
     Lanes lanes;
     for (int i = 0; i < n_registers; ++i) lanes.part[i] = reinterpret_cast<const InMemory *>(from)[i];
@@ -260,14 +260,13 @@ RIIS_INLINE Row low_halves(Row a, Row b) { return _mm256_permute2f128_pd(a, b, 0
 RIIS_INLINE Row high_halves(Row a, Row b) { return _mm256_permute2f128_pd(a, b, 0x31); }
 #endif
 
-// Gathers n points for each of eight lanes. The coordinates of a lane's points follow each other at address(lane). No other
-// number is read.
+// Gathers n points for each of eight lanes. A lane's points are stored one after another from address(lane) on. No other number
+// is read.
 template <int n, class Address>
 RIIS_INLINE void gather_points(const Address &address, Doubles (&xyz)[n][3]) {
 #if defined(__AVX2__)
-  // A load takes four numbers: the three numbers of a point and the next number. The array ends after the last point, so the last
-  // load begins with the number before that point. The first point of the array has no number before it, so a mask leaves out the
-  // fourth number of its load.
+  // A load takes four numbers, but a point has three. The fourth number is the one after the point, or, for the last point, the
+  // one before it. A single point has neither, so a mask leaves the fourth number out.
   constexpr int last = n - 1;
   const auto load = [](const double *from, int k) __attribute__((always_inline)) {
     if constexpr (n == 1) return _mm256_maskload_pd(from, _mm256_setr_epi64x(-1, -1, -1, 0));
@@ -275,7 +274,7 @@ RIIS_INLINE void gather_points(const Address &address, Doubles (&xyz)[n][3]) {
   };
   for (int part = 0; part < Doubles::n_registers; ++part) {
     Row rows[n][4];
-    // Uses each address at once, because a processor has too few registers to keep all addresses.
+    // Uses each address as soon as it is known, because a processor has too few registers to keep all addresses.
     for (int i = 0; i < 4; ++i) {
 #if defined(__AVX512F__)
       const double *const from = address(i), *const later = address(i + 4);
@@ -448,7 +447,8 @@ RIIS_INLINE uint32_t lanes_with_bit(const uint16_t *from, int32_t bit) {
 }
 
 #if defined(__AVX2__) && !defined(__AVX512F__)
-// For each set of lanes among eight lanes, the numbers of the lanes in the set, in ascending order. Unused entries are 0.
+// A table of all sets of eight lanes. Each row lists the numbers of the lanes in one set, in ascending order. Unused entries are
+// 0.
 struct LanesOfSets {
   alignas(64) uint8_t lane[256][8] = {};
   constexpr LanesOfSets() {

@@ -123,7 +123,7 @@ Outline outline_of(const Landmarks &landmarks) {
   return {ring, landmarks.mean_of(ring), unit(area_of(landmarks, ring)), spread.deviation[0]};
 }
 
-// The points of an annulus in the coordinates of a valve, and their extent.
+// The points of an annulus, turned to the coordinates of a valve, and the range of their coordinates.
 struct TurnedOutline {
   std::vector<Vec3> points;
   Vec3 lower{0, 0, 0}, upper{0, 0, 0};  // z is not used
@@ -168,7 +168,7 @@ Vec3 atrial_side(const Landmarks &landmarks, Vec3 normal, Vec3 forward) {
   return by_commissures;
 }
 
-// Returns words about a landmark that contradicts the other landmarks.
+// Returns the words with which a message names the landmark with the largest residual.
 std::string advice_for(const LandmarkFit &fit, const Landmarks &landmarks) {
   const auto worst = std::max_element(fit.residuals.begin(), fit.residuals.end());
   return std::string("the worst residual is ") + Message(rounded(landmarks.scale * *worst, 3)).text() + " at " +
@@ -197,8 +197,8 @@ Vec3 mirrored(Vec3 p) { return {-p.x, p.y, p.z}; }
 class MitralModel : public LandmarkModel {
  public:
   enum Size { ap, alpm, position, it, indent, anterior, posterior, share };
-  // Trigones behind the anterior horn are only points of the annulus, because the trigones of a modelled valve lie in front of
-  // the horn.
+  // The trigones of the modelled valve lie in front of the anterior horn. Trigones behind the horn therefore count only as points
+  // of the annulus.
   MitralModel(const Landmarks &landmarks, Vec3 shift, bool has_trigones_behind) : shift_(shift) {
     for (const Landmark &landmark : landmarks.list) {
       const bool is_only_of_annulus = has_trigones_behind && landmark.role == RIIS_LANDMARK_TRIGONE;
@@ -249,7 +249,7 @@ class MitralModel : public LandmarkModel {
   std::vector<std::int32_t> roles_;
 };
 
-// Refuses a fit whose horns do not show the side of the atrium.
+// Refuses a fit whose horns do not show on which side of the annulus the atrium is.
 void check_side(const LandmarkModel &fitted, const Landmarks &landmarks) {
   const FittedSize &anterior = fitted.sizes[MitralModel::anterior], &posterior = fitted.sizes[MitralModel::posterior];
   const double height = 0.5 * (anterior.value + posterior.value),
@@ -262,21 +262,21 @@ void check_side(const LandmarkModel &fitted, const Landmarks &landmarks) {
        rounded(landmarks.scale * error, 3), "; the difference must be at least ", sure, " standard errors");
 }
 
-// The distance between the horns that the landmarks show, seen along the annulus' normal.
+// The distance between the two horns in a view along the annulus' normal, as the landmarks show it.
 struct ShownDepth {
   double depth;
-  bool has_posterior_horn;  // if false, the depth goes to the annulus point that is farthest from the anterior horn
+  bool has_posterior_horn;  // if false, the annulus point farthest from the other horn stands in
 };
 
-// The heights of both ends of an annulus above its sides, along its normal.
+// The heights of an annulus' two horns above its sides, along its normal.
 struct HornHeights {
   std::size_t anterior_landmark, posterior_landmark;
   double anterior, posterior;
-  double usual_difference;  // the difference that the valve's proportions give
-  double depth;             // between both ends
+  double usual_difference;  // the difference in the valve's proportions
+  double depth;             // the distance between the horns
 };
 
-// Returns the cause of a fit that contradicts the landmarks. An annulus looks turned if one horn rises and the other horn falls.
+// Returns words on why a fit contradicts the landmarks. If one horn is too high or the other too low, the annulus looks inclined.
 // The fitted valve then leans, and the largest residual may be at a correct landmark.
 std::string cause_of(const LandmarkFit &fit, const Landmarks &landmarks, Vec3 normal, const HornHeights &heights) {
   const double degrees = lean_of(fit, normal);
@@ -299,7 +299,7 @@ std::string cause_of(const LandmarkFit &fit, const Landmarks &landmarks, Vec3 no
 void check_depth(const LandmarkModel &fitted, const Landmarks &landmarks, const ShownDepth &shown,
                  const std::string &advice) {
   const FittedSize &ap = fitted.sizes[MitralModel::ap];
-  // Noise alone moves the horns, and therefore changes the distance between them.
+  // The limit allows for noise, which moves the horns and thus changes the distance between them.
   const double most_apart = std::max(shown.depth / 12, 5 * landmarks.noise);
   if (ap.held || std::abs(ap.value - shown.depth) <= most_apart) return;
   fail(RIIS_INVALID_ARGUMENT, "AP_diameter of the fitted valve is ", rounded(landmarks.scale * ap.value, 3),
@@ -387,7 +387,8 @@ KindOfLandmarks mitral_landmarks(const Valve &valve, const Landmarks &landmarks)
   model->sizes.push_back({"anterior_ratio", share, 1.5 * depth, 0.05, 0.95, share, 0.1});
   model->sizes.back().held = !has_commissures;
   model->radius = 0.5 * depth;
-  // A change of the horns' heights and a turn of the valve about x move the annulus in the same way.
+  // A change of the horns' heights and a turn of the valve about x move the annulus alike, so the landmarks hardly tell them
+  // apart.
   model->differences = {{MitralModel::anterior, MitralModel::posterior, 0.05 * depth}};
 
   const Vec3 origin_there{0.5 * (lower.x + upper.x), lower.y + 0.5 * depth, low_z};
@@ -406,7 +407,7 @@ KindOfLandmarks mitral_landmarks(const Valve &valve, const Landmarks &landmarks)
         made.models[0]->sizes[horn_size].value *= -1;
     }
   }
-  // A few noisy points can keep the fit in a wrong inclination, so the fit also starts from inclined poses.
+  // With few noisy points, the fit may end in a wrong inclination. It therefore also starts from inclined poses.
   const Pose upright = made.starts[0];
   for (const double lean : {-10.0, 10.0})
     made.starts.push_back({upright.rotation * rotation_about({1, 0, 0}, lean), upright.translation});

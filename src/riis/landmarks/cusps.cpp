@@ -18,16 +18,17 @@ namespace {
 
 // The limit of 900 leaves room for other landmarks, because a warp has at most 1000 landmarks.
 constexpr std::size_t most_along_attachment = 900;
-// Three cusps have the order of leaflet ids, which is counter-clockwise about the valve's axis z.
+// The names of three cusps are in the order of the leaflet ids, counter-clockwise about the valve's axis z.
 constexpr std::size_t n_of_three = 3;
 const char *const names_of_three[n_of_three] = {"right", "left", "non_coronary"};
 
-// Kinds whose cusps lie on one circle at the root and on one circle at the commissures, with the names of their sizes.
+// Kinds whose cusps all begin on one circle at the root, and whose commissures all lie on another circle. The fields name their
+// sizes.
 struct CuspsOnCircles {
   const char *kind;
   std::size_t n_cusps;
   const char *radius, *commissure_radius, *height;
-  bool has_sectors;  // cusps have sectors of their own, and commissures have heights
+  bool has_sectors;  // each cusp has its own sector, and each commissure its own height
 };
 constexpr CuspsOnCircles cusps_on_circles[] = {
     {"trileaflet", 3, "root_radius", "leaflet_radius_out", "leaflet_height", false},
@@ -119,8 +120,8 @@ class CuspModel : public LandmarkModel {
   void add(std::size_t landmark, const std::vector<Vec3> &local, Vec3 place, std::vector<Offset> &out) const {
     out.push_back({landmark, local[landmark] - shift_ - place});
   }
-  // The closed cusps meet at a place x on the x axis. Only in valves with two cusps does x differ from 0. The height of the
-  // meeting point differs so much between people that it says little about the sizes.
+  // The closed cusps meet at a place x on the x axis. Only in valves with two cusps does x differ from 0. The height of this
+  // place says little about the sizes, because it differs much between people.
   void add_coaptation(const std::vector<Vec3> &local, double x, std::vector<Offset> &out) const {
     for (const std::size_t i : coaptation_) {
       const Vec3 p = local[i] - shift_;
@@ -135,8 +136,8 @@ class CuspModel : public LandmarkModel {
   std::vector<std::size_t> coaptation_;
 };
 
-// Returns the directions of the cusps' middles in degrees. From the middle of one cusp to the middle of the next, the direction
-// grows by half the sum of the two sectors.
+// Returns the directions of the cusps' middles in degrees. Between the middles of two successive cusps, the direction grows by
+// half the sum of their sectors.
 std::vector<double> middles_of(const std::vector<double> &sectors) {
   std::vector<double> middles{0};
   for (std::size_t cusp = 1; cusp < sectors.size(); ++cusp)
@@ -234,7 +235,7 @@ std::vector<double> shown_sectors(const Landmarks &landmarks, const CuspAxes &ax
   return shown;
 }
 
-// The sizes of cusps on circles: which sizes the caller holds, and the template's sizes.
+// The sizes of cusps on circles: their values in the template, and which of them the caller holds.
 class CircleSizes {
  public:
   CircleSizes(const Valve &valve, const CuspsOnCircles &names, const Landmarks &landmarks, const CuspAxes &axes,
@@ -251,8 +252,9 @@ class CircleSizes {
     for (double &sector : own_) sector *= 360 / sum;
   }
 
-  // If the caller holds all sectors, they stay as in the template. If the caller holds some sectors, the other sectors take part
-  // in the fit. If the caller holds no sector, the landmarks decide.
+  // Returns, for each model that will be tried, whether it fits the sectors. If the caller holds all sectors, they stay as in the
+  // template. If the caller holds only some, the other sectors are fitted. If the caller holds none, there is a model for each
+  // choice, and the landmarks decide.
   std::vector<bool> fits_sectors() const {
     if (!has_sectors()) return {false};
     const std::size_t n_held = count_held([](std::size_t cusp) { return of_cusp(cusp, "sector"); });
@@ -329,7 +331,7 @@ class CircleSizes {
     model.derived.push_back(mean);
   }
 
-  // The last sector that is not held is 360 degrees minus the other sectors.
+  // Of the sectors that are not held, the last one is 360 degrees minus all others.
   void add_sectors(CirclesModel &model, double commissure_radius) const {
     const std::vector<double> shown = shown_sectors(landmarks_, axes_);
     const double reach = 0.5 * commissure_radius * (pi / 180);  // a sector grows on both sides of its cusp's middle
@@ -355,12 +357,12 @@ class CircleSizes {
   std::vector<double> own_;  // the template's sectors, whose sum is 360 degrees
 };
 
-// Sets a parameter so that its ratio to a measure of the valve equals the ratio in the template, `own`.
+// Sets a parameter in proportion to a measure of the valve. The proportion is that of the template, `own`.
 void set_proportion(const Valve &own, Valve &valve, const std::string &name, double own_measure, double measure) {
   valve.set(name, 1, std::array{value_of(own, name) / own_measure * measure}.data());
 }
 
-// Sizes that follow from other sizes by a rule of the valve keep that rule.
+// Sets the sizes that follow from other sizes, in the template's proportions.
 void finish_trileaflet(const Valve &own, Valve &valve) {
   const auto middle_radius = [](const Valve &of) {
     return 0.5 * (value_of(of, "root_radius") + value_of(of, "leaflet_radius_out"));
@@ -389,7 +391,7 @@ void finish_aortic(const Valve &own, Valve &valve) {
     set_proportion(own, valve, of + "bending_radius_out", middle_radius(own), middle_radius(valve));
     valve.set(of + "rotation", 3, std::array{0.0, 0.0, turns[cusp]}.data());
     valve.set(of + "translation", 3, shift.data());
-    // Lowers the power if the free edge would otherwise bulge into the next cusp, beyond the plane of the commissure.
+    // Lowers the power until the free edge does not bulge into the next cusp, beyond the plane of the commissure.
     const double x = value_of(valve, of + "leaflet_radius_out") * sine_cosine_degrees(angle).cosine;
     const double radius_in = value_of(valve, of + "leaflet_radius_in");
     if (x > radius_in && value_of(valve, of + "leaflet_power") > x / (x - radius_in))

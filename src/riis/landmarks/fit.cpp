@@ -12,16 +12,16 @@
 namespace riis {
 namespace {
 
-// Landmarks determine a size if its standard error, at the stated noise, moves the valve by at most `determined_share` of the
-// valve's radius. Residuals do not count here. A patient who differs from the model has large residuals, but the best sizes are
-// still well defined.
+// At the stated noise, a size has a standard error. The landmarks determine the size if this error moves the valve by at most
+// `determined_share` of its radius. Residuals do not count here. They are large for a patient who differs from the model,
+// although the best sizes are still well defined.
 constexpr double determined_share = 1.0 / 15;
 
-// Additional sizes also lower residuals that are only noise. The sum of squares then decreases by a number with a chi-squared
-// distribution, which has one degree of freedom for each additional unknown. The decrease counts if it exceeds the mean of this
-// distribution by `surely_more` standard deviations.
+// More sizes lower the sum of squares even if the residuals are only noise. This decrease has a chi-squared distribution with one
+// degree of freedom for each additional size. A decrease counts if it exceeds the distribution's mean by `surely_more` standard
+// deviations.
 constexpr double surely_more = 3;
-// Residuals below `exact_share` of the stated noise show that the landmarks have no noise.
+// If the residuals are below `exact_share` of the stated noise, the landmarks count as exact.
 constexpr double exact_share = 0.01;
 // Rounding of exact landmarks, as a share of the valve's radius.
 constexpr double rounding_share = 1e-9;
@@ -188,8 +188,8 @@ double LinearValue::at(const std::vector<double> &values) const {
 
 LandmarkFit fit(LandmarkModel &model, const Landmarks &landmarks, const std::vector<Pose> &starts) {
   const std::size_t n_landmarks = landmarks.list.size();
-  // In the first fit, every size has an additional residual that draws it to its expected value. The first fit thus ends near a
-  // real valve even if the landmarks say little.
+  // In the first fit, every size has an additional residual that draws it to its expected value. Even if the landmarks say
+  // little, the first fit thus ends near a real valve.
   Pose best{};
   std::vector<FittedSize> best_sizes;
   double least = std::numeric_limits<double>::infinity();
@@ -199,7 +199,7 @@ LandmarkFit fit(LandmarkModel &model, const Landmarks &landmarks, const std::vec
     problem.has_differences = true;
     std::vector<double> x = problem.start();
     const double cost = problem.minimize(x).cost;
-    // If a later start lowers the sum of squares by less than the noise, it has found the same minimum up to rounding.
+    // A later start that lowers the sum of squares by less than the noise has found the same minimum up to rounding.
     if (!(cost < least - landmarks.noise * landmarks.noise)) continue;
     least = cost;
     best = problem.pose_at(x);
@@ -209,7 +209,7 @@ LandmarkFit fit(LandmarkModel &model, const Landmarks &landmarks, const std::vec
   }
   model.sizes = best_sizes;
 
-  // In the second fit, only sizes that the landmarks do not determine are drawn to their expected values.
+  // In the second fit, the sizes that the landmarks determine are no longer drawn to their expected values.
   Problem problem(model, landmarks, best);
   const std::size_t n = problem.n_unknowns();
   std::vector<double> x = problem.start();
@@ -222,8 +222,8 @@ LandmarkFit fit(LandmarkModel &model, const Landmarks &landmarks, const std::vec
   problem.has_differences = true;
   const std::vector<double> start = x;
   Minimum minimum = problem.minimize(x);
-  // The fit does not converge if the sum of squares hardly depends on some size. The landmarks do not determine such a
-  // size, so the least determined size is also drawn to its expected value.
+  // The fit does not converge if the sum of squares hardly depends on some size. In this case, the size that the landmarks
+  // determine least is also drawn to its expected value.
   while (!minimum.converged) {
     std::size_t weakest = problem.free_sizes().size();
     for (std::size_t k = 0; k < problem.free_sizes().size(); ++k)
@@ -238,7 +238,8 @@ LandmarkFit fit(LandmarkModel &model, const Landmarks &landmarks, const std::vec
   }
   std::vector<double> r(problem.n_residuals());
   problem.residuals(x, r);
-  // Exact landmarks show less noise than was stated. With less noise, the expected values have less weight.
+  // Exact landmarks show less noise than the caller stated. The fit is then repeated with less noise, which gives the expected
+  // values less weight.
   for (int i = 0; i < 12 && minimum.converged && model.n_equations() > n; ++i) {
     std::vector<double> unused(n_landmarks), before = x;
     const double seen = std::sqrt(sum_of_squares(problem, unused) / static_cast<double>(model.n_equations() - n));

@@ -17,8 +17,8 @@
 
 namespace riis {
 
-// Small dense least squares (Levenberg 1944, Marquardt 1963) and symmetric eigenvalues (Jacobi 1846). For a function that gives
-// residuals, this part finds the unknowns with the least sum of squared residuals, and their covariance.
+// Small dense least squares (Levenberg 1944, Marquardt 1963) and symmetric eigenvalues (Jacobi 1846). This part minimises the sum
+// of squares of a function's residuals, and gives the covariance of the unknowns.
 
 // Computes the residuals for the unknowns x. The number of residuals is the same in each call.
 using Residuals = std::function<void(const std::vector<double> &x, std::vector<double> &residuals)>;
@@ -28,8 +28,8 @@ struct Minimum {
   double cost;  // the sum of squares
 };
 
-// Changes x until the sum of squares is least. All unknowns have the same unit, and `size` is a length in this unit over which
-// the residuals are smooth. Derivatives are central differences. The unknowns stay between their bounds.
+// Changes x until the sum of squares is least. All unknowns have the same unit. `size`, in this unit, is a length over which the
+// residuals are smooth. Derivatives are central differences. The unknowns stay between their bounds.
 struct Bounded {
   std::vector<double> lower, upper;
 };
@@ -50,8 +50,8 @@ struct Eigen {
 };
 Eigen symmetric_eigen(std::vector<double> a, std::size_t n);
 
-// Returns the inverse of J^T J. If the residuals do not depend on some combination of unknowns, the diagonal entries of the
-// unknowns in this combination are infinite. The other entries in the rows and columns of these unknowns are then 0.
+// Returns the inverse of J^T J. The residuals may not depend on some combination of unknowns. The diagonal entries of these
+// unknowns are then infinite, and the other entries in their rows and columns are 0.
 std::vector<double> covariance(const std::vector<double> &normal_matrix, std::size_t n);
 
 // A size of the valve that the fit adapts to the landmarks.
@@ -90,14 +90,13 @@ struct DerivedSize {
   double standard_error = 0;
 };
 
-// A valve in its own frame, as the fit sees it. Lengths are in centimetres.
+// What the fit has to know of a valve, in the valve's own frame. Lengths are in centimetres.
 class LandmarkModel {
  public:
   virtual ~LandmarkModel() = default;
   std::vector<FittedSize> sizes;
   std::vector<DerivedSize> derived;
-  // Two sizes whose difference the fit always draws to its expected value, because the landmarks say little about this
-  // difference.
+  // Two sizes about whose difference the landmarks say little. The fit always draws this difference to its expected value.
   struct Difference {
     std::size_t first, second;
     double spread;
@@ -139,8 +138,8 @@ struct LandmarkFit {
 // Fits the model's sizes and the pose. Begins with the model's sizes and each of the poses in turn, and keeps the best result.
 LandmarkFit fit(LandmarkModel &model, const Landmarks &landmarks, const std::vector<Pose> &starts);
 
-// Returns whether the general model fits the landmarks better than the simple model only by chance. The sizes of the simple model
-// are among the sizes of the general model.
+// Returns whether the simple model is as good as the general one, which then fits the landmarks better only by chance. The sizes
+// of the simple model are among the sizes of the general model.
 bool is_as_good(const LandmarkFit &simple, const LandmarkFit &general, const LandmarkModel &general_model,
                 const Landmarks &landmarks);
 
@@ -162,13 +161,13 @@ Vec3 vector_of(const Valve &valve, const char *name);
 using IsHeld = std::function<bool(const std::string &name)>;
 
 struct KindOfLandmarks {
-  // Models in the order of their numbers of sizes. The first model that agrees with the landmarks counts, or the last model if no
-  // model agrees.
+  // The models, from the fewest sizes to the most. The fit takes the first model that agrees with the landmarks. If no model
+  // agrees, it takes the last one.
   std::vector<std::unique_ptr<LandmarkModel>> models;
   std::vector<Pose> starts;
   const char *size_name;  // the parameter that stands for the valve's size
-  // Sets the parameters that are not lengths, and the lengths that do not grow with the valve's size. All other lengths and the
-  // model's sizes have already been set. `own` is the template valve. The function pointer is NULL if there is nothing to set.
+  // Called after the model's sizes and the lengths that grow with the valve's size have been set. Sets all other lengths, and the
+  // parameters that are not lengths. `own` is the template valve. The function pointer is NULL if there is nothing to set.
   void (*finish)(const Valve &own, Valve &valve) = nullptr;
   // Refuses a fit that leaves something undetermined or that contradicts the landmarks. If the function is empty, no fit is
   // refused.

@@ -34,7 +34,7 @@ std::string unit_in_brackets(double scale) {
 // Two landmarks are in one place if their distance is at most `same_place`, in centimetres.
 constexpr double same_place = 1e-4;
 
-// Landmarks a and b are in the same place. Returns whether landmark a already tells the fit all that landmark b tells.
+// For two landmarks in the same place, returns whether `a` already tells the fit everything that `b` tells.
 bool implies(const Landmark &a, const Landmark &b) {
   const auto is_one_of = [&](std::initializer_list<std::int32_t> roles) {
     return std::find(roles.begin(), roles.end(), a.role) != roles.end();
@@ -102,7 +102,7 @@ std::string words_for(const Landmarks &landmarks, std::size_t i) {
 }
 
 void check_unit(const Landmarks &landmarks) {
-  if (landmarks.list.size() < 2) return;  // one landmark has no size, and every kind of valve needs more landmarks
+  if (landmarks.list.size() < 2) return;  // one landmark has no size; a later check asks for more landmarks
   double size = 0;
   for (const Landmark &landmark : landmarks.list)
     size += length(landmark.point) / static_cast<double>(landmarks.list.size());

@@ -19,8 +19,8 @@ struct Landmark {
   Vec3 point;                               // in centimetres, relative to the mean of all landmarks
   std::int32_t role;                        // RIIS_LANDMARK_*
   std::array<std::int32_t, 2> leaflet_ids;  // -1: not given
-  // Another landmark in the same place that already tells the fit all that this landmark tells. For example, a horn also counts
-  // as a point of the annulus.
+  // Another landmark in the same place that makes this landmark superfluous. For example, a horn already counts as a point of the
+  // annulus.
   std::optional<std::size_t> repeated = std::nullopt;
 };
 
@@ -65,7 +65,7 @@ void check_not_collinear(const Landmarks &landmarks, const std::vector<std::size
 // Calls check_apart and check_not_collinear.
 void check_spread(const Landmarks &landmarks, const std::vector<std::size_t> &numbers, double share);
 
-// The principal directions of points about their mean, in descending order of extent, and the standard deviations along them.
+// The principal directions of points about their mean, and the standard deviations along these directions, the largest first.
 struct Spread {
   std::array<Vec3, 3> direction;
   std::array<double, 3> deviation;

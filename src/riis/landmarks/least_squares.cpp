@@ -15,9 +15,9 @@ namespace {
 constexpr double difference_step = 1e-5;
 // The iteration ends if a step is shorter than `negligible_step` times `size`.
 constexpr double negligible_step = 1e-13;
-// The iteration also ends if the sum of squares falls by less than `negligible_decrease` times itself. The unknowns are then
-// within a thousandth of their standard errors from their final values. If residuals can vanish, the sum falls much faster, until
-// only rounding is left.
+// The iteration also ends if the sum of squares falls by less than `negligible_decrease` times itself. The unknowns then differ
+// from their final values by less than a thousandth of their standard errors. If all residuals can become 0, the sum falls much
+// faster, and the iteration goes on until only rounding is left.
 constexpr double negligible_decrease = 1e-9;
 constexpr int most_iterations = 400;
 
@@ -102,7 +102,7 @@ Minimum minimize(const Residuals &residuals, std::size_t n_residuals, double siz
       gradient[i] = std::inner_product(columns[i].begin(), columns[i].end(), r.begin(), 0.0);
       largest = std::max(largest, matrix[i * n + i]);
     }
-    // An unknown that this step would move beyond its bounds is left out of the step, so that it does not change the steps of the
+    // An unknown that is at its bound and would move outwards is left out of the step. It thus does not change the steps of the
     // other unknowns.
     for (std::size_t i = 0; i < n; ++i) {
       const bool rests = gradient[i] > 0 ? x[i] <= bounds.lower[i] : x[i] >= bounds.upper[i];
@@ -134,7 +134,7 @@ Minimum minimize(const Residuals &residuals, std::size_t n_residuals, double siz
         }
         if (is_level || moved <= negligible_step * size) return {true, cost};
       }
-      if (damping > 1e12) return {true, cost};  // no tiny step downhill lowers the cost, so only rounding is left
+      if (damping > 1e12) return {true, cost};  // not even a tiny step lowers the cost, so only rounding is left
     }
   }
   return {false, cost};
@@ -183,7 +183,7 @@ Eigen symmetric_eigen(std::vector<double> a, std::size_t n) {
 
 std::vector<double> covariance(const std::vector<double> &normal_matrix, std::size_t n) {
   const Eigen eigen = symmetric_eigen(normal_matrix, n);
-  // Eigenvalues below this limit count as 0. Eigenvalues are squares of the singular values of J, whose entries are accurate to
+  // Eigenvalues below this limit count as 0. They are squares of the singular values of J, and the entries of J are accurate to
   // about 1e-10 of the largest entry.
   const double least = 1e-12 * (n == 0 ? 0 : eigen.values.back());
   constexpr double small_share = 1e-8;

@@ -50,8 +50,8 @@ std::vector<std::size_t> rotated(std::vector<std::size_t> numbers, std::size_t b
 }
 Order rotated(const Order &order, std::size_t by) { return {rotated(order.nadir, by), rotated(order.commissure, by)}; }
 
-// Returns the order in the opposite direction about the axis. In this order, each commissure comes after the leaflet that it
-// preceded in the given order.
+// Returns the order in the opposite direction about the axis. A commissure that came before a leaflet in the given order now
+// comes after it.
 Order mirrored(Order order) {
   if (!order.nadir.empty()) std::reverse(order.nadir.begin() + 1, order.nadir.end());
   std::reverse(order.commissure.begin(), order.commissure.end());
@@ -90,14 +90,15 @@ Order turn_of(const Landmarks &landmarks, Vec3 axis, Vec3 middle) {
   return order;
 }
 
-// Returns whether the names fit one of the orders that begin at another leaflet.
+// Returns whether the names would fit the order if it began at another leaflet.
 bool fits_turned(const Landmarks &landmarks, const LeafletsAround &leaflets, const Order &turn) {
   for (std::size_t by = 0; by < leaflets.n(); ++by)
     if (fits(landmarks, leaflets, rotated(turn, by))) return true;
   return false;
 }
 
-// If all names fit after one pair of landmarks has exchanged its names, and no other pair does so, names this pair.
+// Looks for pairs of landmarks whose names, once exchanged, make all names fit. If there is only one such pair, fails with a
+// message that names it.
 void refuse_exchanged(Landmarks landmarks, const LeafletsAround &leaflets, const Order &turn) {
   std::vector<std::array<std::size_t, 2>> found;
   for (std::size_t i = 0; i < landmarks.list.size(); ++i)
@@ -114,7 +115,7 @@ void refuse_exchanged(Landmarks landmarks, const LeafletsAround &leaflets, const
          words_for(landmarks, found[0][1]), " are exchanged: all names fit if these two change places");
 }
 
-// Names the first landmark that does not fit the order.
+// Fails with a message that names the first landmark whose name does not fit the order.
 [[noreturn]] void refuse_names(const Landmarks &landmarks, const LeafletsAround &leaflets, const Order &order) {
   for (std::size_t k = 0; k < leaflets.n(); ++k) {
     if (!order.nadir.empty() && !fits_nadir(landmarks.list[order.nadir[k]], k))

@@ -15,8 +15,7 @@ namespace riis {
 struct LeafletsAround {
   std::vector<std::string> names;  // in the order of leaflet ids
   const char *seen_along_flow;     // the direction from leaflet to leaflet: "clockwise" if blood flows along +z
-  // The end of a message about landmarks without names, or null if the leaflets need no names. Without names, leaflet 0 is at the
-  // first nadir.
+  // The end of a message that asks for names. Null if the leaflets need no names, because leaflet 0 is then at the first nadir.
   const char *why_names;
 
   std::size_t n() const { return names.size(); }
@@ -29,7 +28,7 @@ struct Order {
   std::vector<std::size_t> commissure;  // between a leaflet and the next leaflet
 };
 
-// Refuses ids that no leaflet has, and numbers of ids that do not fit a landmark's role.
+// Refuses ids that no leaflet has, and more or fewer ids than a landmark's role needs.
 void check_leaflet_ids(const Landmarks &landmarks, const LeafletsAround &leaflets);
 
 // Returns whether the names fit the order around the axis, which points along z.

@@ -136,7 +136,7 @@ struct OnAttachment {
 };
 
 // Returns the point of the attachment that the map takes nearest to `wanted`. If the landmark names a cusp, only this cusp
-// counts. Returns nothing for a cusp without an attachment, or without a finite distance.
+// counts. Returns nothing if the cusp has no attachment, or if no distance is finite.
 std::optional<OnAttachment> nearest_on(const Vector<AttachmentPart> &parts, const WarpMap &map, Vec3 wanted,
                                        std::int32_t leaflet_id) {
   double least = std::numeric_limits<double>::infinity(), at = 0;
@@ -165,7 +165,7 @@ std::optional<OnAttachment> nearest_on(const Vector<AttachmentPart> &parts, cons
 // Two landmarks are in one place if their distance is at most `one_place_share` of the valve's radius.
 constexpr double one_place_share = 0.02;
 
-// The landmarks that are left when landmarks in one place are merged, as a warp needs them.
+// The pairs of points that make a warp. Of several landmarks in one place, only the first is kept.
 struct WarpPairs {
   WarpPairs(const Landmarks &landmarks, const std::vector<Vec3> &local, double radius, bool with_attachment,
             const std::vector<Vec3> &places) {
@@ -189,12 +189,12 @@ struct WarpPairs {
   Vector<std::size_t> landmark;  // the numbers of the landmarks
 };
 
-// Slides the places along the attachment, so that the warp that meets all landmarks bends least (F. L. Bookstein 1997).
-// Neighbouring places then keep suitable distances, and the warp has no folds between them.
+// Slides the places along the attachment until the warp through all landmarks bends least (F. L. Bookstein 1997). Neighbouring
+// places are then at suitable distances, so that the warp does not fold between them.
 void slide_along_attachment(const Vector<AttachmentPart> &parts, const Landmarks &landmarks,
                             const std::vector<Vec3> &local, double radius, std::vector<Vec3> &places) {
   constexpr int most_slides = 8;
-  constexpr double most_of_gap = 0.3;  // the largest move of a place towards its neighbour at once
+  constexpr double most_of_gap = 0.3;  // the most that a place moves at once, as a share of the way to its neighbour
   for (int round = 0; round < most_slides; ++round) {
     const WarpPairs pairs(landmarks, local, radius, true, places);
     WarpLandmarks warp(pairs.sources, 0, "landmarks");
@@ -214,8 +214,8 @@ void slide_along_attachment(const Vector<AttachmentPart> &parts, const Landmarks
       const auto here = nearest_on(parts, {}, pairs.sources[i], landmark.leaflet_ids[0]);
       if (here) sliding.push_back({i, here->tangent, map.at(pairs.sources[i]).along(here->tangent)});
     }
-    // A place that moves changes the displacement of its landmark. At the minimum of the bending, no such change lowers the
-    // bending further.
+    // Moving a place changes the displacement of its landmark, and thus the bending. At the minimum of the bending, no move
+    // lowers it further.
     const std::size_t n = sliding.size();
     std::vector<double> matrix(n * n), steps(n);
     for (std::size_t i = 0; i < n; ++i) {
@@ -240,7 +240,7 @@ void slide_along_attachment(const Vector<AttachmentPart> &parts, const Landmarks
   }
 }
 
-// Separates equal places of different landmarks. Equal places occur beside a commissure that differs from the valve's commissure.
+// Separates equal places of different landmarks. Such places occur near a commissure where the patient differs from the valve.
 void separate_places(const Vector<AttachmentPart> &parts, const Landmarks &landmarks,
                      const std::vector<std::size_t> &along, const std::vector<Vec3> &local, double radius,
                      std::vector<Vec3> &places) {
@@ -260,9 +260,9 @@ void separate_places(const Vector<AttachmentPart> &parts, const Landmarks &landm
     }
 }
 
-// Finds the places of the landmarks along the attachment. A place is at first the point of the attachment that the smoothed warp
-// of all landmarks takes nearest to the landmark. Then the places slide. `places` has the places of the other landmarks. `local`
-// has the landmarks in the valve's frame.
+// Finds the places of the landmarks along the attachment. A smoothed warp of all landmarks maps the attachment. Each place is at
+// first the point that this warp takes nearest to the landmark, and then slides. `places` has the places of the other landmarks.
+// `local` has the landmarks in the valve's frame.
 void place_on_attachment(const Valve &valve, const Landmarks &landmarks, const std::vector<Vec3> &local, double radius,
                          std::vector<Vec3> &places) {
   std::vector<std::size_t> along = landmarks.with_role(RIIS_LANDMARK_ATTACHMENT);
@@ -300,8 +300,8 @@ void place_on_attachment(const Valve &valve, const Landmarks &landmarks, const s
     }
 }
 
-// Refuses sizes that do not fit together. The message begins with the sizes that come from the landmarks, because the other sizes
-// follow from these.
+// Refuses sizes that do not fit together. The message begins with the sizes that come from the landmarks, because all others
+// follow from them.
 void check_sizes(const Valve &valve, const LandmarkModel &model) {
   try {
     valve.make_patches();
@@ -318,7 +318,7 @@ void check_sizes(const Valve &valve, const LandmarkModel &model) {
   }
 }
 
-// Fits the models. Returns the number of the first model that the landmarks do not contradict, and the fit of this model.
+// Fits the models one after another. Returns the number and the fit of the first model that agrees with the landmarks.
 std::pair<std::size_t, LandmarkFit> fit_models(const KindOfLandmarks &of_kind, const Landmarks &landmarks) {
   const std::size_t last = of_kind.models.size() - 1;
   LandmarkFit general = fit(*of_kind.models[last], landmarks, of_kind.starts);

@@ -11,14 +11,13 @@ namespace riis {
 namespace {
 
 constexpr double largest_time = 1e30, infinity = std::numeric_limits<double>::infinity();
-// A relative tolerance. With this tolerance, the times 0.1 and 0.8 count as one period of 0.7 apart, although rounding changes
-// the last bit.
+// A relative tolerance. It lets 0.1 and 0.8 count as one period of 0.7 apart, although rounding changes the last bit.
 constexpr double rounding = 1e-9;
 constexpr std::int64_t max_keys = 1'000'000;
 
 // Returns the derivative of the monotone cubic at a key. The derivative at a key is the weighted harmonic mean of the slopes
 // before and after the key (F. N. Fritsch, J. Butland, SIAM J. Sci. Stat. Comput. 5(2), 1984). The derivative is 0 if the slopes
-// differ in sign, or if the key has no neighbour on one side.
+// have different signs, and at a key without a neighbour on one side.
 double tangent(double slope_before, double slope_behind, double width_before, double width_behind) {
   if (!(slope_before * slope_behind > 0) || width_before == infinity || width_behind == infinity) return 0;
   const double w_before = 2 * width_behind + width_before, w_behind = width_behind + 2 * width_before;

@@ -21,21 +21,20 @@ class KeyTimes {
   // RIIS_INVALID_ARGUMENT. A message names the field or the key, and its value.
   KeyTimes(const char *name, std::int64_t n_keys, const double *time, double period, std::int32_t interpolation);
 
-  // Returns whether the last key is exactly one period after the first key. If the last key is one period after the first key,
-  // the values of both keys must be equal.
+  // Returns whether the last key is exactly one period after the first key. The values of these two keys must then be equal.
   bool is_closed() const { return is_closed_; }
 
-  // The keys around a time, and how far these keys are apart. The value at the time follows from both. A key is given by its
-  // position in the arrays, so a time one period later has the same keys.
+  // The keys around a time, and the times between these keys. The value at the time follows from them and from the keys' values.
+  // A key is given by its position in the arrays, so whole periods make no difference.
   struct KeysAround {
     std::array<std::int64_t, 4> key;  // before the interval, at its two ends, after it
     std::array<double, 3> width;      // the time from each of these keys to the next key; infinite without a next key
     double since;                     // time since the interval's first end
     bool is_at_rest;                  // true before the first key and after the last; key[1] then gives the value
   };
-  // A time counts as a key if it differs from the key by at most 8 units of rounding, apart from whole periods. Such a key
-  // becomes the first end of the interval. The unit is 2^-52 times the largest of time, key and period. Fails with
-  // RIIS_INVALID_ARGUMENT for a time that is not finite. `name` is the time's name in the message.
+  // Apart from whole periods, a time within 8 units of rounding of a key counts as this key. The key then becomes the first end
+  // of the interval. The unit is 2^-52 times the largest of time, key and period. Fails with RIIS_INVALID_ARGUMENT for a time
+  // that is not finite. `name` is the time's name in the message.
   KeysAround around(double time, const char *name = "time") const;
 
   // Returns the value and the rate at the time, from the values at these four keys.

@@ -116,8 +116,8 @@ riis_opening_switch_state advance(const riis_opening_switch &law, const riis_ope
     now.pressure_difference = filtered(before.pressure_difference, pressure_difference, step, law.filter_time);
     now.flow = filtered(before.flow, flow, step, law.filter_time);
   }
-  // A valve that has just changed its phase does not change back within dwell_time. Noise in the pressure and the flow of the
-  // solver therefore does not make the valve flutter.
+  // After a change of phase, the valve does not change back within dwell_time. Noise in the pressure and the flow of the solver
+  // therefore does not make the valve flutter.
   const bool may_turn = std::isnan(before.turn_time) || time - before.turn_time >= law.dwell_time;
   const bool opens = before.phase == RIIS_PHASE_CLOSING && now.pressure_difference > law.open_above;
   const bool closes = before.phase == RIIS_PHASE_OPENING && now.flow < law.close_below;
@@ -146,8 +146,7 @@ struct AngleState {
 AngleState operator+(AngleState a, AngleState b) { return {a.angle + b.angle, a.rate + b.rate}; }
 AngleState operator*(double s, AngleState a) { return {s * a.angle, s * a.rate}; }
 
-// The law of Korakianitis and Shi. A pressure difference and a flow drive the valve. Pressure difference and flow are linear in
-// time during a step.
+// The law of Korakianitis and Shi. The pressure difference and the flow drive the valve. During a step, both are linear in time.
 class AngleLaw {
  public:
   struct Drive {
@@ -185,7 +184,7 @@ AngleState runge_kutta(const AngleLaw &law, AngleState at, double from, double t
   return at + (seconds / 6) * (k1 + 2 * k2 + 2 * k3 + k4);
 }
 
-// Keeps the angle between its stops. At a stop, the leaflet has no speed in the direction of this stop.
+// Keeps the angle between its stops. A leaflet at a stop does not move on in the direction of the stop.
 AngleState stopped(AngleState at, double least, double most) {
   if (at.angle <= least) return {least, std::max(at.rate, 0.0)};
   if (at.angle >= most) return {most, std::min(at.rate, 0.0)};
@@ -215,8 +214,8 @@ riis_opening_angle_state advance(const riis_opening_angle &law, const riis_openi
 
   const AngleLaw::Drive to{pressure_difference, flow};
   const AngleLaw angle_law(law, has_drive ? AngleLaw::Drive{before.pressure_difference, before.flow} : to, to);
-  // The error of the method falls with the fourth power of the step. With steps of this size, the error of the method is far
-  // below the error from taking pressure and flow as linear.
+  // The error of the method falls with the fourth power of the step. With steps of this size, it is far below the error that
+  // comes from taking pressure and flow as linear.
   constexpr double largest_step = 0.05;
   const double n_wanted = std::ceil(step * angle_law.fastest() / largest_step);
   constexpr double max_steps = 1e6;

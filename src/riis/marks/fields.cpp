@@ -34,9 +34,9 @@ void for_each_array(const FieldSet &fields, const Visit &visit) {
   if (has(field_height) && has(RIIS_FIELD_GRADIENT)) visit(&NodeFields::height_gradient, fields.n_directions);
 }
 
-// The mean of the velocities of the leaflets that are equally near to a node. A leaflet's velocity is the mean over its tied
-// points. The constructor takes the velocity at the closest triangle. After the constructor, the caller adds the tied points of
-// the other leaflets, leaflet by leaflet.
+// The velocity of a node to which several leaflets are equally near: the mean over these leaflets. A leaflet's velocity is the
+// mean over its closest points, the ties. The constructor takes the velocity at the closest triangle. The caller then adds the
+// ties of the other leaflets, leaflet by leaflet.
 class MeanOfLeaflets {
  public:
   MeanOfLeaflets(std::int32_t closest_leaflet, Vec3 velocity) : closest_leaflet_(closest_leaflet) {
@@ -111,8 +111,8 @@ class TriangleFields {
     }
   }
 
-  // Replaces the velocity of each node with ties by the mean over all leaflets that are equally near. A leaflet's velocity is
-  // the mean over its tied points. `range` is a range of ties: a node belongs to the range that contains the node's first tie.
+  // Replaces the velocity of each node with ties by the mean over all leaflets that are equally near. A leaflet's velocity is the
+  // mean over its tied points. `range` is a range of ties. It includes the nodes whose first tie is in it.
   void take_means(const Range &range) const {
     const std::int64_t begin = next_node(range.begin), end = next_node(range.end);
     MeanOfLeaflets mean(-1, {0, 0, 0});
@@ -188,8 +188,8 @@ class TriangleFields {
     for (std::int64_t lane = 0; has(RIIS_FIELD_GRADIENT) && lane < n; ++lane)
       for (std::int64_t k = 0; k < n_directions(); ++k) {
         const std::int64_t at = n_directions() * (first + lane) + k;
-        // At an edge or a vertex, the normal is the direction from the closest point to the node, unless rounding decides this
-        // direction.
+        // At an edge or a vertex, the normal is the direction from the closest point to the node. If the two are so close that
+        // rounding decides this direction, the normal of the surface is used.
         const bool has_way = (eight.on.at_border >> lane & 1) != 0 && !is_on_rim[lane] && distance[lane] > least_way_;
         view(made_.height_gradient)[at] = has_way ? (height[lane] > 0 ? 1 : -1) * view(made_.distance_gradient)[at]
                                                   : height_rate(eight, lane, k, is_on_rim[lane] != 0);
@@ -286,7 +286,7 @@ struct TieOrder {
   }
 };
 
-// Stores, for each vertex, the numbers that the fields need, so that the fields of a node read few places in memory.
+// For each vertex, stores side by side the numbers that the fields need. The fields of a node then read few places in memory.
 void gather_at_vertices(const TriangleSet &set, std::int32_t fields, int n_threads, FieldScratch &scratch) {
   const bool has_velocity = fields & RIIS_FIELD_VELOCITY, has_uv = fields & RIIS_FIELD_UV;
   if (!has_velocity && !has_uv) return;
@@ -351,8 +351,8 @@ void FieldScratch::prepare(const SearchRequest &request, std::int32_t fields, co
   const auto is_one_leaflet = [&](const Tie &a, const Tie &b) {
     return rule.leaflet_id[a.triangle.triangle] == rule.leaflet_id[b.triangle.triangle];
   };
-  // Keeps the closest triangle of each leaflet. On each other patch of the leaflet, the list also keeps a triangle that ties with
-  // the closest triangle.
+  // Keeps the closest triangle of each leaflet. If other patches of the leaflet have triangles that are equally near, keeps one
+  // on each patch.
   auto closest = ties.begin(), end = ties.begin();
   for (const Tie &tie : ties) {
     const bool is_first = end == ties.begin() || tie.point != closest->point || !is_one_leaflet(*closest, tie);
@@ -390,7 +390,7 @@ void check_fields(const Surface &surface, std::int32_t fields) {
 bool need_normals(const Surface &surface, std::int32_t fields, std::int64_t n_nodes) {
   if (surface.other_distance()) return false;
   if (fields & (RIIS_FIELD_SIDE | RIIS_FIELD_RIM | field_height)) return true;
-  // If there are fewer triangles than nodes, a normal for each triangle costs less than a normal for each node.
+  // A normal for each triangle costs less than a normal for each node if there are fewer triangles.
   return (fields & RIIS_FIELD_NORMAL) && n_nodes > surface.triangles().n_triangles();
 }
 

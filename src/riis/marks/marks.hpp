@@ -21,8 +21,8 @@ namespace riis {
 
 // The arrays that a caller gets from a marking. The arrays have one entry for each node, in ascending order.
 
-// Makes room for n elements. If new memory is needed, reserves 1.5 times the needed size. Without this reserve, a moving valve
-// would need new memory each time that it has more nodes than ever before.
+// Makes room for n elements. If new memory is needed, reserves 1.5 times the needed size. A moving valve often marks a few more
+// nodes than ever before. Without the reserve, each such step would need new memory.
 template <class Array>
 void reserve_amply(Array &array, std::int64_t n) {
   const auto needed = static_cast<std::size_t>(n);
@@ -67,11 +67,10 @@ struct NodeList {
   }
 };
 
-// Fields. A field is a number or vector at a node's closest point. An example is the velocity, which a solver needs for its
-// force.
+// Fields. A field is a number or vector at a node's closest point, such as the velocity, which a solver needs for its force.
 // Each requested field becomes an array over the nodes within the limit, for the closest triangles that the search found.
 
-// The field NodeFields::height, which every marking with an offset has, and which no caller can request.
+// The field NodeFields::height. Every marking with an offset has it, but no caller can request it.
 inline constexpr std::int32_t field_height = 1 << 30;
 
 // Fields, and the number of the surface's directions, which RIIS_FIELD_GRADIENT needs.
@@ -130,9 +129,9 @@ void select_fields(const FieldSet &fields, const NodeList &all, const NodeFields
 // One list has the nodes within the limit. If the limit is wider than the half thickness, the marked nodes have a list of their
 // own.
 
-// A bin is a range of node numbers. The set has a bit for each number of one bin, and contains nodes of this bin. The set gives
-// each node a rank: the number of nodes with lower numbers in the set. A block of bits is 64 words. Only blocks with nodes are
-// written and read.
+// A set of nodes whose numbers lie in one range, a bin. The set has a bit for each number of the bin. The rank of a node is the
+// number of nodes with lower numbers in the set. A stretch of the bits is 64 words. Only stretches with nodes are written and
+// read.
 class NodeRanks {
  public:
   // Makes room for bins of n_numbers. Only this function allocates memory.
@@ -164,8 +163,8 @@ struct OrderScratch {
     std::vector<std::int64_t> end;  // for each bin, the end of its nodes
   };
   std::vector<List> lists;
-  std::int64_t n_lists = 0;      // the number of lists with nodes, which come first
-  std::vector<Counts> first;     // each bin's first position in each result, then the sizes of both results
+  std::int64_t n_lists = 0;      // the number of lists that have nodes; these lists come first
+  std::vector<Counts> first;     // each bin's first position in both results, then the results' sizes
   std::vector<NodeRanks> ranks;  // one for each thread
 };
 
@@ -174,8 +173,8 @@ struct OrderScratch {
 OrderScratch::Counts prepare_order(const Surface &surface, const FoundNodes &found, bool limit_is_wider, int n_threads,
                                    OrderScratch &scratch);
 
-// Fills the lists. Fills `marked` only if the limit is wider than the half thickness. `numbers` is the range of numbers of the
-// found nodes. Call prepare_order with the same arguments before this function.
+// Fills the lists. Fills `marked` only if the limit is wider than the half thickness. `numbers` is the range that contains the
+// numbers of all found nodes. Before this function, prepare_order must be called with the same arguments.
 void put_in_order(const Surface &surface, bool limit_is_wider, const Range &numbers, int n_threads,
                   OrderScratch &scratch, NodeList &within, NodeList &marked);
 
@@ -204,7 +203,7 @@ struct ListedNodes {
 
 struct Marks {
   ListedNodes within;       // nodes within the distance limit, or in a band with an offset
-  ListedNodes marked;       // used only if the limit is wider than the half thickness; otherwise `within` has them
+  ListedNodes marked;       // used if the limit exceeds the half thickness; else `within` serves for both
   bool was_marked = false;  // false until the first marking
   WantedData data;          // the data of the last marking
   bool limit_is_wider = false;

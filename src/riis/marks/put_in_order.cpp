@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::int64_t bits_per_word = 64, words_per_stretch = 64;
 
-// All bins have equally many numbers, a power of two. A bin's part of the result is written by one thread, so two threads seldom
-// write to one cache line. With many more bins, gathering the nodes would take longer.
+// All bins have equally many numbers, a power of two. One thread writes all nodes of a bin, so two threads seldom write to one
+// cache line. With many more bins, gathering the nodes would take longer.
 class Bins {
  public:
   explicit Bins(std::int64_t n_nodes) {
@@ -29,15 +29,15 @@ class Bins {
  private:
   static std::int64_t number(const FoundNode &found) { return static_cast<std::int64_t>(found.node); }
 
-  int shift_ = 12;  // a bin has at least one stretch
+  int shift_ = 12;  // a bin has at least 2^12 numbers: the bits of one stretch
   std::int64_t n_ = 0;
 };
 static_assert(bits_per_word * words_per_stretch == 1 << 12);
 
 std::uint64_t bit_of(std::int64_t node) { return std::uint64_t{1} << node % bits_per_word; }
 
-// Counts bits without the popcount instruction. Because some processors lack this instruction, the compiler's built-in would call
-// a function.
+// Counts bits without the popcount instruction, which some processors lack. For their sake, the compiler's built-in would call a
+// function.
 std::uint32_t n_bits(std::uint64_t x) {
   x -= x >> 1 & 0x5555555555555555;
   x = (x & 0x3333333333333333) + (x >> 2 & 0x3333333333333333);
@@ -78,7 +78,7 @@ class Ordering {
   void write(NodeList &within, NodeList &marked) {
     parallel_for(bins_.n(), n_threads_, [&](std::int64_t bin, int thread) {
       const OrderScratch::Counts &first = view(scratch_.first)[bin], &next = view(scratch_.first)[bin + 1];
-      // The next bin's part is prefetched now, because a thread writes it in random order.
+      // The next bin's part of the result is prefetched now, because it will be written in random order.
       if (bin + 1 < bins_.n()) request({next.n_within, view(scratch_.first)[bin + 2].n_within}, within);
       if (next.n_within == first.n_within) return;
       NodeRanks &ranks = view(scratch_.ranks)[thread];
@@ -118,7 +118,7 @@ class Ordering {
       OrderScratch::List &list = view(scratch_.lists)[scratch_.n_lists++];
       list.found = &nodes;
       if (list.nodes.size() < nodes.size()) {
-        list.nodes.clear();  // the old nodes need no copy
+        list.nodes.clear();  // no old nodes have to be copied
         list.nodes.resize(nodes.capacity());
       }
       list.n.assign(static_cast<std::size_t>(bins_.n()), {0, 0});

@@ -10,7 +10,7 @@
 namespace riis {
 namespace {
 
-// An interval is not divided further if its length is at most `shortest_interval` times the magnitude of its ends.
+// An interval shorter than `shortest_interval` times the magnitude of its ends is not divided further.
 constexpr double shortest_interval = 1e-13;
 // The golden-section search shortens an interval to `extreme_interval` times its length. The area is flat at an extreme, so the
 // relative error of the area is about the square of `extreme_interval`.
@@ -22,8 +22,8 @@ AreaSearch::AreaSearch(Area area, double from, double to, std::int32_t n_samples
   sample(from, to, n_samples, grows);
   if (points_.empty()) return;
   part();
-  // Extremes are added to the samples, because areas between a sample and a nearby extreme would otherwise be out of reach. The
-  // places are noted before extremes are added, because the points move then.
+  // Areas between a sample and a nearby extreme would be out of reach, so the extremes are added to the samples. Their values are
+  // noted first, because each added extreme shifts the positions of later points.
   std::vector<double> places;
   for (const Part &one : parts_) places.push_back(points_[one.last].value);
   for (const double place : {least().value, most().value}) places.push_back(place);
@@ -54,8 +54,8 @@ void AreaSearch::sample(double from, double to, std::int32_t n_samples, bool gro
   }
 }
 
-// Looks for the extreme area between the neighbours of a point, whose area is the largest or the least of the three. Adds the
-// extreme to the points.
+// Does nothing unless the area at this point is the largest or the least among the point and its two neighbours. Finds the
+// extreme area between the neighbours, and adds it to the points.
 void AreaSearch::add_extreme(std::size_t at) {
   if (at == 0 || at + 1 == points_.size() || is_after_refused_[at] || is_after_refused_[at + 1]) return;
   const Point before = points_[at - 1], here = points_[at], after = points_[at + 1];
@@ -92,7 +92,7 @@ void AreaSearch::add_extreme(std::size_t at) {
   is_after_refused_.insert(is_after_refused_.begin() + static_cast<std::ptrdiff_t>(place), 0);
 }
 
-// Finds the least and the largest area, and divides the points where the area turns or a value was refused.
+// Finds the least and the largest area. Divides the points into parts, at each turn of the area and at each refused value.
 void AreaSearch::part() {
   const auto has_less_area = [](const Point &a, const Point &b) { return a.area < b.area; };
   const auto begin = points_.begin(), end = points_.end();
@@ -124,7 +124,8 @@ void AreaSearch::part() {
     } else if (direction == 0) {
       direction = has_grown ? 1 : has_fallen ? -1 : 0;
     }
-    // From the extreme in the present direction on, the extreme in the opposite direction is sought anew.
+    // While the area grows, the lowest point is sought only behind the highest point so far. While the area falls, the reverse
+    // holds.
     if (direction > 0) low = high;
     if (direction < 0) high = low;
   }
@@ -147,8 +148,8 @@ std::optional<AreaSearch::Point> AreaSearch::in_part(const Part &part, double ar
   const auto take = [&](const Point &point) {
     if (!best || std::abs(point.value - near) < std::abs(best->value - near)) best = point;
   };
-  // Because of jumps, several intervals may contain the area. The values of these intervals differ by little, so only the nearest
-  // interval is searched.
+  // Because the area jumps, it may lie in several intervals of the part. These intervals are close together, so only the nearest
+  // one is searched.
   std::size_t interval = part.last;
   for (std::size_t i = part.first; i <= part.last; ++i) {
     if (is_it(points_[i])) take(points_[i]);
@@ -167,8 +168,8 @@ std::optional<AreaSearch::Point> AreaSearch::in_part(const Part &part, double ar
   return best;
 }
 
-// The method of false position, which halves the value at an end that does not move (M. Dowell, P. Jarratt, BIT 11, 1971). Every
-// third step halves the interval, so jumps cost no more steps than a bisection.
+// The method of false position, modified: it halves the value at an end that does not move (M. Dowell, P. Jarratt, BIT 11, 1971).
+// Every third step halves the interval, so jumps cost no more steps than a bisection.
 AreaSearch::Point AreaSearch::between(Point a, Point b, double area, double tolerance) const {
   double weight_a = a.area - area, weight_b = b.area - area;
   Point best = std::abs(weight_a) < std::abs(weight_b) ? a : b;

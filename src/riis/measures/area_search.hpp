@@ -37,8 +37,8 @@ class AreaSearch {
   const std::vector<double> &turns() const { return turns_; }
   std::int64_t n_refused() const { return n_refused_; }
 
-  // Returns a value with this area, up to the tolerance as a share of the area. If several values have the area, the value
-  // nearest to `near` is returned. If the area jumps past the wanted area, the nearer end of the jump is returned. Returns
+  // Returns a value with this area. The area may be off by `tolerance`, a share of the area. If several values have the area, the
+  // value nearest to `near` is returned. If the area jumps past the wanted area, the nearer end of the jump is returned. Returns
   // nothing if the area is out of reach.
   std::optional<Point> find(double area, double near, double tolerance) const;
 
@@ -57,7 +57,7 @@ class AreaSearch {
 
   Area area_;
   std::vector<Point> points_;           // ascending by value
-  std::vector<char> is_after_refused_;  // for each point, whether a value between it and the point before was refused
+  std::vector<char> is_after_refused_;  // for each point, whether a value between it and the previous point was refused
   std::vector<Part> parts_;
   std::vector<double> turns_;
   std::size_t least_ = 0, most_ = 0;

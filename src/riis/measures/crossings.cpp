@@ -25,17 +25,16 @@ struct CommonSegment {
   double length;
 };
 
-// Finds the least overlap of two triangles over the directions that are passed to along(). A face of the Minkowski difference of
-// two triangles either has the normal of one triangle or is spanned by one edge of each triangle. The least overlap over the
-// normals of these faces is the distance from the origin to the boundary of the difference. The distance from the origin to this
-// boundary is the penetration depth.
+// Finds the least overlap of two triangles over the directions that are passed to along(). The penetration depth is the distance
+// from the origin to the boundary of the triangles' Minkowski difference. This distance is the least overlap along the normals of
+// the difference's faces. Each face either has the normal of one triangle or is spanned by one edge of each triangle.
 class Overlap {
  public:
   Overlap(const Triangle &a, const Triangle &b, double limit) : a_(a), b_(b), limit_(limit) {}
 
   double least() const { return least_; }
 
-  // Also takes the overlap along w into account. Returns whether the least overlap is still above the limit.
+  // Includes the overlap along w. Returns whether the least overlap so far is above the limit.
   bool along(Vec3 w) {
     const auto [a_low, a_high] = extent(w, a_);
     const auto [b_low, b_high] = extent(w, b_);
@@ -68,13 +67,12 @@ bool cuts_plane(const Triangle &t, Vec3 w, double limit) {
 // product of e and f.
 bool are_parallel(Vec3 w, Vec3 e, Vec3 f) { return dot(w, w) <= 1e-16 * dot(e, e) * dot(f, f); }
 
-// Returns the length of the shortest translation of one triangle after which the two triangles only touch, or 0 if the length is
-// at most `limit`. Triangles that only touch, or that lie in one plane, have depth 0. The error is at most 2^-24 of the longest
-// edge plus 2^-48 of the largest coordinate.
+// Returns how far one triangle must be shifted at least until the two triangles only touch. Returns 0 if this is at most `limit`,
+// if the triangles only touch, or if they lie in one plane. The error is at most 2^-24 of the longest edge plus 2^-48 of the
+// largest coordinate.
 double penetration_depth(const Triangle &a, const Triangle &b, double limit) {
-  // The function dismisses most pairs of triangles here, because one triangle does not cut the plane of the other. The corners of
-  // each triangle are relative to a corner of the other triangle, so that the plane of the other triangle passes exactly through
-  // the origin.
+  // Most pairs of triangles are dismissed here, because one triangle does not cut the plane of the other. Each triangle's corners
+  // are relative to a corner of the other triangle, whose plane thus passes exactly through the origin.
   const Vec3 normal_a = cross(a[1] - a[0], a[2] - a[0]), normal_b = cross(b[1] - b[0], b[2] - b[0]);
   const Triangle b_from_a = moved(b, a[0]);
   if (!cuts_plane(b_from_a, normal_a, limit) || !cuts_plane(moved(a, b[0]), normal_b, limit)) return 0;
@@ -95,7 +93,7 @@ CommonSegment common_segment(const Triangle &a, const Triangle &b) {
   const Triangle from_b = moved(a, b[0]);
   std::array<double, 3> height{};
   for (std::size_t k = 0; k < 3; ++k) height[k] = dot(normal, from_b[k]);
-  // One corner of the triangle a is on one side of b's plane, and the other two corners are on the other side.
+  // One corner of the triangle a lies alone on one side of b's plane.
   const auto is_below = [&](std::size_t k) { return height[k % 3] < 0; };
   std::size_t lone = 0;
   while (lone < 2 && (is_below(lone) == is_below(lone + 1) || is_below(lone) == is_below(lone + 2))) ++lone;
@@ -115,8 +113,8 @@ CommonSegment common_segment(const Triangle &a, const Triangle &b) {
 
 constexpr float nowhere = std::numeric_limits<float>::infinity();
 
-// A box in the groups' frame, in single precision. Rounding keeps the order of numbers, so boxes with a common point still have a
-// common point after rounding.
+// A box in the groups' frame, in single precision. Rounding keeps the order of numbers, so boxes that overlap still overlap after
+// rounding.
 struct Box {
   float lower[3]{nowhere, nowhere, nowhere}, upper[3]{-nowhere, -nowhere, -nowhere};
 
@@ -159,8 +157,8 @@ void for_each_bit(std::uint32_t bits, const Visit &visit) {
   for (; bits != 0; bits &= bits - 1) visit(__builtin_ctz(bits));
 }
 
-// A tree of boxes. The lowest level has the boxes of groups, and each higher level has boxes around several boxes of the level
-// below. The order of groups follows the surface, so these boxes are small.
+// A tree of boxes. On the lowest level are the boxes of groups. A box of a higher level encloses several boxes of the level
+// below. Successive groups are neighbours on the surface, so these boxes are small.
 class BoxTree {
  public:
   explicit BoxTree(Vector<Box> groups) {

@@ -36,7 +36,7 @@ std::vector<std::int64_t> pieces_of(const TriangleSet &set) {
   return lowest;
 }
 
-// A side of a triangle: the distinct positions of its ends.
+// A side of a triangle. `low` and `high` are the numbers of its ends' positions.
 struct TriangleSide {
   std::int64_t piece, low, high, triangle;
   bool is_upwards;
@@ -81,7 +81,8 @@ std::vector<std::vector<Neighbour>> neighbours_of(const TriangleSet &set, const 
     for (const std::int64_t vertex : {sides[i].low, sides[i].high})
       single_at[{sides[i].piece, vertex}].push_back(sides[i]);
   }
-  // A vertex may lie inside the edge of a neighbouring triangle. Two edges then lead from one vertex in one direction.
+  // A vertex may lie inside the edge of a neighbouring triangle. Two edges of different lengths then lead from one vertex in the
+  // same direction.
   for (const auto &[at, single] : single_at) {
     const std::int64_t vertex = at.second;
     std::vector<Vec3> direction;
@@ -104,7 +105,7 @@ struct WoundTriangles {
   std::int64_t n_sheets;
 };
 
-// Turns triangles over, so that the triangles of each sheet have the winding of the sheet's first triangle.
+// Turns triangles over until all triangles of a sheet have the winding of the sheet's first triangle.
 WoundTriangles with_one_winding(const TriangleSet &set, const std::vector<std::int64_t> &piece) {
   const std::vector<std::vector<Neighbour>> neighbours = neighbours_of(set, piece);
   const auto n = static_cast<std::size_t>(set.n_triangles());
@@ -171,8 +172,8 @@ struct PieceVertex {
   Vec3 at, from_centroid;
 };
 
-// Returns the share by which the pieces must grow about their centroids, so that two vertices of different pieces meet as closely
-// as possible. The share is at most `most`.
+// Pieces can grow about their centroids until they meet. Returns the share of growth, at most `most`, at which two vertices of
+// different pieces come closest.
 double share_until_pieces_meet(const std::vector<PieceVertex> &vertices, double most) {
   double share = 0, least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < vertices.size(); ++i)
@@ -187,8 +188,8 @@ double share_until_pieces_meet(const std::vector<PieceVertex> &vertices, double 
   return share;
 }
 
-// Returns, for each vertex, the nearest vertex of another piece. The distance is below a share of the vertex's distance from its
-// centroid. A vertex without such a neighbour has its own number.
+// Returns, for each vertex, the nearest vertex of another piece, or the vertex's own number if no other piece is near. Near means
+// within a share of the vertex's distance from its centroid.
 std::vector<std::size_t> nearest_of_other_pieces(const std::vector<PieceVertex> &vertices, double share) {
   std::vector<std::size_t> nearest;
   for (std::size_t i = 0; i < vertices.size(); ++i) {
@@ -201,9 +202,9 @@ std::vector<std::size_t> nearest_of_other_pieces(const std::vector<PieceVertex> 
   return nearest;
 }
 
-// Leaflets that end short of each other have no common attachment. Returns triangles whose pieces have grown about their
-// centroids until neighbours meet, with one place for vertices that are close to each other. Returns nothing if pieces touch
-// anyway, or if the boundary has too many vertices to compare each with each.
+// Leaflets with gaps between them have no common attachment. Returns triangles whose pieces have grown about their centroids
+// until neighbours meet. Vertices that are then close together get one place. Returns nothing if pieces already touch, or if the
+// boundary has too many vertices to compare all pairs.
 std::optional<TriangleSet> joined_pieces(const TriangleSet &set, const std::vector<OpenEdge> &edges,
                                          const std::vector<std::int64_t> &piece, const LeafletBoundary &boundary) {
   constexpr double most_growth = 0.05, closeness = 1e-3;
@@ -230,7 +231,7 @@ std::optional<TriangleSet> joined_pieces(const TriangleSet &set, const std::vect
   for (std::size_t i = 0; i < vertices.size(); ++i)
     if (const std::size_t other = nearest[i]; nearest[other] == i)
       view(at_place)[view(place)[vertices[i].vertex]] = vertices[std::min(i, other)].at;
-  // Vertices inside a piece grow too, so that a vertex on the edge of a neighbouring triangle stays on this edge.
+  // Vertices inside a piece also move, so that a vertex on the edge of a neighbouring triangle stays on this edge.
   TriangleSet joined = set;
   for (std::int64_t i = 0; i < set.n_vertices(); ++i) {
     const std::int64_t where = view(place)[i], of = view(piece_at)[where];
@@ -273,7 +274,7 @@ LeafletBoundary boundary_of_leaflets(const TriangleSet &set) {
     wound.set = std::move(*joined);
     edges = open_edges(wound.set, false);
   }
-  // If a file does not name its leaflets, touching leaflets are one piece of several sheets.
+  // In a file that does not name its leaflets, leaflets that touch are one piece with several sheets.
   const std::vector<std::int64_t> &part = n_pieces > 1 ? piece : wound.sheet;
   // Leaflets may have different windings. Each sheet but the last is tried with both windings.
   constexpr std::int64_t most_sheets = 5;

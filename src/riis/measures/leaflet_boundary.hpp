@@ -14,7 +14,7 @@ namespace riis {
 // A straight part of the leaflets' boundary.
 struct BoundaryEdge {
   Vec3 from, to;
-  std::int64_t piece;  // the connected part of a leaflet that it belongs to, from 0
+  std::int64_t piece;  // counted from 0: the connected part of a leaflet to which this edge belongs
 };
 
 // A closed line of open edges, in order.

@@ -26,7 +26,7 @@ AlongAxis::AlongAxis(Vec3 axis, Vec3 origin, Vec3 sideways) : axis_(axis), origi
 
 namespace {
 
-// A part of an edge of the outline that is farther from the centre than all other edges in its directions. The ends are the
+// A part of an edge of the outline. In the directions of this part, no other edge is farther from the centre. The ends are the
 // shares `from` and `to` of the edge. The part runs counter-clockwise.
 struct FarPart {
   std::size_t edge;
@@ -48,7 +48,7 @@ class FarthestEdges {
     for (std::size_t i = 0; i < edges.size(); ++i) {
       const auto &[a, b] = edges[i];
       const double turning = cross_of(a, b);
-      if (!(std::abs(turning) > 1e-14 * std::sqrt(dot_of(a, a) * dot_of(b, b)))) continue;  // seen from its end
+      if (!(std::abs(turning) > 1e-14 * std::sqrt(dot_of(a, a) * dot_of(b, b)))) continue;  // seen end on
       const double at_a = arc_tangent(a[1], a[0]), at_b = arc_tangent(b[1], b[0]);
       turns.push_back(turning > 0 ? Turn{i, at_a, at_b} : Turn{i, at_b, at_a});
       for (const double angle : {at_a, at_b}) angles_.push_back(angle);
@@ -60,11 +60,11 @@ class FarthestEdges {
     for (const Turn &turn : turns) add(turn);
   }
 
-  // Returns the parts, or nothing if a range of directions of more than half a turn has no edge.
+  // Returns the parts, or nothing if more than half a turn of directions has no edge.
   std::vector<FarPart> parts() const {
     std::vector<FarPart> made;
     double gap = 0, widest = 0;
-    for (std::size_t k = 0; k < 2 * best_.size(); ++k) {  // twice round, for a gap that goes on at the first direction
+    for (std::size_t k = 0; k < 2 * best_.size(); ++k) {  // twice round, because a gap may pass the first direction
       const std::size_t at = k % best_.size(), edge = best_[at].edge;
       gap = edge == none ? gap + width(at) : 0;
       widest = std::max(widest, gap);
@@ -175,7 +175,7 @@ std::vector<PlanePoint> corners_of(const SeenParts &from) {
   return corners;
 }
 
-// Returns the vector area of the farthest edges in space, with the lines between them.
+// Returns the vector area of the closed line in space that joins the farthest edges by straight lines.
 Vec3 vector_area(const LeafletBoundary &boundary, const SeenParts &from) {
   std::vector<Vec3> points;
   for (const FarPart &part : from.parts) {
@@ -211,12 +211,12 @@ struct FoundView {
   double roundness;
 };
 
-// With a good first axis few turns suffice. More turns would do harm at a free edge that reaches as far out as the attachment,
-// because each turn may then change the farthest edge. A bad first axis needs many turns.
+// The most turns of the axis. From a good first axis, few turns suffice. More would do harm where a free edge reaches as far out
+// as the attachment, because each turn may exchange the farthest edge. A bad first axis needs many turns.
 constexpr int few_turns = 4, many_turns = 40;
 
-// Turns the axis to the vector area of the farthest edges, and moves the centre to the middle of their outline, at most n_turns
-// times. `about` is a first axis of length 1. With `keeps_axis` only the centre moves.
+// Repeats two steps at most n_turns times: turns the axis to the vector area of the farthest edges, and moves the centre to the
+// middle of their outline. `about` is a first axis of length 1. With `keeps_axis` only the centre moves.
 std::optional<FoundView> view_from(const LeafletBoundary &boundary, Vec3 about, Vec3 sideways, Vec3 centre, int n_turns,
                                    bool keeps_axis = false) {
   constexpr double least_roundness = 0.01, still = 1e-10;
@@ -235,7 +235,7 @@ std::optional<FoundView> view_from(const LeafletBoundary &boundary, Vec3 about, 
   }
 }
 
-// The centroid of the edges, and the directions in which they spread, the least spread first. Each direction has the length 1.
+// The centroid of the edges, and the directions of their spread, in ascending order of spread. Each direction has the length 1.
 struct BoundarySpread {
   Vec3 centre;
   std::vector<Vec3> directions;
@@ -264,7 +264,8 @@ BoundarySpread spread_of(const LeafletBoundary &boundary) {
 }
 
 // Returns the roundest view of edges. The direction in which the edges spread least is the first axis. Another direction counts
-// only if it leads to a rounder outline. Triangles may be turned over, so their normals determine only the side of the axis.
+// only if it leads to a rounder outline. The triangles' normals determine only the sign of the axis, because triangles may be
+// turned over.
 std::optional<FoundView> best_view(const LeafletBoundary &boundary, const BoundarySpread &spread) {
   constexpr double favour = 1.15;
   std::optional<FoundView> best;
@@ -279,8 +280,8 @@ std::optional<FoundView> best_view(const LeafletBoundary &boundary, const Bounda
   return best;
 }
 
-// The high points of a crown, where neighbouring pieces meet, and the lowest point of each piece. A crown is a closed line in
-// which each piece has one run, from one high point to the next.
+// The high points of a crown, where neighbouring pieces meet, and the lowest point of each piece. A crown is a closed line on
+// which each piece has a single run, from one high point to the next.
 struct Crown {
   std::vector<Vec3> highs, lows;
   double height;  // the least height of a high point above the lowest points of its two pieces
@@ -349,9 +350,10 @@ std::optional<Vec3> axis_of_crown(const std::vector<BoundaryEdge> &line, Vec3 ax
   return axis;
 }
 
-// Returns the view of triangles from arrays. A closed line that may be the attachment counts only if it is nearly as large and
-// nearly as round as the outline of all edges. The roundest line counts, because a line that follows the attachment of one
-// leaflet and the free edge of another is oblique. The axis of the line is the axis of its crown, or else its vector area.
+// Returns the view of triangles from arrays. A closed line counts as the attachment only if its outline is nearly as large and as
+// round as the outline of all edges. Of several lines the roundest counts. A line that follows the attachment of one leaflet and
+// the free edge of another is oblique, and thus less round. The axis is that of the line's crown or, for a line without a crown,
+// its vector area.
 std::optional<FoundView> view_of_arrays(const LeafletBoundary &boundary, const BoundarySpread &spread) {
   constexpr double least_roundness = 0.95;  // as a share of the outline's roundness
   std::optional<FoundView> of_all = best_view(boundary, spread);
@@ -373,11 +375,11 @@ std::optional<FoundView> view_of_arrays(const LeafletBoundary &boundary, const B
   return best ? best : of_all;
 }
 
-// Returns the factor by which the pieces must grow about their centroids until the first two neighbours meet. If the factor is
-// above 1.05, the pieces are probably apart on purpose, so the factor falls back until it is 1 at 1.1. A part of the outline at
-// less than 45 degrees to a ray from the centre is the end of a piece, and is not attached. A ray through the gap between two
-// neighbours may meet a third piece, which is nearer to the centre. The end of a piece therefore meets the end that is closest
-// after the growth.
+// Returns the factor by which the pieces must grow about their centroids until the first two neighbours meet. If a factor above
+// 1.05 would be needed, the pieces are probably apart on purpose. The result then falls again, and is 1 from 1.1 on. Where the
+// outline makes less than 45 degrees with a ray from the centre, it is the end of a piece and not its attachment. A ray through
+// the gap between two neighbours may meet a third piece, which is nearer to the centre. The end of a piece is therefore joined to
+// the end that is closest after the growth.
 double growth_of(const LeafletBoundary &boundary, const SeenParts &from) {
   constexpr double most = 0.05, closeness = 0.15, widest_gap = 0.25;  // shares, and the tangent of an angle
   struct Run {

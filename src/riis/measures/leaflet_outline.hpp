@@ -34,7 +34,7 @@ class AlongAxis {
   Vec3 x_axis_{}, y_axis_{}, axis_, origin_;
 };
 
-// A line of open edges may be the attachment if it encloses at least this share of the area of the leaflets' outline.
+// A line of open edges may be the attachment only if its area is at least this share of the outline's area.
 inline constexpr double least_attached_share = 0.8;
 
 // An outline with the axis along which it is seen.
@@ -46,7 +46,7 @@ struct SeenOutline {
 // The directions of a valve before its outline is known.
 struct ValveDirections {
   Vec3 axis, sideways;  // its z axis, warped and placed, and its x axis, placed
-  bool keeps_axis;      // the outline is seen along `axis`, and not along the vector area of its edges
+  bool keeps_axis;      // whether the outline is seen along `axis`, or else along the vector area of its edges
 };
 
 // Returns the outline, with the axis on the side of the valve's axis. Triangles from arrays have no valve, so their axis is on

@@ -26,10 +26,10 @@ namespace riis {
 // The orifice of a valve: the part of an outline's area that no triangle covers, seen along the axis. The triangles come from a
 // valve or from arrays. The results are areas and a perimeter.
 
-// The factor c of the effective area A - c eps P. The band around the rim narrows an orifice by the distance c eps. A wall
-// without thickness blocks the flow as much as the band if its rim extends c eps farther into the orifice. Each number lies
-// midway between the c of two valves that docs/validation.md compares with walls in body-fitted meshes. For the open bileaflet
-// valve, c is 0.98 (round rim) and 0.95 (cut rim). For the open trileaflet valve, c is 0.70 and 0.46.
+// The factor c of the effective area A - c eps P. The band around the rim narrows an orifice by the distance c eps. A thin wall
+// whose rim extends c eps farther into the orifice would block the flow as much. Each number lies midway between the c of two
+// valves that docs/validation.md compares with walls in body-fitted meshes. For the open bileaflet valve, c is 0.98 (round rim)
+// and 0.95 (cut rim). For the open trileaflet valve, c is 0.70 and 0.46.
 inline constexpr double rim_reach_round = 0.84;  // RIIS_RIM_ROUND
 inline constexpr double rim_reach_cut = 0.70;    // RIIS_RIM_CUT
 
@@ -41,13 +41,13 @@ struct Orifice {
 };
 
 struct OrificeLimits {
-  double reach;  // how far inwards the edge of the effective orifice is moved
-  double slit;   // how far inwards the edge of the perimeter is moved
+  double reach;  // how far inwards the rim is moved to give the effective orifice
+  double slit;   // how far inwards the rim is moved before the perimeter is measured
 };
 
-// Returns the factor c of a surface's band. An offset widens an orifice, because the flow then passes nearer to the leaflet. The
-// offsets at which c is 0 were fitted to flows through trileaflet and mitral valves. A bileaflet valve has flow on both sides of
-// its leaflets, so c does not change.
+// Returns the factor c of a surface's band. An offset lowers c, because the flow then passes nearer to the leaflet. The offset at
+// which c reaches 0 was fitted to flows through trileaflet and mitral valves. In a bileaflet valve c stays the same, because
+// there is flow on both sides of its leaflets.
 double rim_reach(const Surface &surface, std::int32_t rim);
 
 // Measures the orifice. `source` is null for triangles from arrays, whose outline is their longest boundary.
@@ -108,7 +108,7 @@ struct Gap {
   std::vector<double> distance;  // (2, n_edges); RIIS_FAR_DISTANCE where the line misses the wall
   riis_gap measures;
 };
-// Measures the gap. Fails with RIIS_INVALID_ARGUMENT if there are no edges, and if the outward direction is not determined.
+// Measures the gap. Fails with RIIS_INVALID_ARGUMENT if there are no edges or if the outward direction is undetermined.
 Gap gap_of(const Attachment &attachment, const Wall &wall, int n_threads);
 
 // Returns the lengths of a skirt that reaches the wall from a placed valve, whose patches have no skirt. Where the wall is

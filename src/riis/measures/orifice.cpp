@@ -89,7 +89,7 @@ Orifice measure_orifice(const TriangleSet &set, const SourceValve *source, const
 Orifice measure_orifice_in_wall(const TriangleSet &set, const SourceValve *source, const TriangleSet &wall,
                                 const OrificeLimits &limits) {
   LeafletBoundary boundary = boundary_of_wall(wall);
-  // The wall's normals do not show which way the valve opens, so the direction is that of the valve or of the leaflets.
+  // The wall's normals do not show which way the valve opens, so the valve or the leaflets give the direction.
   boundary.normal = source ? source->placement.rotation * source->disc.axis : boundary_of_leaflets(set).normal;
   const std::optional<SeenOutline> seen = outline_of_leaflets(boundary, std::nullopt);
   if (!seen) return {0, 0, 0, 0, {0, 0, 0}, RIIS_OUTLINE_NONE};

@@ -16,8 +16,8 @@
 namespace riis {
 namespace {
 
-// The end of an interval on a line, where an edge crosses the line. `along` is the length of the edge between two lines with
-// spacing 1. The length is 0 if lines in the other direction measure the edge.
+// The end of an interval on a line, where an edge crosses the line. `along` is the length of the edge from one line to the next,
+// if the spacing is 1. It is 0 for an edge that the lines in the other direction measure.
 struct End {
   double x, along;
 };
@@ -61,8 +61,8 @@ double x_at(const PlanePoint &a, const PlanePoint &b, double y) {
   return a[0] + (b[0] - a[0]) * ((y - a[1]) / (b[1] - a[1]));
 }
 
-// Returns the length of an edge between two lines with spacing 1. Returns 0 for a flat edge, because lines in the other direction
-// measure it. An edge at 45 degrees counts only if counts_equal is true, which holds for the lines along x.
+// Returns the length of an edge from one line to the next, if the spacing is 1. Returns 0 for a flat edge, because the lines in
+// the other direction measure it. An edge at 45 degrees counts only if counts_equal is true, which holds for the lines along x.
 double length_along(double dx, double dy, bool counts_equal) {
   const double across = std::abs(dy), beside = std::abs(dx);
   if (across < beside || (across == beside && !counts_equal)) return 0;
@@ -70,8 +70,8 @@ double length_along(double dx, double dy, bool counts_equal) {
   return std::sqrt(1 + slope * slope);
 }
 
-// Calls visit(i, x) for each line that the edge meets. A line through the upper end does not count. The order of the edge's ends
-// does not change x, so two triangles with a common edge leave no gap.
+// Calls visit(i, x) for each line that the edge meets. A line through the upper end does not count. x does not depend on the
+// order of the edge's ends. Two triangles with a common edge therefore leave no gap.
 template <class Visit>
 void for_each_cut(const ScanLines &lines, PlanePoint a, PlanePoint b, const Visit &visit) {
   if (b[1] < a[1]) std::swap(a, b);
@@ -107,8 +107,8 @@ SpansOfLines inside(const Outline &outline, const ScanLines &lines) {
   return spans;
 }
 
-// Collects the intervals of convex shapes on the lines. A convex shape meets a line in at most one interval. If only areas are
-// measured, intervals of successive shapes are joined where they meet, so that fewer intervals are sorted.
+// Collects the intervals of convex shapes on the lines. A convex shape meets a line in at most one interval. To sort fewer
+// intervals, those of successive shapes are joined where they meet. This is done if only areas are measured.
 template <class AnEnd>
 class Covered {
  public:
@@ -238,10 +238,10 @@ double length_without(const Spans &spans, const Spans &covers) {
   return length;
 }
 
-// Measures the edges of the covers that end the uncovered part of disjoint spans.
+// Measures the edges of the covers at which the uncovered parts of disjoint spans end.
 double edge_without(const Spans &spans, std::vector<Interval<End>> covers) {
-  // Covers of folded leaflets may begin or end in the same point. The order of these covers decides which edge counts, so the
-  // comparison of covers includes all their members.
+  // Covers of folded leaflets may begin or end in the same point. Their order decides which edge counts, so covers are compared
+  // by all their members.
   std::sort(covers.begin(), covers.end(), [](const Interval<End> &a, const Interval<End> &b) {
     return std::tie(a.begin.x, a.end.x, a.begin.along, a.end.along) <
            std::tie(b.begin.x, b.end.x, b.begin.along, b.end.along);
@@ -287,14 +287,14 @@ Cover swapped(const Cover &cover) {
   return made;
 }
 
-// Returns false if the lines enclose an area only by rounding, such as lines seen edge on.
+// Returns false if the enclosed area is only rounding error, as for lines that are seen edge on.
 bool has_area(const Outline &outline, double rounding) {
   const double height = ScanLines(outline, 1).spacing(), width = ScanLines(swapped(outline), 1).spacing();
   const double size = std::max(height, width);
   return height > 0 && area_of(outline) > std::max(1e-9 * size, rounding) * size;
 }
 
-// Returns 1 or -1 for the side of the triangle that faces the viewer, and 0 if the viewer sees only its edge.
+// Returns 1 or -1: the side of the triangle that faces the viewer. Returns 0 for a triangle that is seen edge on.
 int side_of(const PlaneTriangle &corner) {
   const auto &[a, b, c] = corner;
   const double first = (b[0] - a[0]) * (c[1] - a[1]), second = (b[1] - a[1]) * (c[0] - a[0]);
@@ -347,7 +347,7 @@ Cover cover_of(const std::vector<PlanePoint> &vertices, const std::vector<std::i
     for (int k = 0; k < 3; ++k) {
       Use &use = uses[key(id(i, k), id(i, k + 1))];
       if (use.n < 1 || (use.n == 2 && std::abs(use.sides) == 2)) continue;
-      use.n = -1;  // the second triangle of this edge does not add the edge again
+      use.n = -1;  // so that the edge's second triangle does not add it again
       cover.rim.push_back({view(vertices)[id(i, k)], view(vertices)[id(i, k + 1)]});
     }
   return cover;

@@ -23,12 +23,12 @@ struct Outline {
 };
 
 Outline circle(double radius, const PlanePoint &centre);
-// Returns the outline of these lines, or nothing if the lines are not closed or enclose no area. Closed lines have an even
-// number of ends at each place. Coordinates may be off by `rounding`, so areas within such errors do not count.
+// Returns the outline that these lines form. Returns nothing if the lines are not closed or enclose no area. Closed lines have an
+// even number of ends at each place. Coordinates may be off by `rounding`, so areas within such errors do not count.
 std::optional<Outline> closed_outline(const std::vector<std::vector<PlanePoint>> &lines, double rounding = 0);
 
-// The triangles, and the rim: the edges that may bound the covered part. An edge is not part of the rim if its two triangles lie
-// on opposite sides of the edge.
+// The triangles, and the rim: the edges that may bound the covered part. The rim leaves out an edge between two triangles that
+// lie on opposite sides of it.
 struct Cover {
   std::vector<PlaneTriangle> triangles;
   std::vector<PlaneSegment> rim;

@@ -15,8 +15,8 @@
 namespace riis {
 namespace {
 
-// The interval of openings is cut at all multiples of 1 / n_steps inside it. The volumes of adjacent intervals therefore add up.
-// Between two cuts each point moves along a straight line.
+// An interval of openings is cut at all multiples of 1 / n_steps. These cuts are the same for every interval, so the volumes of
+// adjacent intervals add up. Between two cuts each point moves along a straight line.
 constexpr int n_steps = 64;
 
 // Each patch is cut into n by n quads. The number n is between `fewest` and `most`. The whole valve then has about
@@ -86,8 +86,8 @@ void add_swept(const PatchSet &from, const PatchSet &to, const Vector<double> &s
       const PatchImage &image = before.images[i];
       const double volume =
           swept_by_grid(placed(image, points_before), placed(now.images[i], points_now), shares.size());
-      // The triangles of a mirror image are turned over, so their normals also point downstream. The volume that triangles of a
-      // mirror image sweep therefore gets the opposite sign.
+      // In a mirror image, the triangles are turned over so that their normals also point downstream. The volume that they sweep
+      // therefore changes its sign.
       sums[image.leaflet_id] += points_upstream(image) ? -volume : volume;
     }
   }

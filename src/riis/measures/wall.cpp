@@ -18,8 +18,8 @@ struct Start {
   Vec3 point, direction;
 };
 
-// Returns where the line point + t * direction meets a triangle. Two triangles with a common edge compute that edge's volume
-// with opposite signs. The line therefore cannot pass between the triangles.
+// Returns where the line point + t * direction meets a triangle. The test compares the signs of three volumes, one for each edge.
+// Two triangles give their common edge exactly opposite volumes, so the line cannot pass between them.
 std::optional<double> meets(const std::array<Vec3, 3> &corners, Vec3 point, Vec3 direction) {
   const auto [a, b, c] = corners;
   const Vec3 oa = a - point, ob = b - point, oc = c - point;
@@ -39,7 +39,7 @@ std::vector<std::optional<double>> distances_along(const Wall &wall, const std::
   return made;
 }
 
-// If two sides meet in a point, both get the same length there, because rounding could make the lengths differ.
+// Gives all sides that meet in a point the same length there. Rounding could otherwise make their lengths differ.
 void make_common(const std::vector<Vec3> &points, double tolerance, const std::vector<double *> &lengths) {
   std::vector<std::size_t> order(points.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

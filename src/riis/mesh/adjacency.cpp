@@ -48,7 +48,7 @@ class PlainMemory {
 // Makes the rows. An entry says that a node is in an item. The entries of a block of nodes are stored together, node by node.
 // Later the rows of the block overwrite the entries. Lists is a type with these members:
 //   `n_nodes`, `n_items`: the numbers of nodes and items.
-//   `most_neighbors`: the most different nodes that for_each_neighbor visits.
+//   `most_neighbors`: the largest number of different nodes that one call of for_each_neighbor visits.
 //   `for_each_entry(range, visit)`: calls visit(node, entry) for every node of every item in a range.
 //   `for_each_neighbor(entry, node, visit)`: calls visit(other) for the neighbours that an entry gives its node, in any order.
 //   `prefetch(entry)`: requests the memory that for_each_neighbor reads.
@@ -150,7 +150,7 @@ class RowMaker {
       const Range nodes = nodes_of(number);
       const Entry *const ends = next_of(n_parts_ - 1);
       const ArrayView<const Entry> entries(block.as<Entry>(), static_cast<std::int64_t>(ends[nodes.end - 1]));
-      const Lists lists = lists_;  // a copy, which tells the compiler that stores to is_seen do not change the lists
+      const Lists lists = lists_;  // a copy, so that the compiler knows that stores to is_seen do not change it
       std::int64_t begin = 0, n_columns = 0;
       for (std::int64_t node = nodes.begin; node < nodes.end; ++node) {
         const auto end = static_cast<std::int64_t>(ends[node]);
@@ -212,7 +212,7 @@ class RowMaker {
   std::vector<PlainMemory> blocks_;  // the blocks hold entries first, and columns later
 };
 
-// For lists within NarrowLimits.
+// Makes the adjacency of lists that are within NarrowLimits.
 template <class Lists>
 OwnAdjacency narrow_adjacency_of_lists(const Lists &lists, int n_threads) {
   OwnAdjacency made;
@@ -293,8 +293,8 @@ struct GridNodes {
 template <class Id>
 OwnAdjacency adjacency_from_cells_with(const riis_mesh_cells &given, int n_threads, const NarrowLimits &limits) {
   const Cells<Id> cells(given, n_threads);
-  // Code for cells of one shape takes three quarters of the time of the general code. The code for one shape is compiled only for
-  // meshes that 32 bits can count, because hardly any mesh is larger.
+  // Code for cells of one shape takes three quarters of the time of the general code. It is compiled only for meshes that 32 bits
+  // can count, because hardly any mesh is larger.
   if (given.offsets || cells.n_nodes() > limits.n_nodes || cells.n_listed() > limits.n_entries)
     return adjacency_of_lists(CellsOfAnyShape<Id>(cells), cells.n_listed(), n_threads, limits);
   const auto made_of = [&](const auto &lists) { return narrow_adjacency_of_lists(lists, n_threads); };

@@ -13,7 +13,7 @@ namespace riis {
 namespace {
 
 // Checks that all boxes lie within the frame. The caller may have moved nodes, or made coordinates unusable, without telling the
-// mesh. The errors of single precision are bounded only for coordinates of at most 1.
+// mesh. Outside of the frame, coordinates exceed 1, and the errors of single precision have no bound.
 bool are_within_frame(const Clusters &clusters) {
   return std::all_of(clusters.boxes.begin(), clusters.boxes.end(), [](const Clusters::Box &box) {
     return std::all_of(box.lower, box.lower + 3, [](float x) { return x >= -1; }) &&
@@ -39,8 +39,9 @@ Bounds bounds_of(const StridedPoints &nodes) {
   return bounds;
 }
 
-// Asks the system for large pages for the memory of leaves. A search reads leaves in random order, and the processor looks up the
-// page of each leaf. The request concerns only whole large pages within the memory, so the process takes no more memory.
+// Asks the system for large pages for the memory of leaves. A search reads leaves in random order, and with small pages the
+// processor would look up a page for nearly each leaf. Only whole large pages inside the memory are requested, so the process
+// takes no more memory.
 void ask_for_large_pages(void *memory, std::size_t n_bytes) {
 #if defined(MADV_HUGEPAGE)
   constexpr std::uintptr_t size = std::uintptr_t{1} << 21;
@@ -60,7 +61,7 @@ void make_room_for(std::int64_t n_nodes, Clusters &clusters) {
   const std::int64_t n_leaves = n_of(nodes_per_leaf);
   if (n_leaves > clusters.room_for_leaves) {
     clusters.room_for_leaves = 0;
-    // The memory is left unfilled, so that the thread that uses a page is also the first to write to it.
+    // The memory is left unfilled. The first thread that writes to a page is thus the thread that uses it.
     const auto n = static_cast<std::size_t>(n_leaves);
     clusters.leaves.reset(new Leaf[n]);
     clusters.points.reset(new LeafPoints[n]);
@@ -98,7 +99,7 @@ void sort_into_clusters(const StridedPoints &nodes, const Bounds &bounds, int n_
 }
 
 void place_clusters(const StridedPoints &nodes, const Bounds &bounds, int n_threads, Clusters &clusters) {
-  // Each leaf is read and written in place. A node's number is read before it is overwritten.
+  // Each leaf is overwritten in place, but each number in it is read before it is overwritten.
   const Leaf *leaves = clusters.leaves.get();
   const auto place = [&](const Bounds &around) {
     clusters.frame = frame_around(around);

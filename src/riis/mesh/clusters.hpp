@@ -19,8 +19,8 @@
 
 namespace riis {
 
-// The coordinates of a leaf's nodes in double precision, stored together. In the caller's array these nodes may be far apart, but
-// the decision reads them together.
+// The coordinates of a leaf's nodes in double precision, stored together. The decision reads them together, but they may be far
+// apart in the caller's array.
 struct LeafPoints {
   double xyz[3 * nodes_per_leaf];
 };
@@ -48,7 +48,8 @@ struct Clusters {
 // The limit exists because a leaf stores the numbers of its nodes in 32 bits.
 inline constexpr std::int64_t max_clustered_nodes = INT64_C(0xffffffff);
 
-// The next two functions fail with RIIS_INVALID_MESH for an unusable coordinate. If clusters were never made, n_nodes is 0.
+// The next two functions fail with RIIS_INVALID_MESH for an unusable coordinate. Until clusters are made for the first time,
+// their n_nodes is 0.
 //   `bounds`: the box of the nodes at the time when the caller gave them.
 void sort_into_clusters(const StridedPoints &nodes, const Bounds &bounds, int n_threads, Clusters &clusters);
 // Keeps the order, and updates coordinates and boxes to the nodes' new positions.
@@ -89,8 +90,8 @@ inline Boxes no_boxes() {
   return boxes;
 }
 
-// Makes room for n_nodes nodes. If memory runs out, n_nodes stays as it was, so that clusters that were never made do not count
-// as made.
+// Makes room for n_nodes nodes. If memory runs out, n_nodes stays as it was. A value of 0 thus still says that the clusters were
+// never made.
 void make_room_for(std::int64_t n_nodes, Clusters &clusters);
 
 // Fills clusters, whose frame must be set. The function node_at(i) returns the i-th node in the order, and prefetch(i) requests

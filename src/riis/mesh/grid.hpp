@@ -111,7 +111,7 @@ struct GridEdges {
       if (index[axis] + 1 < grid.size(axis)) visit(i + grid.stride(axis));
     }
   }
-  // The nodes must be neighbours.
+  // Callers pass only neighbours, and a grid's edges are symmetric.
   bool has_neighbor(std::int64_t, std::int64_t) const { return true; }
 };
 

@@ -43,7 +43,7 @@ class GridClusters {
 
   // Opens a cluster, and fills the leaves whose bit is set.
   void open(std::int64_t cluster, std::uint32_t leaves, Room &room) const;
-  // Returns a bit for each lane of a leaf that has a node.
+  // Returns a bit for each lane of a leaf. It is set if the lane has a node.
   std::uint32_t lanes(int leaf, const Room &room) const;
   // The numbers of a leaf's nodes, counted from the number of the box's first node.
   struct Numbers {

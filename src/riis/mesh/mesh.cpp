@@ -98,7 +98,7 @@ double largest_side(const Bounds &bounds) {
   return std::max({extent.x, extent.y, extent.z});
 }
 
-// Returns a message that names two sizes that do not fit together, or NULL if all sizes fit.
+// Returns a message about two sizes that do not fit together, or NULL if all sizes fit.
 const char *misfit(double mesh, double surface, double half_thickness) {
   constexpr double most = 50;
   if (surface > most * mesh) return "the surface is more than 50 times as large as the mesh";
@@ -149,8 +149,7 @@ void for_each(std::int64_t n, int n_threads, const Visit &visit) {
   });
 }
 
-// Returns the radius plus a few units of rounding of the coordinates, because the computed radius may be too small by this
-// amount.
+// The computed radius may be too small by a few units of rounding of the coordinates. Returns the radius plus this amount.
 double rounded_up(double radius, Vec3 centre) {
   return radius * (1 + 1e-15) + 1e-15 * (std::abs(centre.x) + std::abs(centre.y) + std::abs(centre.z));
 }

@@ -79,7 +79,7 @@ struct Sizes {
   double half_thickness;
 };
 
-// Takes a few comparisons for a mesh of any size. Compares sizes and not positions, because one process's part of a mesh may lie
+// Makes only a few comparisons for a mesh of any size. Positions are not compared, because one process's part of a mesh may lie
 // far from the surface.
 void check_proportions(const Sizes &sizes, std::uint64_t surface_number, WarnedSurfaces &warned);
 
@@ -153,11 +153,11 @@ class Mesh {
   // coordinate.
   const EdgeBlocks &edges(int n_threads) const;
 
-  // Records that these nodes were marked. Returns true if clusters pay off, because a marking was recorded before or clusters
-  // already exist.
+  // Records that these nodes were marked. Returns whether clusters pay off: they do if a marking was recorded before, or if
+  // clusters already exist.
   bool record_marking() const { return was_marked_.exchange(true, std::memory_order_relaxed); }
 
-  // Returns the surfaces that the caller was already warned about, because their sizes do not fit this mesh.
+  // Returns the surfaces whose sizes do not fit this mesh, and about which the caller was already warned.
   WarnedSurfaces &warned_surfaces() const { return warned_surfaces_; }
 
  private:

@@ -87,13 +87,14 @@ struct NodeItem {
 template <class Node>
 using NodeItems = UnfilledVector<NodeItem<Node>>;
 
-// The places where parts are cut. With by_clusters, large parts are cut between clusters and small parts between leaves, into at
-// most four parts each time. Clusters are then compact. With by_leaves, all cuts are between leaves. The number of parts is
-// chosen so that leaves become as wide as they are long. Cuts by leaves take half as many passes, but make long clusters.
+// The places where parts are cut. With by_clusters, a part is cut into at most four parts at a time. Large parts are cut between
+// clusters, and small parts between leaves. Clusters are then compact. With by_leaves, all cuts are between leaves. The number of
+// parts is chosen so that leaves become as wide as they are long. Cuts by leaves take half as many passes, but make long
+// clusters.
 enum class Cuts { by_clusters, by_leaves };
 
-// Sorts nodes so that near nodes follow each other. Each pass counts the nodes of a part in bins along the longest axis of its
-// box, and cuts the part across this axis. The items move back and forth between two arrays.
+// Sorts nodes so that near nodes follow each other. Each pass divides the longest axis of a part's box into bins, and counts the
+// nodes in each bin. It then cuts the part across this axis. The items move back and forth between two arrays.
 template <class Node>
 class NodeSorter {
  public:
@@ -127,12 +128,13 @@ class NodeSorter {
 
  private:
   static constexpr int n_bins = 256, most_parts = 16;
-  // Smaller parts have fewer bins, because clearing and summing many bins would take longer than counting the nodes.
+  // A part of at most this size has fewer bins, because clearing and summing many bins would take longer than counting its nodes.
   static constexpr std::int64_t small_size = 1024;
   static constexpr int n_small_bins = 64, n_small_bins_per_part = 16;
   typedef std::array<Node, n_bins> Counts;
-  // Items are counted and moved four at a time, one from each quarter of a block. Neighbouring items often belong to the same
-  // count, and each update of a count waits for the previous update. Each quarter of the items therefore has its own counts.
+  // Items are counted and moved four at a time, one from each quarter of a block. Neighbouring items are often counted in the
+  // same bin, where each update of the count waits for the previous one. Each quarter of the items therefore has counts of its
+  // own.
   static constexpr int n_quarters = 4;
   typedef std::array<Node, n_quarters> OfQuarters;
   typedef std::array<OfQuarters, n_bins> QuarterCounts;
@@ -162,8 +164,8 @@ class NodeSorter {
   };
 
   // A stream is a run of bins whose items are written to consecutive places, one item after another. A bin that contains a cut is
-  // a stream by itself. All bins between two bins with a cut are one stream. There are fewer streams than bins, so the writes are
-  // faster.
+  // a stream by itself. All bins between two bins with a cut are one stream. Writing to few streams is faster than writing to
+  // many bins.
   struct Streams {
     static constexpr int most = 2 * most_parts - 1;
     std::array<std::uint8_t, n_bins> of_bin;
@@ -229,7 +231,7 @@ class NodeSorter {
 
   static std::int64_t n_units(const Part &part, std::int64_t unit) { return (part.size() + unit - 1) / unit; }
 
-  // A part is cut between units of `unit` items, into `n_parts` parts.
+  // How a part is cut: into `n_parts` parts, at multiples of `unit` items.
   struct Cutting {
     std::int64_t unit, n_parts;
   };
@@ -243,8 +245,8 @@ class NodeSorter {
     return {nodes_per_leaf, std::clamp(static_cast<std::int64_t>(along + 0.5f), std::int64_t{2}, most)};
   }
 
-  // Returns how many leaves lie along the longest side of a box, if each leaf is as wide as it is long. If the box is narrower
-  // than such a leaf, a leaf fills the width of the box.
+  // Suppose that leaves are as wide as they are long, or fill the width of a narrower box. Returns how many leaves lie along the
+  // longest side of the box.
   static float leaves_along(const NodeBox &box, float n_leaves) {
     float side[3];
     for (int i = 0; i < 3; ++i) side[i] = box.upper[i] - box.lower[i];
@@ -272,7 +274,7 @@ class NodeSorter {
   static NodeBox box_of(const Item *items, const Part &part) {
     typedef float Four __attribute__((vector_size(16)));
     static_assert(sizeof(Item) >= sizeof(Four));
-    // Two separate boxes are faster, because each comparison waits for the previous comparison of the same bounds.
+    // The loop keeps two separate boxes, because each comparison has to wait for the previous comparison of the same bounds.
     Four lower[2], upper[2];
     for (int k = 0; k < 2; ++k) lower[k] = Four{} + NodeBox::inf, upper[k] = Four{} - NodeBox::inf;
     const auto add = [&](const Item *item, int k) {
@@ -334,7 +336,7 @@ class NodeSorter {
       for (const QuarterCounts &counts : blocks.counts) add(view(counts)[bin], sum);
       view(sums)[bin] = sum[0] + sum[1] + sum[2] + sum[3];
     }
-    // If most items are in few bins, the next pass needs the smaller box of these items to separate them.
+    // Most items may be in few bins. To separate them, the next pass needs their own, smaller box.
     constexpr std::int64_t few_parts = 4;
     if (cut.n_parts > few_parts) {
       const auto most = static_cast<std::int64_t>(*std::max_element(sums.begin(), sums.begin() + bins.n));
@@ -374,7 +376,8 @@ class NodeSorter {
   static void sort_whole(const Part &part, const Item *from, Item *to) {
     const NodeBox box = box_of(from, part);
     const int axis = box.longest_axis();
-    // A key holds the position along the axis in its upper bits, and the item's number in its lower bits. So all keys differ.
+    // A key holds the position along the axis in its upper bits, and the item's number in its lower bits, so that all keys
+    // differ.
     constexpr std::int32_t most = (1 << 24) - 1;
     const float per_unit = per_unit_of(static_cast<float>(most), box.upper[axis] - box.lower[axis]);
     static_assert(most < std::numeric_limits<std::int32_t>::max() / keys_at_once);

@@ -83,7 +83,7 @@ Vector<double> SideMaterial::shares_before(const Vector<double> &shares) const {
 
 namespace {
 
-// Steps of u and v count as nearly parallel if the square of the sine of their angle is at most `least_sine_sq`.
+// Steps of u and v count as nearly parallel if the squared sine of the angle between them is at most `least_sine_sq`.
 constexpr double least_sine_sq = 0.01;
 
 bool has_points_inside(const MovedPatch &moved) {
@@ -131,14 +131,14 @@ struct MaterialArcs {
 
 using OfSides = std::array<std::array<Vec3, n_material>, 4>;  // vectors on the sides v0, v1, u0, u1.
 
-// The vectors at evenly spaced points on the sides of a warped patch. These vectors lie on the polynomials through the vectors at
-// the shares `nodes` of each side.
+// The vectors at evenly spaced points on the sides of a warped patch. On each side, they are interpolated by a polynomial from
+// the vectors at the shares `nodes`.
 class AtShares {
  public:
   AtShares(const std::array<std::array<double, n_material>, 4> &nodes, const OfSides &values) {
     for (std::size_t side = 0; side < at_.size(); ++side) {
       const Through<Vec3> through(nodes[side], values[side]);
-      at_[side] = values[side];  // the given vectors are right at the ends
+      at_[side] = values[side];  // at the ends, the given vectors are exact
       for (std::size_t k = 1; k < last; ++k) at_[side][k] = through.at(material_share(k));
     }
   }
@@ -181,8 +181,9 @@ Through<Vec3> rest_of_offsets(const MovedPatch &moved, const SideMaterial &base,
     nodes[k] = 0.5 * (base.nodes()[k] + edge.nodes()[k]);
     const Vec3 move_of_base = now.mapped_base[k] - before.mapped_base[k],
                move_of_edge = now.mapped_edge[k] - before.mapped_edge[k];
-    // The mapped middle lies beside the middle of the warped arc. The displacement there follows from the slope of the
-    // displacement. For arcs that are sides, steps of u are left out, because neighbouring patches have the same arcs.
+    // The mapped middle lies beside the middle of the warped arc. The slope of the displacement gives the difference between the
+    // displacements of these two points. For an arc that is a side, only steps of v count, because the neighbouring patch has the
+    // same arc but other steps of u.
     const Vec3 across = now.edge[k] - now.base[k], beside = now.mapped_middle[k] - now.middle(k);
     const bool is_side = k == 0 || k == last;
     const StepsBeside steps =
@@ -214,8 +215,8 @@ RestInside::RestInside(const MovedPatch &moved, const PatchMaterial &material) {
   for (std::size_t i = 0; i < rest_.size(); ++i) {
     constexpr std::size_t third = (n_material - 1) / 3;
     const std::size_t at_u = (1 + i % 2) * third, at_v = (1 + i / 2) * third;
-    // The mapped point lies beside the point with the labels u and v of the warped patch. The displacement at that point follows
-    // from the slope of the displacement.
+    // The mapped point lies beside the warped patch's point (u, v). The displacement at (u, v) follows from the displacement of
+    // the mapped point and from its slope.
     const StepsBeside steps(point.along_u(at_u, at_v), point.along_v(at_u, at_v),
                             mapped[i] - point.combined(at_u, at_v));
     rest_[i] = mapped[i] - mapped_before[i] - steps.u * move.along_u(at_u, at_v) - steps.v * move.along_v(at_u, at_v) -
@@ -224,8 +225,8 @@ RestInside::RestInside(const MovedPatch &moved, const PatchMaterial &material) {
 }
 
 PatchMaterial::PatchMaterial(const MovedPatch &moved)
-    // A patch of arcs whose bulge is 0 in both states equals the Coons patch of its sides at the same (u, v). Only a patch
-    // with a bulge is therefore treated as a patch of arcs.
+    // A patch of arcs whose bulge is 0 in both states equals the Coons patch of its sides at the same (u, v). Only a patch with a
+    // bulge in one of the states is therefore treated as a patch of arcs.
     : has_arcs(moved.now.patches[moved.patch].bulge != 0 || moved.before.patches[moved.patch].bulge != 0),
       v0(moved, &Patch::v0),
       v1(moved, &Patch::v1) {
@@ -280,7 +281,7 @@ class MovedSide {
 };
 
 // The lines of a grid in one direction, with additional lines between them. Between two lines, the step is halved as often as the
-// quads between these lines.
+// quads there are halved.
 class HalvedLines {
  public:
   HalvedLines(const Vector<GridLine> &lines, const Vector<int> &levels) : lines_(lines) {
@@ -332,7 +333,7 @@ Vector<Vec3> displacements_of(const MovedPatch &moved, const SideOnGrid &on, con
   const MovedSide side(moved, on.side, on.material);
   Vector<Vec3> points(lines.size(), Vec3{0, 0, 0});
   if (side.is_at_rest()) return points;
-  // The vertices of polylines are points of the curve, so they are known.
+  // Lines at vertices of the polyline end on known points of the curve.
   Vector<std::size_t> unknown;
   const Vector<std::size_t> &places = lines.places();
   bool has_unknown = false;
@@ -497,7 +498,7 @@ bool have_same_build(const PatchSet &now, const PatchSet &before) {
 PatchSet with_own_patches(const PatchSet &state, const PatchSet &like) {
   PatchSet made = state;
   made.seams.clear();  // the other state may lack the seams, which only change the last bits
-  // The patches of a warped valve are already separate.
+  // In a warped valve, each image already has a patch of its own.
   if (state.material.empty()) made = without_images(made);
   const Vector<std::int32_t> ids = ids_of(made);
   Vector<Patch> patches;

@@ -83,14 +83,14 @@ struct PatchMaterial {
   SideMaterial v0, v1, u0, u1;
 };
 
-// Returns how the map moves the offsets of a patch of arcs, minus how the offsets of the warped curves move. The polynomial is 0
-// for a patch without a warp.
+// Returns the displacement of the mapped offsets of a patch of arcs, minus the displacement of the warped curves' own offsets.
+// The polynomial is 0 for a patch without a warp.
 Through<Vec3> rest_of_offsets(const MovedPatch &moved, const SideMaterial &base, const SideMaterial &edge);
 
-// The map adds this part to the displacement inside a warped Coons patch. The added part is 0 at the sides. There are four inner
-// points, with u and v of 1/3 or 2/3. The displacement at an inner point is that of the material point which the map moves there.
-// This displacement follows from the mapped points beside the inner points (MappedInside). The excess over the Coons combination
-// of the sides is a polynomial of degree 3 in u and in v.
+// Inside a warped Coons patch, the displacement is the Coons combination of the sides plus this part. The part is 0 at the sides,
+// and is a polynomial of degree 3 in u and in v. Its values at four inner points, with u and v of 1/3 or 2/3, determine it. The
+// displacement at an inner point is that of the material point which the map moves there. It follows from the mapped point beside
+// the inner point (MappedInside).
 class RestInside {
  public:
   RestInside() = default;
@@ -111,10 +111,10 @@ class RestInside {
   std::array<Vec3, 4> rest_{};
 };
 
-// The displacement S_now(u,v) - S_before(u,v) of a patch at the vertices of its grid and of its subdivided quads. The two states
-// are evaluated on the smooth patches: directly on the sides, and inside as the same combination of the sides. Only (u,v)
-// identifies a point in both states, so the two states may have different triangles. SideMaterial matches the points of a warped
-// side. If the sides and the bulge did not change, the result is exactly 0.
+// The displacement S_now(u,v) - S_before(u,v) of a patch at the vertices of its grid and of its subdivided quads. Both states are
+// evaluated on the smooth patches. On the sides this is done directly, and inside by the patch's combination of its sides. Only
+// (u,v) identifies a point in both states, so the two states may have different triangles. SideMaterial matches the points of a
+// warped side. If the sides and the bulge did not change, the result is exactly 0.
 class PatchDisplacement {
  public:
   // Computes the displacements at the grid's vertices. The grid must have kept its lines.
@@ -151,8 +151,8 @@ class ImageVelocity {
   ImageVelocity(const PatchImage &now, const PatchImage &before, const Placement &placement_now,
                 const EarlierState &earlier);
 
-  // Returns the mean velocity of a point over the time between the two states. Before the image is placed, the point is at p
-  // now, and was at p - displacement before. If image and placement are at rest, no cancellation occurs.
+  // Returns the mean velocity of a point over the time between the two states. In the patch's own coordinates, the point is now
+  // at p, and was at p - displacement in the earlier state. If image and placement are at rest, no cancellation occurs.
   Vec3 velocity(Vec3 p, Vec3 displacement) const {
     const Vec3 moved = now_.linear * displacement + difference_.linear * (p - displacement) + difference_.offset;
     return {moved.x / seconds_, moved.y / seconds_, moved.z / seconds_};
@@ -180,13 +180,13 @@ Vector<double> moved_with_joints(const Vector<double> &lines, const Vector<doubl
 
 // Returns whether each patch has the same images in both states.
 bool have_same_build(const PatchSet &now, const PatchSet &before);
-// Gives each image of a state a patch of its own, in the order of the images of `like`, which has the same ids. Two states of one
-// valve may differ in how they are built: equal cusps are images of one half, and unequal cusps have separate patches.
+// Gives each image of a state a patch of its own. Two states of one valve may be built differently: equal cusps are images of one
+// half, and unequal cusps have separate patches. The patches get the order of the images of `like`, which has the same ids.
 PatchSet with_own_patches(const PatchSet &state, const PatchSet &like);
 // Fails with RIIS_INVALID_PARAMETER if the two states are built differently.
 void check_same_build(const PatchSet &now, const PatchSet &before);
-// Fails with RIIS_INVALID_PARAMETER if the images of the two states have different ids. If the ids are the same, with_own_patches
-// can bring both states to the same form. The message names the states.
+// Fails with RIIS_INVALID_PARAMETER if the images of the two states have different ids. States with the same ids can be brought
+// to one form by with_own_patches. The message names the states.
 void check_same_ids(const PatchSet &now, const PatchSet &before, const StateNames &names = {"valve_before", "valve"});
 
 }  // namespace riis

@@ -13,8 +13,8 @@
 namespace riis {
 namespace {
 
-// The joints of both curves of a patch of arcs, at the state of the surface and at another state. Among equal joints, the joints
-// of the base come first, as in Bulge::joints.
+// The joints of base and edge of a patch of arcs, in the surface's state and in another state. Of equal joints, that of the base
+// comes first, as in Bulge::joints.
 class MovedJoints {
  public:
   MovedJoints(const PatchSet &at, const PatchSet &state, std::size_t patch) {
@@ -27,8 +27,8 @@ class MovedJoints {
     std::stable_sort(joints_.begin(), joints_.end(), [](const Joint &a, const Joint &b) { return a.from < b.from; });
   }
 
-  // Returns the place, in the other state, of a line between two other lines. In an adapted grid, such a line is at a joint that
-  // is not too near an end, or else in the middle.
+  // A line cuts the range between two other lines: at a joint far enough from both ends, or else in the middle. Returns where
+  // this line is in the other state.
   double cut(double from, double to, double moved_from, double moved_to) const {
     for (const Joint &joint : joints_)
       if (joint.from > 0.875 * from + 0.125 * to && joint.from < 0.125 * from + 0.875 * to) return joint.to;
@@ -48,7 +48,7 @@ class MovedJoints {
   Vector<Joint> joints_;
 };
 
-// Moves the lines that an adapted grid of arcs has between the lines of its curves' vertices.
+// An adapted grid of arcs has lines at the vertices of its curves, and cuts between them. This class moves the cuts.
 class MovedCuts {
  public:
   MovedCuts(const MovedJoints &joints, const Vector<GridLine> &from, Vector<GridLine> &to)
@@ -76,7 +76,8 @@ class MovedCuts {
 Vector<GridLine> lines_in(const PatchSet &at, const PatchSet &state, std::size_t patch, const GridLines &lines) {
   Vector<GridLine> made = lines.u;
   if (lines.move_with_joints) {
-    // The lines of a skirt's strip move with the base of its patch of arcs, which is the strip's side v1.
+    // A skirt's strip beside a patch of arcs has its side v1 in common with this patch's base. The strip's lines move with this
+    // base.
     const auto side = at.patches[patch].skirt_of_arcs != no_patch ? &Patch::v1 : &Patch::v0;
     const Vector<double> moved = moved_with_joints(middles(made), joints_of(at, at.patches[patch].*side),
                                                    joints_of(state, state.patches[patch].*side));

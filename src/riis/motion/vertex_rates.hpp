@@ -12,8 +12,8 @@
 
 namespace riis {
 
-// A direction in which a valve changes. A direction has two states near the surface's state, and the difference of the parameter
-// between these states.
+// A direction in which a valve changes. It consists of two states near the surface's state, and of the parameter's difference
+// between the two.
 struct Direction {
   const PatchSet &after, &before;  // both states may be the same object
   Placement placement_after, placement_before;

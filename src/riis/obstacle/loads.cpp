@@ -20,14 +20,14 @@ namespace {
 
 constexpr std::int64_t nodes_per_block = 512;  // the search for nearest edges takes most of the time
 
-// The nodes of a leaflet lie nearly on a line if their root-mean-square distance from the line is less than `least_width` times
-// their root-mean-square distance from their middle. For other nodes, the condition number of the equations for the moment is at
-// most 1 / least_width^2, which is 1e4. If the nodes lie close together, their sums have lost digits. The nodes' root-mean-square
-// distance from the line must therefore also be at least `least_width_in_frame` times the frame's size.
+// The nodes' width is their root-mean-square distance from a line, and their extent is that from their middle. The nodes of a
+// leaflet lie nearly on a line if their width is less than `least_width` times their extent. Otherwise the equations for the
+// moment have a condition number of at most 1 / least_width^2 = 1e4. Sums over nodes that lie close together lose digits. The
+// width must therefore also be at least `least_width_in_frame` times the frame's size.
 constexpr double least_width = 0.01, least_width_in_frame = 0.001;
 
-// The edges that hold a leaflet, and a frame for its nodes: the middle of the edges, and a size. Nodes within the radius are at
-// most this size from the middle. All ranks have the same frame.
+// The edges that hold a leaflet, and a frame for its nodes: the middle of the edges, and a size. No node within the radius of the
+// edges is farther from the middle than this size. All ranks have the same frame.
 struct Hold {
   const NearestEdges *search;
   std::int32_t leaflet;
@@ -108,9 +108,9 @@ void check_width(const Loads &loads, const Hold &hold, double n_nodes, const std
        " from their middle; give a larger loads.radius, or more rows of nodes");
 }
 
-// Returns the field of a leaflet. Among all fields with the leaflet's force and moment, this field has the least sum of |force|^2
-// / w. About the nodes' middle, the equations for force and moment separate. Only a 3 x 3 matrix is left, which is diagonal in
-// the axes of the nodes' covariance.
+// Returns the field of a leaflet. Many fields have the leaflet's force and moment. This one has the least sum of |force|^2 / w.
+// With moments about the nodes' middle, force and moment have separate equations. The equations of the moment have a 3 x 3
+// matrix, which is diagonal in the axes of the nodes' covariance.
 Field field_of(const Loads &loads, const Hold &hold, Vec3 force, Vec3 moment, const double *sums) {
   for (std::int64_t k = 0; k < n_load_sums; ++k)
     if (!(std::abs(sums[k]) <= 1e120))
@@ -146,7 +146,7 @@ void add_load_sums(const Loads &loads, const Tissue &tissue, int n_threads, doub
   for (std::int64_t leaflet = 0; leaflet < loads.n_leaflets; ++leaflet) {
     const Hold hold = holds.of(static_cast<std::int32_t>(leaflet));
     const Vector<double> weights = weights_of(holds, hold, tissue, n_threads);
-    // A single thread adds the numbers in the order of the nodes, so that the bits do not depend on the number of threads.
+    // To get the same bits for any number of threads, a single thread adds the numbers in the order of the nodes.
     std::array<Sum, n_load_sums> added;
     for (std::int64_t i = 0; i < tissue.nodes.size(); ++i) {
       const double w = view(weights)[i];

@@ -30,8 +30,8 @@ struct Tissue {
 
 // Adds the sums of each leaflet to `sums`, (11, n_leaflets).
 void add_load_sums(const Loads &loads, const Tissue &tissue, int n_threads, double *sums);
-// Adds the forces to `node_force`, (3, n). The sums are over the nodes of all ranks. Fails with RIIS_INVALID_ARGUMENT for a
-// leaflet whose nodes are too few or lie nearly on a line, and then adds nothing.
+// Adds the forces to `node_force`, (3, n). The sums are over the nodes of all ranks. Fails with RIIS_INVALID_ARGUMENT if a
+// leaflet's nodes are too few or lie nearly on a line. After a failure, nothing has been added.
 void add_load_forces(const Loads &loads, const Tissue &tissue, int n_threads, const double *sums, double *node_force);
 
 }  // namespace riis

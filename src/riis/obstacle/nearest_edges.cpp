@@ -75,8 +75,8 @@ NearestEdges::Box NearestEdges::box_around(std::int64_t begin, std::int64_t end)
   return {{bounds.lower - margin, bounds.upper + margin}, begin, end, 0};
 }
 
-// Adds the boxes of order_[begin] to order_[end - 1]. A box with more than a few edges is split into two boxes. An edge goes to
-// one of the boxes by the place of its middle.
+// Adds the boxes of order_[begin] to order_[end - 1]. A box with more than a few edges is split into two boxes. The place of an
+// edge's middle decides to which box the edge goes.
 void NearestEdges::add(std::int64_t begin, std::int64_t end) {
   const std::int64_t own = view(boxes_).size();
   boxes_.push_back(box_around(begin, end));
@@ -105,10 +105,10 @@ std::int64_t NearestEdges::of(std::int32_t leaflet_id, Vec3 point) const {
   if (!tree) return -1;
   double least = std::numeric_limits<double>::infinity();
   std::int64_t nearest = -1;
-  // Rounding may put the distance of a box just above the distance of an edge in the box. The bound is therefore a little
-  // smaller, so the search never skips a box with an equally near edge.
+  // With rounding, a box may seem a little farther than an edge inside it. The bound is therefore made a little smaller, so that
+  // the search never skips a box with an equally near edge.
   const auto bound = [&](std::int64_t box) { return (1 - 1e-12) * view(boxes_)[box].bounds.distance_sq_to(point); };
-  std::array<std::int64_t, 64> open;  // boxes that are still to visit, at most one for each of the fewer than 64 levels
+  std::array<std::int64_t, 64> open;  // boxes still to be visited: at most one on each of fewer than 64 levels
   std::size_t n_open = 0;
   open[n_open++] = tree->root;
   while (n_open > 0) {

@@ -21,12 +21,12 @@ struct Edges {
   Vec3 middle(std::int64_t i) const { return mix(first(i), second(i), 0.5); }
 };
 
-// Checks the caller's edges, of which there must be at least one, and borrows their arrays. `owner` is the argument that has the
+// Checks the caller's edges and borrows their arrays. There must be at least one edge. `owner` is the argument that has the
 // edges.
 Edges checked_edges(const char *owner, std::int64_t n, const double *ends, const std::int32_t *leaflet_id);
 
-// Returns the squared distance from a point to an edge. If the nearest point is an end that two edges share, both edges give the
-// same bits.
+// Returns the squared distance from a point to an edge. If two edges share an end, and it is the nearest point, both edges give
+// the same bits.
 double distance_sq(const Edges &edges, std::int64_t edge, Vec3 point);
 
 // Building the trees takes a time of order n log n. A query usually takes a time of order log n. If all edges are equally near, a
@@ -41,8 +41,8 @@ class NearestEdges {
   bool has(std::int32_t leaflet_id) const { return tree_of(leaflet_id) != nullptr; }
 
  private:
-  // A box around the edges order_[begin] to order_[end - 1]. If `second` is 0, the box has no parts. In a box with parts, the
-  // next box of boxes_ holds the first half of the edges, and boxes_[second] holds the second half.
+  // A box around the edges order_[begin] to order_[end - 1]. If `second` is 0, the box is not split. Otherwise the next box of
+  // boxes_ holds the first half of the edges, and boxes_[second] holds the second half.
   struct Box {
     Bounds bounds;
     std::int64_t begin, end, second;

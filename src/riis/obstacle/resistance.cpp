@@ -23,8 +23,8 @@ double coefficient_at(const Resistance &resistance, double distance) {
   return resistance.factor * (1 + cosine_of_pi(distance / eps)) / (2 * eps);
 }
 
-// Returns the derivative of K with respect to the distance from the middle of the band. K is flat in the middle and at the edge
-// of the band. The sine is computed from the nearer of these two places, where it loses fewer digits.
+// Returns the derivative of K with respect to the distance from the middle of the band. The derivative is a sine, which is 0 in
+// the middle and at the edge of the band. Measured from the nearer of these places, its angle loses fewer digits.
 double slope_at(const Resistance &resistance, double distance) {
   const double eps = resistance.band.half_thickness;
   if (!(distance < eps)) return 0;
@@ -32,7 +32,7 @@ double slope_at(const Resistance &resistance, double distance) {
   return -(resistance.factor / (2 * eps)) * (pi / eps) * sine;
 }
 
-// With a cut rim, nodes whose closest point is on the rim lie beyond the rim. Without a cut rim, no node lies beyond the rim.
+// Only a cut rim leaves nodes beyond it: the nodes whose closest point is on the rim.
 bool is_beyond_rim(const Resistance &resistance, const ListedNodes &list, std::int64_t i) {
   return resistance.cuts_rim && view(list.fields.rim)[i];
 }
@@ -43,7 +43,7 @@ double distance_from_middle(const Band &band, const ListedNodes &list, std::int6
   const double distance = view(list.nodes.distance)[i];
   if (!band.steps_aside()) return distance;
   const double height = view(list.fields.height)[i];
-  // The two tests of the band agree only up to rounding, and an unmarked node must never resist.
+  // An unmarked node must never resist. Rounding alone may put its computed distance from the middle below the half thickness.
   return band.holds(distance, height) ? band.distance_from_middle(distance, height) : band.half_thickness;
 }
 
@@ -124,8 +124,8 @@ void add_sums(const Vector<Wrench> &sums, double *force, double *moment) {
   }
 }
 
-// Compares n_leaflets with the leaflets of the surface, not with the leaflets of the nodes. All ranks then refuse a wrong
-// n_leaflets, even a rank without a node of the last leaflet.
+// Compares n_leaflets with the leaflets of the surface. A rank may have no node of the last leaflet, but all ranks must refuse a
+// wrong n_leaflets.
 void check_leaflets(const Marks &marks, const riis_reaction &to) {
   const std::int32_t last = marks.leaflet_ids.empty() ? -1 : marks.leaflet_ids.back();
   if (to.n_leaflets <= last)
@@ -133,8 +133,8 @@ void check_leaflets(const Marks &marks, const riis_reaction &to) {
          "; n_leaflets must be larger");
 }
 
-// Refuses a surface that lacks the closest triangle of a node. A surface passes after an update that kept the ids and leaflets of
-// its triangles.
+// Refuses a surface that lacks the closest triangle of a node. An updated surface passes if its triangles have kept their ids and
+// leaflets.
 void check_closest_triangles(const Marks &marks, const TriangleSet &triangles, const TrianglePositions &positions) {
   const NodeList &nodes = marks.within.nodes;
   for (std::int64_t i = 0; i < nodes.size(); ++i) {
@@ -181,7 +181,7 @@ Vector<std::int64_t> nearest_edges(const Marks &marks, const Resistance &resista
 Resistance checked_resistance(const riis_resistance &resistance, const char *name, const Band &band,
                               double distance_limit) {
   check_range(name, "R", resistance.R, 0, 1e60);
-  // R is that small if a caller passes a constant in single precision as a double. The band would then not resist.
+  // Such a small R arises if a number in single precision is read as a double. The band would then not resist.
   if (resistance.R > 0 && resistance.R < 1e-300)
     fail(RIIS_INVALID_ARGUMENT, name, ".R is ", resistance.R,
          "; it must be 0, or from 1e-300 to 1e+60. Is it a REAL*4 or a float?");
@@ -234,7 +234,7 @@ void add_resistance(const Marks &marks, const Resistance &resistance, const riis
   if (adds_k_u) require_field(marks, RIIS_FIELD_VELOCITY, "RIIS_FIELD_VELOCITY", "arrays.K_u_surface");
   const auto node_id = view(marks.within.nodes.node_id);
   const double *velocity = marks.within.fields.velocity.data();
-  // If the three components of a node are adjacent, they share a cache line, and one prefetch serves all three.
+  // If a node's three components are adjacent, one prefetch serves all of them.
   const int n_lines = adds_k_u && to.K_u_surface[1] == to.K_u_surface[0] + 1 ? 1 : 3;
   const int n_threads = marks.n_threads.for_part(node_id.size(), few_nodes);
   parallel_for_ranges(node_id.size(), nodes_per_block, n_threads, [&](const Range &range, int) {
@@ -265,7 +265,7 @@ void add_reaction(const Marks &marks, const Resistance &resistance, const riis_f
   Vector<Wrench> of_leaflet(static_cast<std::size_t>(wants_leaflets ? to.n_leaflets : 0));
   Vector<Wrench> of_edge(static_cast<std::size_t>(edges.n));
   const Vec3 about{to.about[0], to.about[1], to.about[2]};
-  // A single thread adds the forces in the order of the nodes, so that the bits do not depend on the number of threads.
+  // To get the same bits for any number of threads, a single thread adds the forces in the order of the nodes.
   for_each_force(marks, resistance, flow, [&](std::int64_t i, Vec3 force) {
     const Vec3 point = wants_points ? vector_at(marks.within.fields.point, i) : Vec3{0, 0, 0};
     const Vec3 moment = cross(point - about, force);

@@ -26,8 +26,8 @@ void list_resistance(const Resistance *resistance, const WantedData &data, const
 // Each of the next five functions fails with RIIS_INVALID_ARGUMENT if the marks lack data that it needs.
 Resistance checked_resistance(const riis_resistance &resistance, const Marks &marks);
 void add_resistance(const Marks &marks, const Resistance &resistance, const riis_resistance_arrays &to);
-// Adds the flow's force on the surface, and its moments. Also fails, and adds nothing, if the reaction's edges or n_leaflets do
-// not fit the surface.
+// Adds the flow's force on the surface, and its moments. Also fails if the reaction's edges or n_leaflets do not fit the surface,
+// and has then added nothing.
 void add_reaction(const Marks &marks, const Resistance &resistance, const riis_flow_arrays &flow,
                   const riis_reaction &to);
 // Adds the flow's force on each vertex of the triangles with which the nodes were marked. Also fails if the triangles lack the

@@ -38,7 +38,7 @@ class Minimizer final : public PatchDistance {
     double width, height;  // bounds of |S_u| and |S_v|
   };
 
-  // Replaces `best` if the patch's local minimum is lower.
+  // Replaces `best` if the local minimum on this patch is lower.
   void query(std::int64_t patch, Vec3 p, ClosestOnPatches &best) const;
   double lower_bound(const Bounds &box, Vec3 p) const;
 
@@ -75,8 +75,8 @@ void Minimizer::query(std::int64_t patch, Vec3 p, ClosestOnPatches &best) const 
     const Vec3 d = to_surface(at);
     return dot(d, d);
   };
-  // Returns the step along a line that moves the point S by at most a tenth of `enough`. A step shorter than 1e-9 would be lost
-  // in the rounding of the squared distance.
+  // Returns a step along a line. The step moves the point S by at most a tenth of `enough`. A step shorter than 1e-9 would be
+  // lost in the rounding of the squared distance.
   const auto step_of = [&](Parameters along) {
     const double speed = std::abs(along.u) * extents.width + std::abs(along.v) * extents.height;
     const double longest = std::max(std::abs(along.u), std::abs(along.v));
@@ -88,8 +88,8 @@ void Minimizer::query(std::int64_t patch, Vec3 p, ClosestOnPatches &best) const 
 }
 
 ClosestOnPatches Minimizer::closest(Vec3 p, double limit) const {
-  // Starts with the patch whose box is nearest. No point of a patch is nearer than the patch's box, so most other patches need no
-  // search.
+  // Starts with the patch whose box is nearest. No point of a patch is nearer than the patch's box, so most of the other patches
+  // are then too far to be searched.
   const auto extents = view(extents_);
   std::int64_t first = 0;
   double nearest = std::numeric_limits<double>::infinity();

@@ -29,8 +29,8 @@ struct PlacedPatch {
   bool is_turned_over;  // S_u x S_v points against the normal
 
   Vec3 at(double u, double v) const { return evaluate(grid, u, v); }
-  // Returns the unit normal by the right-hand rule of the triangles, or 0 if S has no normal there, for example at a
-  // collapsed side. On a grid line, the function returns the normal of the quad after the line.
+  // Returns the unit normal by the right-hand rule of the triangles. Returns 0 where S has no normal, for example at a collapsed
+  // side. On a grid line, the function returns the normal of the quad after the line.
   Vec3 normal_at(double u, double v) const;
 };
 
@@ -89,8 +89,8 @@ class PatchDistance {
   // Returns false only if the surface certainly has no point within the limit of p.
   virtual bool may_be_within(Vec3 p, double limit) const = 0;
 
-  // Returns true if the method measures the distance to the same set of points for every p. The results for two points then
-  // differ by at most the distance between them.
+  // Returns true if the method measures the distance of every p to one fixed set of points. The results for two points then
+  // differ by at most the distance between the points.
   virtual bool is_of_fixed_points() const = 0;
 
   virtual const char *name() const = 0;
@@ -130,14 +130,14 @@ struct SampleCounts {
 // parallelogram with the sides h_u S_u and h_v S_v, anywhere on S.
 double covering_radius(const QuadGrid &grid, double h_u, double h_v);
 
-// Returns the smallest numbers of steps that keep the covering radius within `radius`. The ratio of these two numbers is the
-// ratio of the patch's width to its height. The result may exceed max_samples.
+// Returns the smallest numbers of steps in u and v that keep the covering radius within `radius`. Their ratio is the ratio of the
+// patch's width to its height. The result may exceed max_samples.
 SampleCounts samples_within(const QuadGrid &grid, double radius);
 
 class SampleSet final : public PatchDistance {
  public:
-  // Every distance differs from the distance to the smooth surface by at most max_error, in mesh units. The covering radius is
-  // max_error minus the patches' own error. Fails with RIIS_LIMIT_EXCEEDED for more than max_samples.
+  // Makes samples whose distances differ from those to the smooth surface by at most max_error, in mesh units. The covering
+  // radius is therefore max_error minus the patches' own error. Fails with RIIS_LIMIT_EXCEEDED for more than max_samples.
   SampleSet(PlacedPatches patches, double max_error);
 
   ClosestOnPatches closest(Vec3 p, double limit) const override;
@@ -151,8 +151,8 @@ class SampleSet final : public PatchDistance {
  private:
   static constexpr std::int64_t samples_per_leaf = 64;
 
-  // A box around the samples of a leaf, or around two other nodes of the tree. In the array of nodes, the first child follows its
-  // parent.
+  // A box around the samples of a leaf, or around two other nodes of the tree. In the array, the first of these two nodes follows
+  // directly.
   struct Node {
     Bounds box;
     std::int32_t second = -1;  // the position of the second node, or -1 in a leaf

@@ -91,8 +91,8 @@ std::array<double, 2> minimum_on_segment(const Function &f, double low, double h
 }
 
 // Minimises f >= 0 over [0,1]^2 from a start in the square. Each line is searched over its whole segment in the square. The
-// search also evaluates both ends of the segment, because closest points at the rim are common, and Brent's method only
-// approaches the ends. step_of(d) returns the allowed error of a line search along d, in units of d.
+// search also evaluates both ends of the segment. Brent's method only approaches the ends, but closest points at the rim are
+// common. step_of(d) returns the allowed error of a line search along d, in units of d.
 template <class Function, class StepOf>
 LocalMinimum minimize_by_powell(const Function &f, Parameters start, double enough, const StepOf &step_of) {
   LocalMinimum best{start, f(start)};

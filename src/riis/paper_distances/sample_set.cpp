@@ -37,8 +37,8 @@ SampleCounts samples_within(const QuadGrid &grid, double radius) {
   const Speeds speeds = largest_speeds(grid);
   const double h_u = std::min(1.0, radius / speeds.u), h_v = std::min(1.0, radius / speeds.v);
   const double of_squares = covering_radius(grid, h_u, h_v);
-  // The covering radius is proportional to the two steps, so both steps are multiplied by the factor that makes it equal to
-  // `radius`. A step above 1 counts as a step of 1.
+  // The covering radius is proportional to the two steps, so one factor for both makes this radius equal to `radius`. A step
+  // above 1 counts as a step of 1.
   const double factor = of_squares > 0 ? radius / of_squares : 1;
   return {n_steps(factor * h_u), n_steps(factor * h_v)};
 }
@@ -131,8 +131,8 @@ void SampleSet::visit(std::int32_t at, Query &query) const {
       std::swap(near, far);
       std::swap(to_near, to_far);
     }
-    // A box that is exactly as far as the nearest sample is also visited. The first of several equally near samples is
-    // therefore found in any order of visits.
+    // A box that is exactly as far as the nearest sample is also visited. Of several equally near samples, any order of visits
+    // thus finds the first.
     if (to_near <= query.most) visit(near, query);
     if (to_far <= query.most) visit(far, query);
     return;

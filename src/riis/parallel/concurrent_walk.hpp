@@ -18,9 +18,9 @@
 #include "parallel/threads.hpp"
 
 // Implements concurrent_walk with standard threads for the thread sanitizer, which does not understand TBB. This version
-// guarantees no more order than TBB does. A range runs after the call of add() that added it, and the walk ends after all its
-// ranges. All other counting uses relaxed atomics, because they impose no order. A lock around a common queue would impose an
-// order on the bodies, and thus hide their races.
+// guarantees only the order that TBB guarantees: a range runs after the call of add() that added it, and the walk ends after all
+// its ranges. Everything else is counted by relaxed atomics, which impose no order. A lock around a common queue would put the
+// bodies in order, and thus hide their races from the sanitizer.
 namespace riis {
 
 // An array of slots for any number of ranges. A slot keeps its address.

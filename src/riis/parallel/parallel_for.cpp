@@ -17,11 +17,11 @@
 namespace riis {
 namespace {
 
-// The blocks of a loop. Each thread begins with its own share of the blocks, and then helps with the other shares. If the last
-// loop used the same data, each thread finds most of its data in its own cache. The blocks of a share are handed out in
-// ascending order. If a body throws, no higher block begins, and the exception of the lowest block is rethrown after the loop.
-// A single thread would meet the same exception, because all lower blocks are completed. Every block is run, because the calling
-// thread goes through all shares in ascending order.
+// The blocks of a loop. Each thread begins with its own share of the blocks, and then helps with the other shares. A thread
+// therefore finds most of its data in its own cache if the previous loop used the same data. The blocks of a share are handed out
+// in ascending order. If a body throws, no higher block begins, but all lower blocks are completed. After the loop, the exception
+// of the lowest failed block is rethrown, which is the exception that a single thread would meet. No block is forgotten, because
+// the calling thread goes through all shares in ascending order.
 class Blocks {
  public:
   Blocks(std::int64_t n_blocks, int n_threads, LoopBody body)
@@ -66,7 +66,7 @@ class Blocks {
   }
 
  private:
-  static constexpr std::int64_t most_shares = 64;  // further threads share these shares, which take 4 kB of the stack
+  static constexpr std::int64_t most_shares = 64;  // further threads also use them; 64 shares take 4 kB of the stack
   struct alignas(64) Share {
     std::atomic<std::int64_t> next;
     std::int64_t end;
@@ -98,9 +98,9 @@ std::int64_t nanoseconds() noexcept {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
 }
 
-// With one thread, the calling thread runs the loop without OpenMP, because OpenMP's run-time ends the process if it lacks
-// memory. If there are fewer blocks than threads, some threads stay idle. A smaller team would be slower: GCC's run-time ends the
-// threads that are left out, so the next loop has to wait for new threads.
+// For one thread, the calling thread runs the loop without OpenMP, whose run-time ends the process if memory is lacking. If there
+// are fewer blocks than threads, some threads stay idle. Fewer threads would be slower: GCC's run-time ends the threads that a
+// loop leaves out, so the next loop has to wait for new threads.
 int openmp_for(std::int64_t n_blocks, int n_threads, LoopBody body, TimesOfCaller *of_caller) {
   if (n_blocks <= 1 || n_threads == 1 || !begin_threads()) return run_alone(n_blocks, body);
   Blocks blocks(n_blocks, n_threads, body);
@@ -152,11 +152,12 @@ int parallel_for(std::int64_t n_blocks, int n_threads, LoopBody body) {
   if (n_blocks <= 1 || n_threads == 1) return run_alone(n_blocks, body);
   if (omp_in_parallel() || omp_get_proc_bind() != omp_proc_bind_false) return openmp_for(n_blocks, n_threads, body);
 #if defined(RIIS_STD_THREADS)
-  // Under the thread sanitizer, a team always runs the loops of a time step, so that the sanitizer examines teams.
+  // Under the thread sanitizer, teams run all loops of a time step, so that the sanitizer examines the teams.
   return team_for(n_blocks, n_threads, body, loop_choice);
 #else
   const std::int64_t begin = nanoseconds();
-  // If there are more threads than processors, the threads wait for each other in every loop of OpenMP.
+  // With more threads than processors, some thread waits for a processor in every loop of OpenMP, and all others wait for this
+  // thread.
   if (n_threads > processors_of_machine() || loop_choice.takes_team(begin))
     return team_for(n_blocks, n_threads, body, loop_choice);
   TimesOfCaller of_caller{begin, begin};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Loops over a fixed number of blocks. The exhaustive search and the loops of a time step run on OpenMP's threads. After a long
-// wait for one of these threads, the loops of a time step run on a team for some time. Only parallel_for.cpp uses OpenMP.
+// Loops over a fixed number of blocks. The exhaustive search and the loops of a time step run on OpenMP's threads. If a loop had
+// to wait long for one of these threads, the loops of a time step run on a team for some time. Only parallel_for.cpp uses OpenMP.
 #pragma once
 
 #include <cstdint>
@@ -17,9 +17,9 @@ int default_thread_count() noexcept;
 // Returns the number of the machine's processors, including processors outside the calling thread's affinity mask.
 int processors_of_machine() noexcept;
 
-// By default a call uses one more thread for each 4096 triangles, 2048 points or 16,384 nodes, which take half a millisecond or
-// more. On a quiet machine, waking a thread and waiting for it takes a hundredth of that time. On a busy machine the wait may
-// last as long as another process keeps the processor.
+// By default a call uses one more thread for each 4096 triangles, 2048 points or 16,384 nodes. So much work takes half a
+// millisecond or more. On a quiet machine, waking a thread and waiting for it takes a hundredth of that time. On a busy machine
+// the wait may last as long as another process keeps the processor.
 constexpr std::int64_t triangles_per_thread = 4096, points_per_thread = 2048;
 constexpr std::int64_t nodes_per_thread = 16384;  // nodes of a mesh, or cells or faces
 
@@ -30,8 +30,8 @@ inline Threads threads_for(std::int32_t n_threads, std::int64_t n_items, std::in
                        : Threads::by_default(n_items, per_thread, has_lost_threads() ? 1 : default_thread_count());
 }
 
-// Refers to a function object body(block, thread) of any type. The object must live as long as the loop. Each loop is therefore
-// compiled once, and not once for each body, and a block costs one call through a pointer.
+// Refers to a function object body(block, thread) of any type, which must live as long as the loop. The loops take this
+// reference, so they are compiled once and not once for each body. A block costs one call through a pointer.
 class LoopBody {
  public:
   template <class Body>
@@ -56,8 +56,8 @@ struct TimesOfCaller {
 
 // Runs body(block, thread) once for every block in [0, n_blocks) on up to n_threads threads of OpenMP, and returns how many
 // threads ran. If a body throws, the exception that a single thread would meet is rethrown after the loop. The caller's OpenMP
-// settings do not change. In a caller's parallel region, the loop uses as many threads as nested parallelism allows. If OpenMP
-// runs the loop, `of_caller` gets the times of the calling thread. This pointer may be null.
+// settings do not change. In a caller's parallel region, the loop uses as many threads as nested parallelism allows. Unless
+// `of_caller` is null, it gets the times of the calling thread if OpenMP runs the loop.
 int openmp_for(std::int64_t n_blocks, int n_threads, LoopBody body, TimesOfCaller *of_caller = nullptr);
 
 // Runs the same loop on a team (team.hpp), without waiting for a thread that another process delays. The calling thread first

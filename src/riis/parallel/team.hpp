@@ -17,12 +17,12 @@ namespace riis {
 int run_by_team(int n_threads, void (*work)(void *context, int thread), void *context);
 
 // Chooses between OpenMP's threads, a team and the calling thread. OpenMP's threads begin a loop sooner, and they also run the
-// caller's own loops. However, a loop of OpenMP waits for all its threads, even if another process keeps one of the processors
-// for long. After a long wait, teams run the loops for some time. If OpenMP then runs only a few loops before the next long wait,
-// the machine is busy, and teams run the loops for twice the time. A team also waits if another process interrupts its thread
-// inside a block. The calling thread therefore begins a team's loop alone. It calls the team only after it has worked for as long
-// as recent loops lost by calling their teams. There are two alternatives: the calling thread alone, or the team from the
-// beginning. If this team loses no more time than recent teams, the loop takes at most twice as long as with either alternative.
+// caller's own loops. However, a loop of OpenMP waits for all its threads, even if another process occupies one of the processors
+// for long. After a long wait, teams run the loops for some time, and then OpenMP again. If the next long wait comes after only a
+// few loops, the machine is busy, and teams run the loops for twice the time. A team also waits if another process interrupts its
+// thread inside a block. The calling thread therefore begins a team's loop alone. It calls the team only after it has worked for
+// some time: the mean time that recent loops lost by calling their teams. Suppose that the team of this loop loses no more than
+// this mean time. Then the loop takes at most twice as long as on the calling thread alone, or as on a team from the beginning.
 // All times are in nanoseconds.
 class LoopChoice {
  public:
@@ -35,9 +35,9 @@ class LoopChoice {
   bool has_recorded() const noexcept {
     return pause_.load(std::memory_order_relaxed) > 0 || n_served_.load(std::memory_order_relaxed) > 0;
   }
-  // Records that a loop of OpenMP ended now. Also records how long the calling thread waited for the other threads at the
-  // beginning and at the end of this loop. On a quiet machine the calling thread waits for one block at most, which takes less
-  // than a millisecond.
+  // Records that a loop of OpenMP ended now. `waited` is the time that the calling thread waited for the other threads, at the
+  // beginning and at the end of this loop. On a quiet machine it waits for one block at most, which takes less than a
+  // millisecond.
   void record(std::int64_t waited, std::int64_t now) noexcept {
     const int n_served = n_served_.load(std::memory_order_relaxed);
     if (waited < long_wait) {
@@ -51,14 +51,14 @@ class LoopChoice {
     until_.store(now + pause, std::memory_order_relaxed);
   }
 
-  // Returns how long the calling thread works alone in a loop that begins now. The time becomes shorter while no losses are
-  // recorded, so that teams are tried again.
+  // Returns how long the calling thread works alone in a loop that begins now. While no losses are recorded, this time becomes
+  // shorter, so that teams are tried again.
   std::int64_t time_alone(std::int64_t now) const noexcept {
     const double mean = mean_loss(now);
     return mean < least_loss ? 0 : static_cast<std::int64_t>(mean);
   }
   // Records a loop that called a team and ended now. `lost` is the time that the calling thread waited at the end, minus the time
-  // that the other threads' work would have taken it.
+  // that it would have needed for the other threads' work.
   void record_team(std::int64_t lost, std::int64_t now) noexcept {
     const double before = mean_loss(now), more = static_cast<double>(std::max<std::int64_t>(lost, 0)) - before;
     mean_loss_.store(before + more / loops_in_mean, std::memory_order_relaxed);
@@ -80,7 +80,7 @@ class LoopChoice {
   std::atomic<double> mean_loss_{0};
 };
 
-// The process's choice between OpenMP and a team. If several threads record loops at the same time, it is enough that one of the
+// The process's choice between OpenMP and a team. Several threads may record loops at the same time. It is enough if one of these
 // records is kept.
 extern LoopChoice loop_choice;
 

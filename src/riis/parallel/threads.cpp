@@ -17,13 +17,13 @@ void begin_child() {
   if (are_used) are_lost = true;
 }
 
-// Keeps the library's code in memory once threads may run it, even if a plug-in that uses riis is closed. On Linux the linker's
-// option -z nodelete does that (cmake/RiisPlatform.cmake). Darwin's linker has no option like -z nodelete. `address` is that of
-// some code or data of the library.
+// Keeps the library's code in memory once threads may run it, because the program may close a plug-in that uses riis. On Linux
+// the linker's option -z nodelete does that (cmake/RiisPlatform.cmake). Darwin's linker has no such option. `address` is the
+// address of any code or data of the library.
 void stay_loaded([[maybe_unused]] const void *address) noexcept {
 #if defined(__APPLE__)
-  // The library's file is opened a second time and never closed, so the loader keeps it. A program that contains a static riis
-  // does not need this, so a file that cannot be opened does no harm.
+  // The library's file is opened a second time and never closed, so the loader keeps it. If the file cannot be opened, the
+  // program contains a static riis, which needs no such protection.
   Dl_info file{};
   if (dladdr(address, &file) != 0) static_cast<void>(dlopen(file.dli_fname, RTLD_LAZY | RTLD_NOLOAD | RTLD_NODELETE));
 #endif
@@ -33,7 +33,7 @@ void stay_loaded([[maybe_unused]] const void *address) noexcept {
 
 bool begin_threads() noexcept {
   if (!are_used.load(std::memory_order_relaxed)) {
-    // Without memory for the handler, the library could not notice a fork, so it starts no threads in that case.
+    // Without this handler, the library could not notice a fork. If there is no memory for it, the library starts no threads.
     static const bool is_watched = pthread_atfork(nullptr, nullptr, begin_child) == 0;
     if (!is_watched) return false;
     stay_loaded(&are_used);

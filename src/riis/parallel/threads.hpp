@@ -16,8 +16,8 @@ class Threads {
  public:
   // A number that the caller requested.
   Threads(int n) : n_(n) {}  // NOLINT(google-explicit-constructor): most callers pass a number
-  // The number that the library chooses without a request: one thread, and one more for each `per_thread` items of the call's
-  // work, but at most `most`.
+  // The number that the library chooses without a request: one thread, and one more for each `per_thread` items of work. The
+  // number is at most `most`.
   static Threads by_default(std::int64_t n_items, std::int64_t per_thread, int most) {
     Threads made(static_cast<int>(std::min<std::int64_t>(1 + std::max<std::int64_t>(n_items, 0) / per_thread, most)));
     made.is_default_ = true;
@@ -36,16 +36,16 @@ class Threads {
 };
 
 // Returns whether this process may use several threads, and records the use. A child of fork() may not use several threads if the
-// library used several threads before the fork. The child lacks these threads, so the run-times of OpenMP and TBB would wait for
-// them for ever.
+// library used several threads before the fork. The run-times of OpenMP and TBB would wait for ever for these threads, because
+// the child lacks them.
 bool begin_threads() noexcept;
 
 // Returns whether this process is a child of fork() that may not use several threads.
 bool has_lost_threads() noexcept;
 
 // The pool (arena.hpp) keeps its arenas while at least one object of this type exists. Each handle that walks over a mesh or has
-// a scene of Embree owns such an object. When the last such object is destroyed, the arenas are freed, because TBB refuses to end
-// (tbb::finalize) while there are arenas.
+// a scene of Embree owns one. The arenas are freed with the last object, because TBB refuses to end (tbb::finalize) while there
+// are arenas.
 class KeepsArenas {
  public:
   KeepsArenas() noexcept;

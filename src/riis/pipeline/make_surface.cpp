@@ -37,8 +37,8 @@ double largest_difference(double triangle_error, const PatchDistance &distance) 
   return (triangle_error + distance.patches().largest_error()) * (1 + 1e-6);
 }
 
-// With an offset, the normals of neighbouring triangles must agree. The check makes the normals, which every marking with an
-// offset needs.
+// With an offset, the normals of neighbouring triangles must agree. The check computes the normals, but every marking with an
+// offset needs them anyway.
 void check_normals_agree(const Surface &surface) {
   if (!surface.band().steps_aside()) return;
   const std::array<std::int64_t, 2> triangles = surface.pseudonormals().disagreeing();
@@ -80,7 +80,7 @@ SurfaceSeconds make_surface(const Valve &valve, const EarlierValve *moved, const
   if (triangles.n_triangles() == 0) fail(RIIS_INVALID_PARAMETER, "the valve has no area");
   triangles.skirt = valve.has_skirt() ? skirt_leaflet(patches) : -1;
   const double seconds_triangles = stopwatch.lap();
-  // A method that measures distances without the triangles is made first, because it may be refused.
+  // If another method than the triangles measures distances, it is made first, because it may be refused.
   std::unique_ptr<const PatchDistance> distance;
   if (accuracy.measure != RIIS_MEASURE_TRIANGLES)
     distance = make_distance(patches, {accuracy.measure, accuracy.distance_error}, placement, request.flip_normals);
@@ -130,10 +130,10 @@ namespace {
 // The lines are chosen for `n_openings` openings, evenly spaced from 0 to 1.
 constexpr int n_openings = 33;
 // The chosen lines are then tested at `n_between` further openings between every two neighbouring openings. If the lines are too
-// coarse at some of these openings, the lines are chosen again, for these openings as well. The test is repeated at most
-// `n_trials` times.
+// coarse at some of the further openings, the lines are chosen again for all openings, these included. The test is repeated at
+// most `n_trials` times.
 constexpr int n_between = 7, n_trials = 4;
-// A limit on the number of patches, because the choice keeps the patches of all these openings in memory.
+// The choice keeps the patches of all these openings in memory, so the number of patches is limited.
 constexpr std::size_t max_patches = 10'000;
 // A warp may change after the triangles were planned, which also changes the error. The plan of a warped valve therefore uses
 // only `warped_share` of the allowed error.

@@ -24,8 +24,8 @@ class FixedTriangulation {
   // stages of the pipeline do, with a message that names the opening.
   FixedTriangulation(const Valve &valve, double max_error, int n_threads);
 
-  // Fails with RIIS_INVALID_PARAMETER if the valve differs from the plan's valve in anything except its opening and the values of
-  // its warp.
+  // Fails with RIIS_INVALID_PARAMETER if the valve is not the plan's valve. Only its opening and the values of its warp may
+  // differ.
   void check(const Valve &valve) const { valve_.check_same_but_for_opening(valve); }
   const TriangulationPlan &plan() const { return plan_; }
 
@@ -71,8 +71,8 @@ struct SurfaceSeconds {
 
 // Both functions named make_surface replace the content of `surface` and reuse its memory. After a failure, `surface` can only be
 // made again. The first function fails as the stages of the pipeline do. The first function also fails with
-// RIIS_INVALID_PARAMETER if the valve has no area, or if the valves of the two states are built differently. Without an earlier
-// state the vertices have no velocity. `fixed` is null if accuracy.is_fixed is false. With an offset, both functions fail with
+// RIIS_INVALID_PARAMETER for a valve without area, and for two states that are built differently. Without an earlier state the
+// vertices have no velocity. `fixed` is null if accuracy.is_fixed is false. With an offset, both functions fail with
 // RIIS_INVALID_SURFACE if two neighbouring triangles have opposite windings.
 SurfaceSeconds make_surface(const Valve &valve, const EarlierValve *moved, const SurfaceRequest &request,
                             const ValveAccuracy &accuracy, const FixedTriangulation *fixed, Surface &surface);

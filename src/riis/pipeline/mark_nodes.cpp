@@ -12,8 +12,7 @@
 namespace riis {
 namespace {
 
-// Returns whether clusters are faster. For a limit that leaves out most nodes, clusters pay off only from the second marking of a
-// mesh on.
+// Returns whether clusters are faster. If the limit leaves out most nodes, clusters pay off only from a mesh's second marking on.
 bool do_clusters_pay_off(const SearchRequest &request, bool is_first) {
   if (request.surface.other_distance()) return false;
   if (request.mesh.nodes().grid) return true;
@@ -100,8 +99,8 @@ SearchRun run(const SearchRequest &request, std::int32_t search, Marks &marks) {
   }
   switch (search) {
     case RIIS_SEARCH_NEIGHBOR: {
-      // A moving valve is near its last position, so the walk starts at the nodes that were found last. These nodes may belong to
-      // another mesh with the same number of nodes, but a wrong start does no harm.
+      // A moving valve is near its last position, so the walk starts at the nodes that were found last. If these belong to
+      // another mesh with as many nodes, the wrong start does no harm.
       const bool fits = marks.stats.n_nodes == request.mesh.nodes().n;
       return {search, search_neighbors(request, fits ? marks.within.nodes.node_id : nowhere, marks.neighbor_scratch,
                                        marks.found)};
@@ -148,8 +147,8 @@ void take_marked(const Band &band, const FieldSet &fields, const ListedNodes &fr
   to.fields.resize(fields, n);
 }
 
-// Gives both lists room for their new entries. If one list lacks room, both lists are replaced by new lists, after all memory for
-// the new lists was reserved.
+// Gives both lists room for their new entries. If either list lacks room, two new lists replace both lists, once all memory for
+// the new lists is reserved.
 void make_room(const WantedData &data, const OrderScratch::Counts &n, Marks &marks) {
   if (!marks.within.has_room(data, n.n_within) || !marks.marked.has_room(data, n.n_marked)) {
     ListedNodes within, marked;

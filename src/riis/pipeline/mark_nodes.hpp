@@ -16,7 +16,7 @@ struct MarkingRequest {
   std::int32_t search;           // RIIS_SEARCH_*
   std::int32_t fields;           // a sum of RIIS_FIELD_*
   const Resistance *resistance;  // null if not wanted
-  const Band *listed = nullptr;  // if not null, only the nodes of this band are listed; the band must step aside
+  const Band *listed = nullptr;  // null, or the band whose nodes alone are listed; it must step aside
 };
 
 // Marks the nodes. After a failure, the marks' lists keep their content and their addresses.

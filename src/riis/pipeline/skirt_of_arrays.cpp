@@ -25,8 +25,8 @@ constexpr const char *cure = ": name the attached vertices by arrays.attached";
 
 // ---- Attachment ----
 
-// Returns the corner of the edge's triangle at the place of a vertex. A corner of another triangle may lie at the same place, and
-// move elsewhere later.
+// Returns the corner of the edge's triangle at the place of a vertex. The vertex itself may be a corner of another triangle,
+// which can move elsewhere later.
 std::int64_t corner_at(const TriangleSet &set, std::int64_t triangle, std::int64_t vertex) {
   for (std::int64_t k = 0; k < 3; ++k) {
     const std::int64_t corner = view(set.vertex_id)[3 * triangle + k];
@@ -57,8 +57,8 @@ std::vector<OpenEdge> chosen_edges(const TriangleSet &set) {
   return std::move(best.edges);
 }
 
-// Returns the open edges between attached vertices. Each attached vertex must have such an edge, because a vertex without such an
-// edge was named by mistake.
+// Returns the open edges between attached vertices. Refuses an attached vertex without such an edge, because it was probably
+// named by mistake.
 std::vector<OpenEdge> named_edges(const TriangleSet &set, const UserFaces &faces) {
   std::int64_t n_places = 0;
   const auto place = distinct_positions(set, n_places);

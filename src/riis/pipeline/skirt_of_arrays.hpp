@@ -10,15 +10,15 @@
 
 namespace riis {
 
-// Finds the edges of the attachment, with the vertices of the arrays. Does nothing if there are no skirt and no attached
-// vertices. If the same faces get other vertices later, the attachment keeps these edges. Fails with RIIS_INVALID_SURFACE if the
+// Finds the edges of the attachment, with the vertices of the arrays. Does nothing if the arrays have neither a skirt nor
+// attached vertices. The edges stay the same when the vertices of the faces move later. Fails with RIIS_INVALID_SURFACE if the
 // faces do not determine the edges.
 void find_attachment(UserFaces &faces, const riis_surface_arrays &arrays);
 
-// Gives the placed triangles of these faces their attachment and their skirt. The outer vertices follow the caller's vertices.
-// The outer vertices have velocities if the caller's vertices have velocities. `scale` is the scale of the placement. Fails with
-// RIIS_INVALID_SURFACE if the outward direction is not determined, and with RIIS_INVALID_ARGUMENT for a length that does not fit.
-// Fails with RIIS_LIMIT_EXCEEDED for too many triangles, and if no larger leaflet_id is left.
+// Gives the placed triangles of these faces their attachment and their skirt. The outer vertices follow the caller's vertices,
+// and have velocities if the caller's vertices have them. `scale` is the scale of the placement. Fails with RIIS_INVALID_SURFACE
+// if the outward direction is not determined, and with RIIS_INVALID_ARGUMENT for a length that does not fit. Fails with
+// RIIS_LIMIT_EXCEEDED for too many triangles, and if no larger leaflet_id is left.
 void add_skirt_of_arrays(const UserFaces &faces, double scale, bool flip_normals, TriangleSet &set);
 
 }  // namespace riis

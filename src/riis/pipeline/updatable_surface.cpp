@@ -112,7 +112,7 @@ void UpdatableSurface::add_direction(const ValveDirection &direction, std::int32
 
 namespace {
 
-// A pair counts if its depth is at least `least_depth` half thicknesses, which is the default of riis_find_crossings.
+// Only pairs count whose depth is at least `least_depth` half thicknesses, as by default in riis_find_crossings.
 constexpr double least_depth = 1e-6;
 
 // Logs a warning if leaflets cross deeper than touching leaflets can. Returns whether it has logged a warning.
@@ -167,8 +167,7 @@ void CrossingWatch::look(const Valve &valve, const Surface &surface, int n_threa
   try {
     shape.is_said = say(valve, surface, n_threads);
   } catch (...) {
-    // The search ran out of memory. A lack of memory is no failure here, because the caller did not request the search and the
-    // surface is good.
+    // The search ran out of memory. This is no failure, because the caller did not request the search, and the surface is good.
   }
 }
 

@@ -18,12 +18,12 @@
 
 namespace riis {
 
-// Logs a warning if leaflets go through each other, once for each shape of the valve.
+// Logs a warning if leaflets go through each other. Each shape of the valve gets at most one warning.
 class CrossingWatch {
  public:
-  // For each shape, the function examines the first surface in each range of the opening, until it has logged a warning about the
-  // shape. Without a log function the search does nothing and allocates nothing. The search reports no failure, because the
-  // surface itself is good. If the search lacks memory, there is no warning.
+  // The openings are divided into ranges. For each shape, the function examines the first surface in each range, until it has
+  // warned about the shape. Without a log function the search does nothing and allocates nothing. The search reports no failure,
+  // because the surface itself is good. If the search lacks memory, there is no warning.
   void look(const Valve &valve, const Surface &surface, int n_threads) noexcept;
 
  private:
@@ -60,7 +60,7 @@ class UpdatableSurface {
   void update_from_keyframes(const Keyframes &frames, double time, double dt, bool skip_zero_area,
                              const SurfaceRequest &request);
 
-  // Switches the search for crossings off in the next updates, for shapes that the caller did not choose.
+  // Switches off the search for crossings in later updates, because the caller did not choose their shapes.
   void ignore_crossings() { ignores_crossings_ = true; }
 
   // Adds a direction to the surface of a valve, until the next update.

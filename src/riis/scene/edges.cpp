@@ -67,9 +67,8 @@ std::vector<OpenEdge> edges_of_one_triangle(const TriangleSet &set, const std::v
   return open;
 }
 
-// Cancels open edges that cover each other. A patch of triangles may have vertices inside the edges of its neighbour. A long edge
-// and the short edges that cover it run between the same two vertices. The search therefore follows the edges from one end to the
-// other.
+// Cancels open edges that cover each other. A patch of triangles may have vertices inside the edges of its neighbour. The short
+// edges that cover a long edge lead from one of its ends to the other. The search therefore follows them from end to end.
 class Cancelling {
  public:
   Cancelling(const TriangleSet &set, std::vector<OpenEdge> edges) : set_(set), edges_(std::move(edges)) {
@@ -90,7 +89,7 @@ class Cancelling {
   }
 
  private:
-  // A vertex, and the edges that have one of their ends there.
+  // For each vertex, the edges that begin there, or else those that end there. `end` says which.
   struct Ends {
     std::int64_t OpenEdge::*end;
     std::multimap<std::int64_t, std::size_t> with;
@@ -146,7 +145,7 @@ class Cancelling {
   Ends from_{&OpenEdge::from, {}}, to_{&OpenEdge::to, {}};
 };
 
-// The triangles around vertices, in groups that are connected by edges through the vertex.
+// The triangles around each vertex, in groups. Edges from the vertex connect the triangles of a group.
 class Fans {
  public:
   Fans(const TriangleSet &set, const std::vector<std::int64_t> &place, const std::set<std::int64_t> &vertices) {
@@ -291,8 +290,8 @@ std::vector<OpenEdge> longest_boundary(const TriangleSet &set) {
 
 namespace {
 
-// Finds the vertices on a side of a patch, in their order along the side. Two vertices of a subdivided quad may lie at the same
-// place. Only the first of such vertices is returned.
+// Finds the vertices on a side of a patch, in their order along the side. Vertices of a subdivided quad may lie at the same
+// place. Of these, only the first is returned.
 Vector<std::int64_t> vertices_on(const TriangleSet &set, std::int64_t begin, std::int64_t end, PatchRim side) {
   const std::int64_t of_along = side == rim_v0 || side == rim_v1 ? 0 : 1;
   const auto along = [&](std::int64_t id) { return view(set.uv)[2 * id + of_along]; };
@@ -383,7 +382,7 @@ Attachment attachment_of(const TriangleSet &set) {
 
 namespace {
 
-// Returns the open edges of each leaflet that are not on the outline of the orifice. Edges between two leaflets count as open.
+// Returns the open edges of each leaflet, except those on the outline of the orifice. Edges between two leaflets count as open.
 std::vector<EdgePart> free_edges_of_arrays(const TriangleSet &given) {
   const std::optional<TriangleSet> leaflets = given.skirt < 0 ? std::nullopt : std::optional(without_skirt(given));
   const TriangleSet &set = leaflets ? *leaflets : given;

@@ -20,12 +20,11 @@ struct OpenEdge {
 };
 
 // Returns the edges that only one triangle has, in the order of the triangles. If by_leaflet is true, only triangles of the same
-// leaflet count. If a vertex lies inside an edge of a neighbour, the edges on both sides cancel and are not open.
+// leaflet count. Short edges beside a neighbour's long edge cancel it, so none of them is open.
 std::vector<OpenEdge> open_edges(const TriangleSet &set, bool by_leaflet);
 
-// Returns the closed lines of open edges, each in order. If several lines meet in one vertex, each line continues along triangles
-// that it has not met before. The attachments of cusps that meet at commissures thus make one line, and their free edges make
-// another line.
+// Returns the closed lines of open edges, each in order. Where several lines meet in one vertex, a line continues along triangles
+// that it has not passed yet. If cusps meet at commissures, their attachments thus make one line, and their free edges another.
 std::vector<std::vector<OpenEdge>> closed_boundaries(const TriangleSet &set);
 // The closed line of open edges that encloses the largest vector area, and the size of the second largest vector area.
 struct LargestBoundary {
@@ -54,7 +53,7 @@ std::vector<SideLine> free_edges(const TriangleSet &set);
 // The attachment consists of the sides that Patch::attached names (valve/patches.hpp). A side that two patches share does not
 // belong to the free edge.
 std::vector<SideLine> attached_sides(const TriangleSet &set);
-// The boundary of the leaflets consists of free edges, attached sides, and all other sides that no other patch shares. The
+// The boundary of the leaflets consists of the free edges, the attached sides, and every other side that only one patch has. The
 // leaflet `skirt` does not count.
 std::vector<SideLine> boundary_sides(const TriangleSet &set, std::int32_t skirt);
 

@@ -32,12 +32,11 @@ std::array<double, 3> angles_of(const TriangleMeasures &measures, int lane) {
   return {at_a, at_b, std::max(0.0, pi - at_a - at_b)};
 }
 
-// If faces are folded onto each other, their normals cancel up to rounding. In this case the triangle's own normal replaces the
-// sum.
+// The normals of faces that are folded onto each other cancel up to rounding. The triangle's own normal then replaces their sum.
 bool has_direction(Vec3 sum) { return dot(sum, sum) > 1e-18; }
 
-// Sorts edges by their second ends. Most lists are short and already in the order of their slots. Edges with equal ends keep that
-// order. The standard library's stable sort would allocate memory.
+// Sorts edges by their second ends. Most lists are short and already in the order of their slots. Edges with equal ends keep this
+// order. The sort is written out here, because the standard library's stable sort would allocate memory.
 template <class Edge>
 void sort_few(Edge *begin, Edge *end) {
   constexpr std::ptrdiff_t few = 32;
@@ -83,7 +82,7 @@ UnfilledShortVector<std::int32_t> distinct_positions(const TriangleSet &set, std
 
 Vec3 triangle_normal(const std::array<Vec3, 3> &corners) {
   const auto &[a, b, c] = corners;
-  // Scales the edges first, so that the numbers stay within the range of doubles for small and for large triangles.
+  // Scales the edges first. Even for very small or large triangles, the numbers then stay within the range of doubles.
   const Vec3 ab = b - a, bc = c - b, ca = a - c;
   const double longest = std::sqrt(std::max({dot(ab, ab), dot(bc, bc), dot(ca, ca)}));
   const Vec3 n = cross((1.0 / longest) * (b - a), (1.0 / longest) * (c - a));
@@ -129,7 +128,7 @@ Pseudonormals::Pseudonormals(const TriangleSet &set) {
   };
   UnfilledShortVector<Edge> edges;
   resize(edges, 3 * n);
-  // Lists are filled from their ends, so equal edges are in the order of their slots. The sums therefore have the same bits for
+  // Each list is filled from its end, which puts equal edges in the order of their slots. The sums thus have the same bits for
   // any numbering of the positions.
   for (std::int64_t slot = 3 * n; slot-- > 0;) {
     const auto [lower, upper] = ends_of(slot);
@@ -159,7 +158,7 @@ void Pseudonormals::note_rim(std::int64_t slot) {
   view(edge_is_rim_)[slot] = view(corner_is_rim_)[lower] = view(corner_is_rim_)[upper] = 1;
 }
 
-// Records two triangles whose edges with the same ends run in the same direction.
+// Records two triangles if both have the same edge in the same direction.
 void Pseudonormals::note_directions(std::int64_t slot, std::int64_t other) {
   if (disagreeing_[0] >= 0 || view(position_)[slot] != view(position_)[other]) return;
   disagreeing_ = {slot / 3, other / 3};
@@ -252,7 +251,7 @@ Pseudonormals::Rates Pseudonormals::rates_of(const TriangleSet &set, const doubl
   Rates made;
   resize(made.rim_edge, 3 * n);
   resize(made.corner, view(corner_).size());
-  // Edges of triangles that have the same two ends as some edge of the rim, ordered by their ends.
+  // The triangles' edges that lie on an edge of the rim, because they have the same two ends. They are ordered by their ends.
   struct Edge {
     Ends ends;
     std::int64_t slot;

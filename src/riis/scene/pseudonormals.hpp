@@ -21,8 +21,8 @@ UnfilledShortVector<std::int32_t> distinct_positions(const TriangleSet &set, std
 // Returns the unit normal of a triangle by the right-hand rule.
 Vec3 triangle_normal(const std::array<Vec3, 3> &corners);
 
-// Returns the side of the surface that a point is on: +1, -1 or 0. `way` is the vector from the closest point to this point, and
-// `normal` is the normal at the closest point.
+// Returns the side of the surface that a point is on: +1, -1 or 0. `way` leads from the closest point to the point, and `normal`
+// is the normal at the closest point.
 inline int side_of(Vec3 way, Vec3 normal) {
   const double height = dot(way, normal);
   return (height > 0) - (height < 0);
@@ -34,9 +34,9 @@ class Pseudonormals {
 
   Vec3 of_face(std::int64_t triangle) const { return view(face_)[triangle]; }
 
-  // The face, edge or vertex on which a closest point lies. The point's barycentric weights tell the edge or vertex. The normal
-  // may have any length. The rim of a valve consists of the sides that only one patch has (valve/rims.hpp). The rim of triangles
-  // from arrays consists of the edges that only one triangle has.
+  // The normal and the rim at a closest point. The point lies on a face, an edge or a vertex, as its barycentric weights tell.
+  // The normal may have any length. The rim of a valve consists of the sides that only one patch has (valve/rims.hpp). The rim of
+  // triangles from arrays consists of the edges that only one triangle has.
   struct Feature {
     Vec3 normal;
     bool is_on_rim;

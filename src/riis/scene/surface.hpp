@@ -33,8 +33,8 @@ struct SourceValve {
 
 class Surface {
  public:
-  // Makes the surface. Another call, such as after a motion, reuses the surface's memory. After a failure the surface must not be
-  // used.
+  // Makes the surface. A later call, for example after the valve has moved, reuses the surface's memory. After a failure the
+  // surface must not be used.
   void make(TriangleSet triangles, const Band &band, int n_threads);
   // Gives the triangles away, so that the next surface's triangles can reuse their memory.
   TriangleSet take_triangles() { return std::move(triangles_); }
@@ -98,12 +98,11 @@ class Surface {
   TriangleScene scene_;
   Band band_;
   std::vector<std::int32_t> leaflet_ids_;
-  // The area is computed on demand, because marking never needs it. If several threads compute the value at the same time, they
-  // get the same bits.
+  // The area is computed on demand, because marking never needs it. Threads that compute it at the same time get the same bits.
   mutable std::atomic<double> area_{not_known};
   std::optional<SourceValve> source_valve_;
   std::optional<PatchSet> patches_;
-  std::vector<std::vector<double>> rates_;  // the rates of the directions; later entries only keep their memory
+  std::vector<std::vector<double>> rates_;  // one for each direction; further entries only keep memory
   std::int64_t n_directions_ = 0;
   std::unique_ptr<const PatchDistance> other_distance_;
   double triangle_error_ = 0;

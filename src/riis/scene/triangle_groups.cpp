@@ -46,8 +46,8 @@ void TriangleGroups::make(const TriangleSet &set, const SurfaceFrame &surface_fr
   frame = surface_frame;
   const bool is_by_place = set.grouping.end.empty(), was_by_place = is_by_place_;
   is_by_place_ = is_by_place;
-  // If the number of triangles is unchanged, the triangles have probably only moved. Groups by position are therefore kept until
-  // they become much larger.
+  // An unchanged number of triangles suggests that they have only moved. Groups that were made by position are therefore kept,
+  // until their boxes become much larger.
   const bool is_kept = is_by_place && was_by_place && view(by_place_.order).size() == set.n_triangles();
   if (is_by_place && !is_kept) group_all_by_place(set, by_place_);
   bool are_same = enclose(is_by_place ? by_place_ : set.grouping, n_threads);

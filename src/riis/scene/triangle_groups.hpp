@@ -49,12 +49,12 @@ struct TriangleGroups {
   std::vector<TriangleGroup> groups;
   Bounds of_all;  // bounds of all corners, in the set's own coordinates
   std::vector<GroupBounds> bounds;
-  // Packs of groups_per_pack neighbouring groups in order. The last pack may have fewer groups. Only a pack's box along the
-  // coordinate axes, its longest edge and its corner are set. The corner belongs to one of the pack's groups.
+  // Packs of groups_per_pack neighbouring groups in order. The last pack may have fewer groups. A pack has only its box along the
+  // coordinate axes, its longest edge, and its corner, which is the corner of one of its groups.
   std::vector<GroupBounds> packs;
   float longest_edge = 0;
-  // True if each group has the same triangles as before and the groups are not much larger. Trees that were built over the groups
-  // then remain valid.
+  // True if the groups have the same triangles as before, and are not much larger than before. A tree over the groups then stays
+  // usable.
   bool are_as_before = false;
 
   // Copies the corners of a set's triangles, and computes their bounds.

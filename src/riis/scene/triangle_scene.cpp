@@ -36,7 +36,7 @@ struct Release {
 using Scene = std::unique_ptr<std::remove_pointer_t<RTCScene>, Release>;
 using Geometry = std::unique_ptr<std::remove_pointer_t<RTCGeometry>, Release>;
 
-// Returns the device that all surfaces of the process share, because making a device takes longer than making a small scene. The
+// Returns the one device of the process, which all surfaces share. Making a device takes longer than making a small scene. The
 // device exists as long as any surface exists. The device's default configuration leaves the number of threads to the caller's
 // TBB settings.
 std::shared_ptr<std::remove_pointer_t<RTCDevice>> shared_device() {
@@ -53,15 +53,15 @@ std::shared_ptr<std::remove_pointer_t<RTCDevice>> shared_device() {
   return device;
 }
 
-// For points more than `far_away` half extents from the centre, single precision cannot separate triangles. All triangles are
-// then queried.
+// A point more than `far_away` half extents from the centre is compared with all triangles, because single precision cannot
+// separate triangles there.
 constexpr double far_away = 1e6;
 
 // Returns the radius, in the frame's units, that makes Embree visit every triangle whose computed distance from q is at most
-// `distance`. In single precision, Embree compares the square of the radius with sums of squares, from the rounded point to
-// boxes rounded outwards. The unit roundoff is e = 2^-24. The point is off by at most sqrt(3) e max|q|. The relative error of
-// the subtractions, squares and sums is at most 6 e, and the relative error of the radius' square is at most e. The factor 1 +
-// 2^-20 = 1 + 16 e and the term 4 e max|q| cover these errors and the rounding of this function itself. `rounding` covers the
+// `distance`. Embree works in single precision. It compares the square of the radius with the squared distance from the rounded
+// point to a box, which is rounded outwards. The unit roundoff is e = 2^-24. The point is off by at most sqrt(3) e max|q|. The
+// relative error is at most 6 e for the subtractions, squares and sums together, and at most e for the radius' square. The factor
+// 1 + 2^-20 = 1 + 16 e and the term 4 e max|q| cover all these errors, and this function's own rounding. `rounding` covers the
 // rounding of the kernel. The term 2^-60 keeps the radius' square a normal float.
 float inflated_radius(double distance, Vec3 q, double rounding) {
   const double largest = largest_coordinate(q);
@@ -77,7 +77,7 @@ struct TriangleScene::Implementation {
   std::shared_ptr<std::remove_pointer_t<RTCDevice>> device = shared_device();
   MadeOnce<Scene> scene;
   Geometry geometry;
-  bool tree_fits = false;  // whether the tree, when it was last built, had the same groups
+  bool tree_fits = false;  // whether the tree was last built over the same groups
 
   // Returns Embree's tree over the groups. Builds the tree if no query has built it since the groups were made.
   RTCScene tree() {
@@ -118,7 +118,8 @@ __attribute__((noinline)) bool query_triangle(Query &query, std::int64_t triangl
   return true;
 }
 
-// Queries a triangle in a callback from Embree. No exception may pass through Embree. Only the lists of ties need memory.
+// Queries a triangle in a callback from Embree. No exception may pass through Embree. Only a lack of memory for the lists of ties
+// can throw one.
 template <bool keeps_ties>
 bool query_in_embree(Query &query, std::int64_t triangle) {
   if constexpr (keeps_ties) {
@@ -275,15 +276,15 @@ ClosestTriangle TriangleScene::find_closest(Vec3 p, double limit, InstructionSet
   Query query{&in, &kernels(instructions), p, q, largest, {infinity, -1}, ties, false};
   if constexpr (keeps_ties) ties->candidates.clear();
   if (!(largest <= far_away)) {
-    // In the frame's units, the coordinates of such a far point may overflow. The distance of a far point from the surface
-    // exceeds the surface's size, so most limits end the query here.
+    // In the frame's units, the coordinates of such a far point may overflow. Its distance exceeds the surface's size, so with
+    // most limits the query ends here.
     if (!may_be_within(p, limit)) return {infinity, -1};
     const std::int64_t n = view(in.groups.corners).size() / 9;
     for (std::int64_t i = 0; i < n; ++i) query_triangle<keeps_ties>(query, i);
   } else {
     double reach = limit;
     if (!(reach * frame.scale < 4 * far_away)) {
-      // If a limit is far beyond the surface's size, it would exclude nothing, so the distance of the first triangle replaces it.
+      // A limit far beyond the surface's size would exclude nothing, so the distance of the first triangle replaces it.
       query_triangle<keeps_ties>(query, 0);
       reach = std::sqrt(query.best.distance_sq);
     }

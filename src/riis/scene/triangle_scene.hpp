@@ -19,14 +19,14 @@
 
 namespace riis {
 
-// Ties: triangles that are as near to a point as its closest triangle, but belong to another leaflet, or to another patch of
-// the same leaflet (docs/theory/marks.md, "Equally near leaflets"). Only velocities need ties.
+// Ties: triangles that are as near to a point as its closest triangle (docs/theory/marks.md, "Equally near leaflets"). They
+// belong to other leaflets, or to other patches of its leaflet. Only velocities need ties.
 // The ties of a point do not depend on the order in which a search compares triangles.
 
 struct TieRule {
   const std::int32_t *leaflet_id = nullptr, *patch_id = nullptr;  // for each triangle; null if ties are not wanted
-  // Two distances count as equal if they differ by at most of_leaflets for two leaflets, or by at most of_patches for two patches
-  // of one leaflet.
+  // The most by which two distances that count as equal differ: of_leaflets for two leaflets, and of_patches for two patches of
+  // one leaflet.
   double of_leaflets = 0, of_patches = 0;
 
   bool is_tie(const ClosestTriangle &closest, const ClosestTriangle &other) const {
@@ -41,25 +41,25 @@ struct TieRule {
 };
 
 struct Tie {
-  std::int64_t point;  // the query point's number, which the search chooses; in the result the node
+  std::int64_t point;  // a number that the search gives the query point; in the result, the node
   ClosestTriangle triangle;
 };
 
-// The ties that one thread finds during a search. The ties contain the closest triangle of each tied patch, and perhaps farther
-// triangles.
+// The ties that one thread finds during a search. For each tied patch, they contain its closest triangle, and perhaps farther
+// triangles of the patch.
 struct Ties {
   TieRule rule;
   std::vector<Tie> candidates;  // ties of points that may still get nearer triangles
   std::vector<Tie> found;       // ties of nodes
 
   // Compares two triangles of a point, of which `closest` is the nearest so far. If `other` may be a tie, keeps it as a
-  // candidate. A triangle on the patch of `closest` is not needed: either this patch stays the nearest, or `closest` itself
-  // becomes a candidate.
+  // candidate. A triangle on the same patch as `closest` is not kept. If this patch does not stay the nearest, `closest` itself
+  // becomes the patch's candidate.
   void compare(std::int64_t point, const ClosestTriangle &closest, const ClosestTriangle &other) {
     if (other.triangle < 0 || !rule.is_tie(closest, other)) return;
     if (!candidates.empty()) {
-      // Triangles around a vertex are often compared one after another. Only the nearest of several candidates on one patch stays
-      // a candidate.
+      // Triangles around a vertex are often compared one after another. Of several candidates on one patch, only the nearest
+      // stays a candidate.
       Tie &last = candidates.back();
       if (last.point == point && rule.are_of_one_patch(last.triangle, other)) {
         if (is_closer(other.distance_sq, other.triangle, last.triangle)) last.triangle = other;
@@ -100,7 +100,7 @@ class TriangleScene {
 
   // Returns the closest triangle to p, or the triangle -1 if no triangle is within the limit. The limit is at least 0, and may be
   // infinite. The point p must be finite, with coordinates up to max_coordinate. Several threads may call this function at once.
-  // If `ties` is not null, its candidates become those of p.
+  // If `ties` is not null, its candidates are replaced by those of p.
   ClosestTriangle closest(Vec3 p, double limit, InstructionSet instructions = best_instruction_set(),
                           Ties *ties = nullptr) const;
 
@@ -127,8 +127,8 @@ class TriangleScene {
       for (int i = 0; i < view(in.bounds)[group].n; ++i) visit(view(in.bounds)[group].triangle[i]);
   }
 
-  // Bounds the error of a computed distance that comes from the rounding of the triangles' coordinates. Errors proportional to
-  // the distance and to |p| are not included in this bound.
+  // Bounds one part of a computed distance's error: the part that comes from rounding the triangles' coordinates. The parts that
+  // are proportional to the distance and to |p| are not included.
   double rounding() const { return rounding_; }
 
   struct Implementation;  // public, because Embree's callbacks use this type

@@ -21,11 +21,11 @@ struct Edge {
   bool operator==(const Edge &other) const { return a == other.a && b == other.b; }
 };
 
-// Returns a length such that no edge of at most this length leaks. If such an edge meets the surface in a point, the nearer node
-// of the edge is at most half the length from that point. The nearer node is thus within the half thickness and marked. With an
-// offset, only nodes within a smaller distance are certainly in the band, so the length is smaller. The margins are several times
-// the rounding, so this also holds for computed distances. Returns -1 if marks may be missing, or if the marks do not come from
-// the distances to the triangles. If the result is -1, no edge counts as short.
+// Returns a length up to which no edge leaks. If an edge of at most this length meets the surface in a point, one of its nodes is
+// at most half the length away from this point. This node is thus within the half thickness and marked. With an offset, the
+// length is smaller, because only nodes within a smaller distance are certainly in the band. With margins of several times the
+// rounding, the length is also right for computed distances. Returns -1, so that no edge counts as short, in two cases: marks may
+// be missing, or they come from other distances than those to the triangles.
 double length_that_cannot_leak(const Surface &surface, const Marks &marks) {
   if (surface.other_distance() || !marks.stats.complete) return -1;
   return 2 * surface.band().sure_distance() * (1 - 0x1p-40) - 4 * surface.scene().rounding();
@@ -57,7 +57,7 @@ struct alignas(64) Finder {
     return crosses;
   }
 
-  // With an offset, an edge across a sharp fold of the surface may have both ends outside the band on the same side.
+  // With an offset, an edge may cut across a sharp fold of the surface. Both its ends are then outside the band on the same side.
   bool only_cuts_off_fold(Vec3 p, Vec3 q) const {
     if (!request->surface.band().steps_aside()) return false;
     const NodePlace from = places->of(p), to = places->of(q);
@@ -65,7 +65,7 @@ struct alignas(64) Finder {
   }
 
   // Returns false only if no point of the surface is within the radius of p. One query with a radius often replaces the queries
-  // of many edges. The margin is several times the rounding. The margin includes the rounding of p, which lies near the surface.
+  // of many edges. The margin is several times the rounding, including the rounding of p, which lies near the surface.
   bool may_be_within(Vec3 p, double radius) const {
     const TriangleScene &scene = request->surface.scene();
     return scene.closest(p, radius * (1 + 1e-9) + 4 * scene.rounding(), request->instructions).triangle >= 0;
@@ -111,7 +111,7 @@ struct alignas(64) Finder {
       const Vec3 q = checked_node(nodes, j);
       const double length = distance(p, q);
       if (length <= too_short || !is_open(j)) return;
-      // Each edge is handled at the end with the lower number, even if it was found in the row of the other end.
+      // Each edge is examined from its lower node to its higher node, even if it was found in the row of the higher node.
       if (crosses(i < j ? p : q, i < j ? q : p) && !only_cuts_off_fold(p, q))
         found.push_back({std::min(i, j), std::max(i, j), length});
     });
@@ -187,7 +187,7 @@ Leaks listed(const SearchRequest &request, const std::vector<Edge> &edges) {
       view(list.node_id)[2 * i] = edge.a;
       view(list.node_id)[2 * i + 1] = edge.b;
       view(list.length)[i] = edge.length;
-      // The least half thickness that marks an end of the edge, with the same bits as in the marking.
+      // The least half thickness that marks either end of the edge, with the same bits as in the marking.
       view(list.distance)[i] =
           std::min(places.of(nodes[edge.a]).half_thickness, places.of(nodes[edge.b]).half_thickness);
     }

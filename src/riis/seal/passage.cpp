@@ -18,9 +18,10 @@
 namespace riis {
 namespace {
 
-// Nodes are ordered by the least half thickness that marks a node. Without an offset, this half thickness is the node's distance.
+// Each node is marked from some half thickness on, and the nodes are ordered by it. Without an offset, this half thickness is the
+// node's distance.
 
-// Returns the largest half thickness that marks one of the nodes. Refuses nodes in the band.
+// Returns the least half thickness that marks all of these nodes. Refuses nodes in the band.
 double largest_thickness(const SearchRequest &request, const char *name, ArrayView<const std::int64_t> ids) {
   constexpr std::int64_t nodes_per_task = 256, few = 2048;
   const int n_threads = request.n_threads.for_part(ids.size(), few);
@@ -53,7 +54,7 @@ struct Candidate {
   }
 };
 
-// An edge from `node` to `other` that is listed only in the row of `other`.
+// An edge between `node` and `other` that only the row of `other` lists.
 struct OneWayEdge {
   std::int64_t node, other;
 
@@ -94,8 +95,8 @@ class Opening {
     return is_joined();
   }
 
-  // Opens the closed nodes that are farther than `nearest` one by one, until a node joins the ends. Returns this node, or a
-  // candidate with the id -1 if no node joins the ends.
+  // Opens closed nodes one by one, among those that are farther than `nearest`, until a node joins the ends. Returns this node,
+  // or a candidate with the id -1 if none does.
   Candidate open_until_joined(double nearest) {
     const std::vector<OneWayEdge> one_way = one_way_edges();
     OpenSets sets = this->sets();
@@ -133,7 +134,8 @@ class Opening {
     return made;
   }
 
-  // Returns the edges to closed nodes whose own rows lack these edges. Most adjacencies are symmetric and have no such edges.
+  // Returns the edges that lead to closed nodes but are missing in these nodes' own rows. Most adjacencies are symmetric and have
+  // no such edges.
   std::vector<OneWayEdge> one_way_edges() {
     constexpr std::int64_t rows_per_task = 4096;
     if (Edges::is_symmetric) return {};
@@ -154,7 +156,7 @@ class Opening {
 
   const SearchRequest &request_;
   const Edges &edges_;
-  std::int64_t from_, to_;  // two extra nodes, each of which is joined to all nodes of one end
+  std::int64_t from_, to_;  // two extra nodes; each is joined to all nodes of one end
   std::vector<std::int64_t> from_ids_, to_ids_;
   Marks near_;
   UnfilledVector<std::int64_t> parent_;
@@ -167,15 +169,15 @@ template <class Edges>
 riis_passage find_passage_along(const SearchRequest &request, const Edges &edges, const PassageEnds &ends) {
   const auto start = std::chrono::steady_clock::now();
   const double half_thickness = request.surface.half_thickness(), beyond_all = thickest(request.surface.band());
-  // A path includes its ends. The least half thickness that marks a node of a path is therefore at most the half thickness that
-  // marks either end.
+  // A path includes its ends. The half thickness at which the first node of a path becomes marked is therefore at most the one
+  // that marks either end.
   const double widest =
       std::min(largest_thickness(request, "from", ends.from), largest_thickness(request, "to", ends.to));
   Opening<Edges> opening(request, edges, ends);
   double limit = half_thickness, beyond = -1, growth = 2;
   for (int step = 0; opening.joins_beyond(limit); ++step) {
     beyond = limit;
-    if (step >= 4) growth *= growth;  // if a surface is tiny compared with the mesh, the radius must grow faster
+    if (step >= 4) growth *= growth;  // the radius must grow faster for a surface that is tiny compared with the mesh
     limit = std::min(growth * limit, limit < widest ? widest : beyond_all);
   }
   const Candidate nearest = opening.open_until_joined(beyond);

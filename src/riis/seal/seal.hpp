@@ -51,15 +51,15 @@ struct OpenNodes {
   const std::vector<std::int64_t> &closed_id;  // in any order
 };
 
-// Writes a label for each row of the edges, and returns the number of regions. The label is the lowest node of the region,
-// or OpenSets::closed for a node in no region and for a number without a node. An edge may be in the row of one node or in the
-// rows of both nodes.
+// Writes a label for each row of the edges, and returns the number of regions. The label of a node is the lowest node of its
+// region. A node in no region, and a number without a node, have the label OpenSets::closed. An edge may be listed in the rows of
+// both its nodes, or of only one.
 template <class Edges>
 std::int64_t label_open_regions(const Edges &edges, const OpenNodes &open, int n_threads,
                                 ArrayView<std::int64_t> label);
 
 // Disjoint sets of nodes that several threads unite at the same time without locks. An array holds each node's parent, which is
-// a lower node. For any order of the unions, the root of a set is therefore its lowest node.
+// always a lower node. In whatever order sets are united, the root of a set is therefore its lowest node.
 class OpenSets {
  public:
   static constexpr std::int64_t closed = -1;  // the parent of a node that is in no set
@@ -96,13 +96,13 @@ class OpenSets {
       b = root(b);
       if (a == b) return;
       if (replace(a < b ? b : a, a < b ? b : a, a < b ? a : b)) return;
-      // Another thread has already given the higher root a parent, so the loop tries again.
+      // Another thread has given the higher root a parent meanwhile, so the loop tries again.
     }
   }
 
  private:
-  // Relaxed atomic operations are enough here. No other data depends on the parents, and the end of the parallel loop orders
-  // everything else.
+  // Relaxed atomic operations are enough here, because no other data depends on the parents. Everything else is ordered by the
+  // end of the parallel loop.
   std::int64_t load(std::int64_t node) const { return __atomic_load_n(&parent_[node], __ATOMIC_RELAXED); }
   bool replace(std::int64_t node, std::int64_t before, std::int64_t parent) {
     return __atomic_compare_exchange_n(&parent_[node], &before, parent, false, __ATOMIC_RELAXED, __ATOMIC_RELAXED);
@@ -111,8 +111,8 @@ class OpenSets {
   ArrayView<std::int64_t> parent_;
 };
 
-// The widest passage: the path from one set of nodes to another that stays farthest from the surface. The result has the path's
-// node that is nearest to the surface, and this node's distance.
+// The widest passage: the path from one set of nodes to another that stays farthest from the surface. The result is the node of
+// this path that is nearest to the surface, and this node's distance.
 
 // The two sets of nodes. Each set has at least one node, and no node of a set is masked out.
 struct PassageEnds {

@@ -10,9 +10,9 @@
 namespace riis {
 namespace {
 
-// An exact number: a sum of doubles that do not overlap, without zeros, in ascending order of magnitude (Shewchuk, "Adaptive
-// Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates", 1997). Sums and products are exact, because the
-// range of the coordinates excludes overflow and underflow.
+// An exact number, stored as doubles whose sum it is. The doubles are not 0, do not overlap, and ascend in magnitude (Shewchuk,
+// "Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates", 1997). Sums and products are exact,
+// because the range of the coordinates excludes overflow and underflow.
 template <int capacity>
 struct Exact {
   std::array<double, capacity> part;
@@ -54,8 +54,8 @@ Exact<2> difference(double a, double b) {
   return made;
 }
 
-// Adds the doubles of b one after another. Each pass appends at most as many parts as it has read. Therefore a pass overwrites
-// only parts that are no longer needed.
+// Adds the doubles of b one after another. Each pass appends at most as many parts as it has read, so it overwrites only parts
+// that are no longer needed.
 template <int n, int m>
 Exact<n + m> operator+(const Exact<n> &a, const Exact<m> &b) {
   Exact<n + m> sum;
@@ -117,8 +117,8 @@ Exact<4 * n> operator*(const Exact<n> &a, const Exact<2> &b) {
 
 int sign(double x) { return (x > 0) - (x < 0); }
 
-// Each coordinate is 0 or at least negligible_coordinate in magnitude. Underflow therefore changes a product of three coordinate
-// differences by far less than the constant `underflow`.
+// Each coordinate is 0 or at least negligible_coordinate in magnitude. A product of three coordinate differences therefore
+// changes by far less than the constant `underflow` if it underflows.
 constexpr double underflow = 1e-290;
 
 struct Point2 {
@@ -214,8 +214,8 @@ bool segment_meets_triangle(Vec3 a, Vec3 b, const std::array<Vec3, 3> &corners) 
   const int a_side = orientation(c[0], c[1], c[2], a), b_side = orientation(c[0], c[1], c[2], b);
   if (a_side * b_side > 0) return false;
   if (a_side == 0 && b_side == 0) return meets_in_plane(a, b, c);
-  // The segment's line meets the plane in one point. The point is in the triangle if all three edges are on the same side of the
-  // line.
+  // The segment's line meets the plane in one point. The point is in the triangle if the line passes all three edges on the same
+  // side.
   return agree(orientation(a, b, c[0], c[1]), orientation(a, b, c[1], c[2]), orientation(a, b, c[2], c[0]));
 }
 

@@ -18,8 +18,8 @@
 namespace riis {
 namespace {
 
-// The number of points that are sorted together. A large batch takes 2 MB of memory. Small batches are better if consecutive
-// points are near each other. Their leaves are then as compact as the leaves of large batches, and the points stay in the cache.
+// The number of points that are sorted together. A large batch takes 2 MB of memory. If consecutive points are near each other,
+// small batches are better: their leaves are as compact as those of large batches, and their points stay in the cache.
 constexpr std::int64_t points_per_batch = 1 << 16, points_per_small_batch = 1 << 13;
 
 constexpr std::int64_t points_per_block = 2048;
@@ -41,8 +41,8 @@ class ClosestPoints {
         to_(to) {}
 
   void write() {
-    // If memory runs out later, the points are queried one by one, which needs the tree. The tree is built now, so that a failure
-    // comes before anything is written.
+    // If memory runs out later, the points are queried one by one, which needs the tree. The tree is therefore built before
+    // anything is written.
     scene_.build_tree();
     const int n_threads = request_.n_threads;
     if (!are_enough_for_clusters(wanted_.n, surface_)) {
@@ -74,8 +74,8 @@ class ClosestPoints {
   }
   bool is_far(Vec3 p) const { return may_be_far_ && !(reach_of(p) <= far); }
 
-  // Returns whether consecutive points are near each other. They are if a small batch from the middle has, along some axis, at
-  // most half the extent of all points. The batch comes from the middle because many meshes begin with the nodes of their
+  // Returns whether consecutive points are near each other. A small batch from the middle shows it: along some axis, the batch
+  // has at most half the extent of all points. The batch comes from the middle because many meshes begin with the nodes of their
   // boundary. The function needs enough points for a small batch.
   bool follow_each_other() const {
     const std::int64_t begin = (wanted_.n - points_per_small_batch) / 2;
@@ -127,8 +127,8 @@ class ClosestPoints {
     write_one_by_one(range, n_threads, [](Vec3) { return true; });
   }
 
-  // Searches the points of a range over clusters, and writes them. Returns false before it writes anything if clusters cannot be
-  // used. If memory runs out, some points may be written.
+  // Searches the points of a range over clusters, and writes them. If clusters cannot be used, returns false and has written
+  // nothing. If memory runs out, some points may already be written.
   bool search(const Range &range, int n_threads, Batch &batch) const {
     Bounds bounds = wanted_.bounds;
     if (is_spread_) {
@@ -146,7 +146,8 @@ class ClosestPoints {
         for (std::int64_t k = range.begin + block.begin; k < range.begin + block.end; ++k)
           if (const std::int64_t i = wanted_.id(k); wanted_.is_wanted(i)) write_far(i, request_.far_distance, to_);
       });
-    // Each thread fills, searches and writes the points of one region after another, so that its cache holds these points.
+    // A thread fills, searches and writes the points of a region before it takes the next region, so that the points stay in its
+    // cache.
     const std::int64_t n = view(batch.items).size();
     const std::int64_t share = n_threads == 1 ? n : n / (4 * n_threads);
     const std::int64_t per_part =
@@ -185,9 +186,9 @@ class ClosestPoints {
     Bounds bounds;
   };
 
-  // Calls visit(k, point, place) for the wanted points of a range that may be within the limit, except for far points. The places
-  // k are counted from the first point of the range, which has k = 0. In each block, the visited points have consecutive places,
-  // beginning at the block's first k.
+  // Calls visit(k, point, place) for the wanted points of a range. Leaves out far points, and points that are certainly beyond
+  // the limit. The first point of the range has the place k = 0. Within a block, the visited points get consecutive places, from
+  // the block's first k on.
   template <class Visit>
   std::array<Block, points_per_batch / points_per_block> visit_blocks(const Range &all, int n_threads,
                                                                       const Visit &visit) const {

@@ -19,8 +19,8 @@ namespace {
 // At lengths above `large` in the surface's frame, single precision does not separate triangles.
 constexpr double large = 0x1p20;
 
-// If more than `most_groups` groups are near a leaf, querying each node is faster. Only large leaves near small triangles have so
-// many near groups.
+// If more than `most_groups` groups are near a leaf, querying each node is faster. So many groups are near only if a leaf is
+// large and the triangles near it are small.
 constexpr std::size_t most_groups = 4096;
 
 // Maps the mesh's frame to the surface's frame.
@@ -51,7 +51,7 @@ ClosestTriangle of_rank(Rank rank) {
   std::memcpy(&closest.distance_sq, &square, sizeof square);
   return closest;
 }
-// The processor cannot predict which triangle is closer, so the code has no branch.
+// The code has no branch, because the processor could not predict which triangle is closer.
 ClosestTriangle closer_of(const ClosestTriangle &a, const ClosestTriangle &b) {
   return of_rank(std::min(rank_of(a), rank_of(b)));
 }
@@ -153,8 +153,8 @@ class ClusterSearch {
     own_.prepare(request.n_threads, !is_stored);
   }
 
-  // Finds the clusters that may be near the surface. For each such cluster, lists the groups that may be near the cluster. For
-  // each such group, sets a bit for each leaf of the cluster that may be near the group.
+  // Finds the clusters that may be near the surface. For each such cluster, lists the groups that may be near the cluster. Each
+  // of these groups gets a bit for each leaf of the cluster that may be near it.
   void find_near_clusters() {
     std::int64_t n_near;
     if constexpr (is_stored) {
@@ -188,11 +188,11 @@ class ClusterSearch {
     n_threads_ = std::max(n_threads_, n_ran);
   }
 
-  // Searches with a limit that excludes few triangles, or none. A point of the surface near each box takes the place of the
-  // limit (docs/theory/clusters.md, "Every distance").
+  // Searches with a limit that excludes few triangles, or none. Instead of the limit, each box has a bound: its distance from a
+  // near point of the surface (docs/theory/clusters.md, "Every distance").
   void search_every_cluster() {
     const auto n = nodes_.n_clusters();
-    // If several threads share the clusters of a region, each thread must compare the region with the groups.
+    // Threads that share the clusters of a region must each compare the region with the groups.
     const std::int64_t per_block = n < 64 * request_.n_threads ? 1 : Clusters::clusters_per_region;
     constexpr std::int64_t few = 4;  // searching this many clusters takes about half a millisecond
     n_threads_ =
@@ -301,8 +301,8 @@ class ClusterSearch {
     const std::int32_t *const near_groups = own.near_groups.data() + first;
     std::uint16_t *const leaf_bits = own.leaf_bits.data() + first;
     const auto n_near = static_cast<std::int32_t>(n);
-    // If groups are smaller than a cluster's leaves, many groups are near the cluster. With many near groups, the boxes along the
-    // groups' own axes exclude few clusters.
+    // Many groups are near a cluster if groups are smaller than its leaves. The boxes along the groups' own axes then exclude few
+    // clusters.
     constexpr std::size_t many = 32;
     if (kernels_.near_boxes(task_, leaves, near_groups, n_near, leaf_bits) &&
         (n > many || kernels_.near_own_boxes(task_, leaves, near_groups, n_near, leaf_bits))) {
@@ -350,7 +350,7 @@ class ClusterSearch {
     }
   }
 
-  // The pairs of node and triangle in a cluster that the filter did not dismiss. The pairs are stored until double precision
+  // The pairs of a cluster's nodes and of triangles that the filter did not dismiss. The pairs are stored until double precision
   // decides them.
   struct Pairs {
     const Open &cluster;
@@ -373,7 +373,8 @@ class ClusterSearch {
     return error;
   }
 
-  // Prepares the filter to leave out nodes on the side away from the band's offset (docs/theory/clusters.md, "One side").
+  // Prepares the filter for a band with an offset, so that it leaves out nodes on the other side (docs/theory/clusters.md, "One
+  // side").
   void look_at_one_side(const Band &band, double error) {
     const double half_thickness = band.half_thickness * groups_.frame.scale;
     if (!(half_thickness <= large)) return;
@@ -422,7 +423,7 @@ class ClusterSearch {
     return static_cast<double>(least) - 0x1p-20;
   }
 
-  // Returns a point of the surface. The point is near `to` if a triangle of the group is near `to`.
+  // Returns the point of the surface that is closest to `to` on the group's nearest triangle.
   Vec3 point_of_surface(std::int32_t group, Vec3 to) const {
     const float point[3] = {static_cast<float>(to.x), static_cast<float>(to.y), static_cast<float>(to.z)};
     float distance_sq[triangles_per_group];
@@ -436,7 +437,7 @@ class ClusterSearch {
                      .point);
   }
 
-  // For each of 16 boxes, an upper bound of the distances of its nodes, in the surface's frame.
+  // One number for each of 16 boxes: the upper bound of its nodes' distances, in the surface's frame.
   struct UpperBounds {
     double of_box[leaves_per_cluster];
   };
@@ -537,7 +538,7 @@ class ClusterSearch {
       }
     Pairs pairs{cluster, found_.ties_of(thread), ahead};
     ClusterTask &task = own.task;
-    // The bounds of so many pairs of a leaf and a group take 8 kB, so they stay in the processor's first cache.
+    // So many pairs of a leaf and a group have bounds of 8 kB, which stay in the processor's first cache.
     constexpr std::size_t many = 64;
     std::int32_t *const leaf_groups = own.room_for_groups(many + item.n);
     while (near) {
@@ -558,7 +559,7 @@ class ClusterSearch {
     }
     decide(own, pairs);
     while (pairs.ahead.near) pairs.ahead.request_one();
-    // Every node with pairs is written to the list, but the position in the list advances only after a node within the limit.
+    // Every node with pairs is written, without a branch. The position in the list advances only after a node within the limit.
     UnfilledVector<FoundNode> &found = view(found_.by_thread)[thread];
     const std::size_t n_before = found.size();
     std::size_t n_paired = 0;
@@ -640,7 +641,7 @@ class ClusterSearch {
   }
 
   void decide(ClusterScratch::Thread &own, Pairs &pairs) {
-    constexpr std::int32_t at_once = 16;  // between two requests
+    constexpr std::int32_t at_once = 16;  // the number of pairs that are decided between two prefetches
     for (std::int32_t i = 0; i < pairs.n; i += at_once) {
       pairs.ahead.request_one();
       kernels_.decide(std::min(at_once, pairs.n - i), own.pair_nodes.data() + i, own.pair_triangles.data() + i,
@@ -664,7 +665,7 @@ class ClusterSearch {
     }
   }
 
-  // This function is not inlined, so that the code for a search without ties can use all registers.
+  // This function is not inlined, because its code would take registers from a search without ties.
   __attribute__((noinline)) void take_closest_and_ties(ClusterScratch::Thread &own, const Pairs &pairs) const {
     for (std::int64_t i = 0; i < pairs.n; ++i) {
       const std::int32_t node = view(own.pair_nodes)[i];
@@ -683,7 +684,7 @@ class ClusterSearch {
   const TriangleGroups &groups_;
   const Nodes &nodes_;
   const Placing placing_;
-  const double limit_;  // in the surface's frame; `large` if the limit excludes nothing that single precision separates
+  const double limit_;  // in the surface's frame; `large` if the limit is too large for single precision
   const Kernels &kernels_;
   FoundNodes &found_;
   ClusterScratch &own_;

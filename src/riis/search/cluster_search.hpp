@@ -18,7 +18,7 @@ namespace riis {
 struct ClusterScratch {
   static constexpr std::int32_t room_for_pairs = 4096;
 
-  // A near cluster and its near groups. The lists of one thread contain these groups, from `first` on.
+  // A near cluster and its near groups. The groups are in the thread's lists, from `first` on.
   struct Item {
     std::int64_t cluster;
     std::size_t first, n;
@@ -63,13 +63,12 @@ struct ClusterScratch {
   void prepare(int n_threads, bool needs_room);
 };
 
-// Returns false if single precision cannot separate near from far. Single precision fails if the mesh or its distance from the
-// surface is about a million times the surface's size. Single precision also fails if the mesh is extremely small compared with
-// the surface.
+// Returns false if single precision cannot tell near triangles from far ones. This is so if the mesh or its distance from the
+// surface is about a million times the surface's size. It is also so for an extremely small mesh.
 bool separates_in_single_precision(const NodeSearch &request, const NodeFrame &nodes);
 
-// Returns whether clusters pay off for this number of nodes, if the limit leaves out few nodes. With fewer nodes, comparing all
-// groups with the first clusters takes longer than querying each node.
+// Returns whether clusters pay off for this number of nodes when the limit leaves out few of them. With fewer nodes, comparing
+// all groups with the first clusters takes longer than querying each node.
 bool are_enough_for_clusters(std::int64_t n_nodes, const Surface &surface);
 
 // Returns whether most triangles are beyond the limit for most nodes near the surface.

@@ -26,7 +26,7 @@ struct EightPoints {
     set_lane(pairs.point, lane, p);
   }
 
-  // Finds the side of each point and whether its closest point is on the rim. The closest points must have been located. Each
+  // Finds the side of each point, and whether the closest point is on the rim. The closest points must have been located. Each
   // array may be null.
   void find_sides(const Pseudonormals &normals, const Kernels &simd, std::int32_t *side,
                   std::int32_t *is_on_rim) const {
@@ -35,8 +35,8 @@ struct EightPoints {
     if (side) simd.find_sides(pairs, on, normal_there, side);
   }
 
-  // Finds the height of each point over its closest point, as Band takes it, and whether the closest point is on the rim. The
-  // height is at most the point's distance in magnitude.
+  // Finds two things for each point: its height over the closest point, as Band takes it, and whether the closest point is on the
+  // rim. The height's magnitude is at most the distance.
   void find_heights(const Pseudonormals &normals, const Kernels &simd, const double *distance, double *height,
                     std::int32_t *is_on_rim) const {
     alignas(64) Lanes normal_there;

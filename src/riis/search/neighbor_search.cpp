@@ -16,7 +16,7 @@ namespace riis {
 namespace {
 
 constexpr std::int64_t nodes_per_range = NeighborScratch::nodes_per_range, balls_per_block = 16;
-// For fewer balls than these numbers, one thread suffices, because each part of the search takes only a millisecond or two.
+// One thread suffices for fewer balls than these numbers, because each part of the search then takes only a millisecond or two.
 constexpr std::int64_t few_balls = 256, few_large_balls = 64;
 
 template <class Distances>
@@ -70,8 +70,8 @@ class NeighborSearch {
     n_threads_ = std::max(n_threads_, n_ran);
   }
 
-  // Finds the balls that may hold a node within the limit. For each ball, stores a lower bound on the distance of the ball's
-  // centre.
+  // Finds the balls that may hold a node within the limit. For each such ball, stores a lower bound on the distance of its centre
+  // from the surface.
   void find_near_balls(const NodeBalls &balls) {
     std::vector<NearBall> &near = walked_.near_balls;
     near.clear();
@@ -122,8 +122,7 @@ class NeighborSearch {
     }
   }
 
-  // Deals with the nodes of near balls that the walk did not reach. If the ball's centre does not prove that such a node is far,
-  // the node is queried.
+  // Queries the nodes of near balls that the walk did not reach, except the nodes that the ball's centre proves to be far.
   void prove(const NodeBalls &balls) {
     const auto n = view(walked_.near_balls).size();
     const int n_ran = parallel_for_ranges(n, balls_per_block, threads_near(), [&](const Range &block, int thread) {

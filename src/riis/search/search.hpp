@@ -42,7 +42,7 @@ struct FoundNode {
 static_assert(sizeof(FoundNode) == 16);
 
 // Each thread's list gets room for twice the longest list, because the threads' shares differ from step to step. The room is a
-// power of two. A step that finds a few more nodes than all previous steps therefore allocates no memory.
+// power of two. No memory is thus allocated in a step that finds a few more nodes than all previous steps.
 template <class Threads, class ListOf>
 void make_room(Threads &threads, const ListOf &list_of) {
   std::size_t largest = 0, room = 1;
@@ -54,7 +54,7 @@ void make_room(Threads &threads, const ListOf &list_of) {
 
 // One list for each thread. The order within a list has no meaning.
 struct FoundNodes {
-  Range numbers{0, 0};  // the range of the nodes' numbers, which are counted from its beginning
+  Range numbers{0, 0};  // the range of the nodes' numbers; lists count from its beginning
   std::vector<UnfilledVector<FoundNode>> by_thread;
   std::vector<Ties> ties_by_thread;  // stay empty unless the rule requests ties
 
@@ -106,7 +106,7 @@ struct NodeSearch {
   Threads n_threads;
   InstructionSet instructions;
   TieRule ties = {};
-  // If not null, the caller wants only the nodes in this band, and the search may leave out other nodes.
+  // If not null, the search may leave out nodes outside of this band, because the caller does not want them.
   const Band *listed = nullptr;
 
   bool is_masked_out(std::int64_t node) const { return node_mask && !node_mask[node]; }
@@ -120,7 +120,7 @@ struct SearchReport {
   std::int64_t n_queries;
   int n_threads;
   bool complete;
-  std::int64_t n_unreached;  // number of nodes that only the proof of the neighbour search found
+  std::int64_t n_unreached;  // the nodes that the neighbour search found only by its proof
 };
 
 // Every search fills FoundNodes in any order. A search that reads an unusable coordinate fails with RIIS_INVALID_MESH.
@@ -131,7 +131,7 @@ SearchReport search_exhaustively(const SearchRequest &request, FoundNodes &found
 SearchReport search_exhaustively(const NodeSearch &request, const Grid &grid, const GridBox &box, FoundNodes &found);
 
 // The two ways to measure distances in a search: to a surface's triangles, or by the surface's other method. Searches are
-// compiled once for each way, so that distances to triangles need no virtual call.
+// compiled for each of the two, so that distances to triangles need no virtual call.
 
 // Distances to the triangles of a surface.
 struct TriangleDistances {
@@ -139,13 +139,13 @@ struct TriangleDistances {
   InstructionSet instructions;
 
   bool may_be_within(Vec3 p, double limit) const { return scene.may_be_within(p, limit); }
-  // Returns the triangle closest to p. If `ties` is not null, its candidates become those of p.
+  // Returns the triangle closest to p. If `ties` is not null, its candidates are replaced by those of p.
   ClosestTriangle closest(Vec3 p, double limit, Ties *ties = nullptr) const {
     return scene.closest(p, limit, instructions, ties);
   }
 
-  // Returns a number d such that every point q has a distance of at least d - |q - p| from the surface. A large d proves that all
-  // points near p are far from the surface. The result is infinity if d is above the limit.
+  // Returns a number d: every point q is at least d - |q - p| away from the surface. A large d proves that all points near p are
+  // far from the surface. The result is infinity if d is above the limit.
   double lower_bound(Vec3 p, double limit) const {
     return std::sqrt(scene.closest(p, limit, instructions).distance_sq);
   }
@@ -168,8 +168,8 @@ struct OtherDistances {
   }
 
   // Sampling measures the distance to fixed points, so the distance itself is the bound. Minimisation may end anywhere on S, so
-  // its result at p says nothing about its results at other points. However, each result is the distance to some point of S, so
-  // it is at least the distance to the triangles minus triangle_error.
+  // its result at p bounds no result at another point. However, every result is the distance to some point of S. It is therefore
+  // at least the distance to the triangles minus triangle_error.
   double lower_bound(Vec3 p, double limit) const {
     if (method.is_of_fixed_points()) return std::sqrt(method.closest(p, limit).distance_sq);
     constexpr double far = std::numeric_limits<double>::infinity();

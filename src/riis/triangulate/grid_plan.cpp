@@ -17,7 +17,7 @@
 namespace riis {
 namespace {
 
-// A curve may be halved `max_rounds` times. With more parts, there would be more triangles than the library can hold.
+// A curve may be halved `max_rounds` times. More halvings would make more triangles than the library can hold.
 constexpr int max_rounds = 24;
 
 // The largest number of parts between two lines for the bound on the offset O (geometry/bulge.hpp).
@@ -68,7 +68,7 @@ class PlannedArcs {
     return polyline(edge_, set_.curve_of(patch_.v1), errors, &ColumnErrors::edge);
   }
 
-  // The offsets at both ends are taken from the sides, so that neighbouring patches have the same bits.
+  // Neighbouring patches must have the same bits, so the offsets at both ends are taken from the sides.
   ArcLines arc_lines(const Vector<ColumnErrors> &errors, const Vector<int> &n_parts) const {
     ArcLines made;
     made.u_lines.reserve(lines_.size());
@@ -108,7 +108,8 @@ class PlannedArcs {
     const Vector<Bezier> &on_base = base_.between(i, j), &on_edge = edge_.between(i, j);
     const Curve &base = set_.curve_of(patch_.v0), &edge = set_.curve_of(patch_.v1);
     if (on_base.size() > 1 || on_edge.size() > 1) {
-      // For a range inside which O' may jump, calls Bulge::linear_error, because bound_offset does not take jumps into account.
+      // bound_offset does not allow for jumps of O'. Where O' may jump inside the range, Bulge::linear_error gives the bound
+      // instead.
       const Bulge bulge(along(set_, patch_.v0), along(set_, patch_.v1), patch_.bulge);
       made.off_line = made.largest =
           bulge.linear_error(bulge.place(shares_[i]), bulge.place(shares_[j]), offset_share * max_error_);
@@ -158,8 +159,8 @@ Polyline polyline_at(const Curve &curve, const Vector<double> &shares, double en
   return made;
 }
 
-// Ascending positions, and a number `need` for each step between two neighbouring positions. The need times the square of a
-// segment's width bounds the error of a segment inside the step, as a share of the allowed error.
+// Ascending positions, and a number `need` for each step between two neighbouring positions. The need, times the square of a
+// segment's width, bounds the error of a segment inside the step. This error is a share of the allowed error.
 struct Needs {
   Vector<double> at, need;
 };
@@ -181,7 +182,7 @@ Vector<double> segments(const Needs &needs, double most) {
   return made;
 }
 
-// Takes as few positions as segments() takes, but makes the errors of the segments as equal as the positions allow.
+// Takes as many positions as segments(), but chooses them so that the segments' errors are as equal as possible.
 Vector<double> balanced_segments(const Needs &needs, double most) {
   Vector<double> made = segments(needs, most);
   double low = 0, high = most;
@@ -195,11 +196,11 @@ Vector<double> balanced_segments(const Needs &needs, double most) {
   return made;
 }
 
-// Needs are computed on narrow steps, but the error of a wide segment is bounded a little less closely. The lines therefore use
+// Needs are computed on narrow steps, and the bound of a wide segment is a little larger than they say. The lines therefore use
 // up only `most_of_allowed` of the allowed error.
 constexpr double most_of_allowed = 0.9;
-// The number of steps on which needs are computed is `steps_per_segment` times the largest number of segments of a curve. The
-// number of steps stays between `least_steps` and `most_steps`.
+// Needs are computed on `steps_per_segment` times as many steps as the largest number of segments of a curve. The number of steps
+// stays between `least_steps` and `most_steps`.
 constexpr int steps_per_segment = 4;
 constexpr std::size_t least_steps = 64, most_steps = 4096;
 // To save time, needs are computed only at every n-th opening. Later the lines are checked at every opening.
@@ -233,7 +234,7 @@ class Planner {
     for (std::size_t i = 0; i < set_.patches.size(); ++i)
       plan_.patches[i].has_arcs =
           std::any_of(states_.begin(), states_.end(), [&](const PatchSet &set) { return set.patches[i].bulge != 0; });
-    // A skirt at a patch of arcs takes the patch's lines, so skirt and patch have the same vertices along their common side.
+    // A skirt at a patch of arcs takes the patch's lines, so that both have the same vertices along their common side.
     for (std::size_t i = 0; i < set_.patches.size(); ++i)
       if (patch_of_strip(i) != no_patch) plan_.patches[i].has_arcs = plan_.patches[patch_of_strip(i)].has_arcs;
     plan_families();
@@ -269,9 +270,9 @@ class Planner {
     plan.lines = {lines(patch.v0, patch.v1), lines(patch.u0, patch.u1)};
   }
 
-  // Curves at opposite sides of Coons patches, and at the opposite sides of their neighbours, form a family. If the curves of
-  // a family have the same vertices, the patches have few lines. Each curve runs in the direction of the first curve of its
-  // family, or against it.
+  // The curves at opposite sides of a Coons patch belong to one family. A family thus runs through a row of neighbouring patches.
+  // The patches have few lines if the curves of a family have the same vertices. Each curve runs in the direction of the first
+  // curve of its family, or against it.
   struct Family {
     Vector<std::size_t> curves;
     Vector<bool> runs_against;
@@ -326,7 +327,7 @@ class Planner {
     return shares;
   }
 
-  // Each curve first gets the lines that its family needs. The function `vertices` adds lines later.
+  // Each curve first gets the lines that its family needs. Later, the function `vertices` adds lines where they are too few.
   void plan_families() {
     first_shares_.assign(set_.curves.size(), {0, 1});
     for (const Family &family : families()) {
@@ -349,7 +350,7 @@ class Planner {
     }
   }
 
-  // Returns how many segments a curve needs at the largest bend that its control points allow.
+  // Returns how many segments a curve needs if it is bent everywhere as much as its control points allow.
   std::size_t rough_number_of_segments(std::size_t curve) const {
     double most = 1;
     for (std::size_t i = 0; i < states_.size(); i += states_per_need) {
@@ -428,8 +429,8 @@ class Planner {
     return made;
   }
 
-  // Returns the joints at the first opening, or nothing if the lines cannot move with the joints. Lines can move with the joints
-  // if the base has the same number of joints at every opening, and no joint near an end.
+  // Returns the joints at the first opening, with which the lines move. Returns nothing if the number of joints of the base
+  // changes with the opening, or if a joint is near an end.
   Vector<double> joints(std::size_t patch) const {
     constexpr double near_end = 0.01;
     const Vector<double> first = joints_of(set_, set_.patches[patch].v0);
@@ -441,8 +442,8 @@ class Planner {
     return first;
   }
 
-  // At every opening, adds lines until base, edge and O are nearly linear between the lines. After that, chooses the smallest
-  // sufficient number of parts for O.
+  // Adds lines until base, edge and O are nearly linear between the lines at every opening. Then chooses, for O, the smallest
+  // number of parts that suffices.
   void plan_arcs(std::size_t patch) {
     PatchPlan &plan = plan_.patches[patch];
     plan.joints = joints(patch);

@@ -65,8 +65,8 @@ class GridMaker {
         });
       for (std::size_t i = first; i < end; ++i) check_count(n_at_least += n_triangles(i, 1), max_error_);
     }
-    // Two patches of arcs may meet along an arc, and each patch divides this arc into rows. All patches of arcs therefore have
-    // the same number of rows.
+    // Two patches of arcs may share an arc, which both divide into their rows. All patches of arcs therefore have the same number
+    // of rows.
     double offset = 0;
     for (const ArcLines &lines : lines_) offset = std::max(offset, lines.largest_offset());
     const double n_rows = rows_for(offset, max_error_);
@@ -80,9 +80,9 @@ class GridMaker {
 
  private:
   static constexpr double infinity = std::numeric_limits<double>::infinity();
-  // A curve may have a million points, and a valve a million patches. The polylines of at most `patches_at_once` patches are
-  // therefore made before the points are counted. The number of patches is fixed, so the count in an error message does not
-  // depend on the number of threads.
+  // A curve may have a million points, and a valve a million patches. The points are therefore counted each time that the
+  // polylines of `patches_at_once` patches have been made. `patches_at_once` is fixed, so that the count in an error message does
+  // not depend on the number of threads.
   static constexpr std::size_t patches_at_once = 16;
 
   QuadGrid grid(std::size_t i, std::size_t n_rows) const {
@@ -130,8 +130,7 @@ class GridMaker {
   }
 
   PatchSides sides_of(const Patch &patch) const {
-    // The arcs at the sides of a patch of arcs have no polylines, because all arcs of the patch are divided into rows in the
-    // same way.
+    // The sides u0 and u1 of a patch of arcs have no polylines, because they are divided into rows like all its arcs.
     const bool is_coons = patch.bulge == 0;
     return {polyline(patch.v0), polyline(patch.v1), is_coons ? polyline(patch.u0) : nullptr,
             is_coons ? polyline(patch.u1) : nullptr};

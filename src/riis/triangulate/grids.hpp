@@ -11,13 +11,13 @@
 namespace riis {
 
 // The allowed error is divided among these errors as in docs/theory/triangles.md, "Shares of the bound". A point of a Coons patch
-// has three errors: of a u curve, of a v curve, and of merged grid lines. The shares below bound the three errors. At least 1 - 2
-// * (curve_share + merge_share) remains for the split of a quad into triangles.
+// has three errors, which come from a u curve, from a v curve, and from merging grid lines. The shares below bound the three
+// errors. At least 1 - 2 * (curve_share + merge_share) remains for the split of a quad into triangles.
 inline constexpr double curve_share = 0.45, merge_share = 0.01;
-// The errors of a plan's lines reach the share `planned_curve_share` nearly everywhere. With a larger share, too little would
-// remain for the quads, so many quads would be subdivided.
+// A plan's lines use up the share `planned_curve_share` nearly everywhere. A larger share would leave so little for the quads
+// that many of them would be subdivided.
 inline constexpr double planned_curve_share = 0.39;
-// A point of a patch of arcs has three errors: the mean error of two curves, at most half the error of O, and the error of the
+// A point of a patch of arcs has three errors: the mean of both curves' errors, at most half the error of O, and the error of the
 // arcs' chords. At least 1 - (arc_curve_share + merge_share + offset_share / 2 + row_share) remains.
 inline constexpr double arc_curve_share = 0.4, offset_share = 0.2, row_share = 0.45;
 

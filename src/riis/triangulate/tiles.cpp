@@ -56,8 +56,8 @@ PatchVertices vertices_of(const LevelledGrid &levelled) {
   for_each_quad(grid, [&](std::size_t i, std::size_t j) {
     const int level = *level_of_next++;
     if (level == 0) return;
-    // At a given level, all parts of a bilinear quad have the same flatness. Recursive halving would therefore end in equal
-    // parts, which this loop makes directly.
+    // All parts of a bilinear quad are equally flat at a level of subdivision. Recursive halving would therefore end in equal
+    // parts, so this loop makes them directly.
     const int n_parts = 1 << level;
     const double step = 1.0 / n_parts;  // a power of two
     const Quad quad = quad_of(grid, i, j);
@@ -211,7 +211,7 @@ void close_gaps(const Vector<Tile> &tiles, TriangleSet &triangles) {
 
 bool is_missed(const TriangleSet &set, const LeftOut &triangle) {
   // A triangle without area is either a point or a segment, its longest edge. A triangle that is a point can be dropped without
-  // loss. A triangle that is a segment can be dropped if the segment is the diagonal of a quad whose other half was kept.
+  // loss. A triangle that is a segment can be dropped if it only repeats the diagonal of a quad whose other half was kept.
   const Vec3 corner = set.vertex(triangle.corner), a = set.vertex(triangle.a), b = set.vertex(triangle.b);
   const double diagonal = distance(a, b), other = std::max(distance(corner, a), distance(corner, b));
   const bool is_on_diagonal = triangle.other_was_kept && other <= (1 + 1e-9) * diagonal;
@@ -229,8 +229,8 @@ Tiles::Tiles(const PatchSet &set, const Triangulation &how, const Vector<Levelle
       const Seam *seam = seam_of(set, i, k);
       const PatchImage *twin = seam ? &set.patches[seam->patch_of_twin()].images[seam->twin] : nullptr;
       tiles_.push_back({i, &images[k], twin, seam, n_vertices_, room_, n_ids});
-      // At a seam, two equal vertices may be placed by different images. They then differ by rounding, so their triangle may have
-      // an area and need room.
+      // At a seam, two equal vertices of a triangle may be placed by different images. They then differ by rounding, so the
+      // triangle may have an area and needs room.
       room_ += grids[i].n_triangles - (seam ? 0 : grids[i].n_collapsed);
       n_ids += grids[i].n_triangles;
       n_vertices_ += grids[i].n_vertices;

@@ -35,8 +35,8 @@ struct PatchVertices {
   Vector<Vec3> displacements;  // displacements since an earlier state of the same build; empty without such a state
 };
 
-// The two states of a moving valve, if they are built differently. In these sets each tile has its own patch, with the number of
-// the tile.
+// The two states of a moving valve whose states are built differently. Here each tile has a patch of its own, with the tile's
+// number.
 struct OwnPatches {
   PatchSet now, before;
 };
@@ -63,8 +63,8 @@ class Tiles {
   }
 
   // Makes vertices and triangles, and then calls work(i, first_of_quad) for each tile i, as place_vertices does. `first_of_quad`
-  // has the position of each quad's first triangle, and then the end of the last quad's triangles. The ids also count triangles
-  // without area. Returns the patches with missing triangles. If there is no such patch, the triangles are complete.
+  // has the position of each quad's first triangle. Its last entry is the end of the last quad's triangles. The ids also count
+  // triangles without area. Returns the patches with missing triangles. If there is no such patch, the triangles are complete.
   template <class Work>
   Vector<std::size_t> make_triangles(const Work &work) {
     make_room_for_triangles();
@@ -89,20 +89,20 @@ class Tiles {
   std::int64_t n_vertices_ = 0, room_ = 0;
 };
 
-// Returns true if nothing in the set replaces this triangle, which was left out.
+// Returns true if the set has nothing in place of this triangle, which was left out.
 bool is_missed(const TriangleSet &set, const LeftOut &triangle);
 
 // Returns the triangulation's request, with the allowed error reduced by the patches' own deviation. Fails if the remaining error
 // is too small, or if the earlier state is built differently.
 Triangulation checked(const PatchSet &set, const Triangulation &asked);
 
-// Adds the rims of the patches. Also keeps the grids, for the bound of velocity errors and for directions.
+// Adds the rims of the patches. Also keeps the grids, from which the rates in a direction are computed.
 void finish(const PatchSet &set, Vector<LevelledGrid> grids, TriangleSet &triangles);
 
 [[noreturn]] void fail_for_vanished(const PatchSet &set, std::size_t patch, const char *where);
 
 // Calls attempt(tightness) until it returns no patch with missing triangles. A patch thinner than the tolerance loses its area if
-// both its sides become the same chords. From attempt to attempt, the curves of the returned patches therefore become finer.
+// both its sides become the same chords. Each attempt therefore has finer curves for the patches that the last one returned.
 template <class Attempt>
 void with_finer_curves(const PatchSet &set, const char *where, const Attempt &attempt) {
   constexpr int max_attempts = 12;

@@ -14,8 +14,8 @@ struct Centroid {
   std::int32_t triangle;
 };
 
-// Splits the triangles along the longest side of the box of their centroids, until each part is a group. In every part except the
-// last, the number of triangles is a multiple of the group size.
+// Splits the triangles again and again until each part is a group, each time across the longest side of the box around their
+// centroids. In every part except the last, the number of triangles is a multiple of the group size.
 template <class Visit>
 void for_each_group(Centroid *centroids, std::int64_t n, const Visit &visit) {
   if (n <= triangles_per_group) {

@@ -90,8 +90,8 @@ struct TriangleSet {
 // Returns triangles from arrays without their skirt, for measures of the leaflets.
 TriangleSet without_skirt(const TriangleSet &set);
 
-// Finds the position of a triangle in the set from its id. If the set has left out none of the caller's triangles, the position
-// of a triangle equals its id.
+// Finds the position of a triangle in the set from its id. Positions equal ids if the set has left out none of the caller's
+// triangles.
 class TrianglePositions {
  public:
   explicit TrianglePositions(const TriangleSet &set)

@@ -18,21 +18,21 @@
 namespace riis {
 
 // Grids whose lines stay the same while a valve opens (docs/theory/triangles.md, "Fixed triangulation"). A plan is made from the
-// patches of a valve at many openings. The plan's lines keep the allowed error at all these openings. Grids on these lines, with
-// their errors, can be made at any opening.
+// patches of a valve at many openings. The plan's lines keep the allowed error at all these openings. At any opening, grids can
+// be made on these lines, with bounds of their errors.
 struct PatchPlan {
   bool has_arcs = false;  // whether the patch is a patch of arcs at some opening
 
   GridLines lines;  // the lines of a Coons patch
 
-  // A patch of arcs has lines in u, and joints of the base with which the lines move. The lines and joints are those at one of
-  // the openings. Between two joints, a line keeps its relative position. Without joints the lines do not move.
+  // A patch of arcs has lines in u, which move with the joints of its base. Stored are the lines and joints at one opening. At
+  // any opening, a line keeps its relative position between two joints. Without joints the lines do not move.
   Vector<double> u, joints;
   Vector<int> n_parts;  // the number of parts between two lines; O is evaluated at their ends
 };
 
-// The numbering of curves that the sides of patches use. At each opening, a set of patches may number its curves differently.
-// For example, closed mitral leaflets share curves that are separate in open leaflets.
+// The numbering of curves that the sides of patches use. The patches of another opening may number their curves differently. For
+// example, closed mitral leaflets share curves that open leaflets have separately.
 class CurveNumbering {
  public:
   explicit CurveNumbering(const PatchSet &set);
@@ -53,10 +53,10 @@ struct GridPlan {
   std::size_t n_rows = 1;  // the number of rows of all patches of arcs
 };
 
-// Makes the plan from the patches at each of the openings. The patches of all openings must use one numbering of curves. The
-// error of a curve of a Coons patch is at most max_error times of_curves times the curve's tightness. The errors of the curves of
-// other patches stay within their own share. Fails with RIIS_LIMIT_EXCEEDED for more than max_triangles, and with
-// RIIS_INVALID_PARAMETER if no number of lines is enough.
+// Makes the plan from the patches at each of the openings. The patches of all openings must use one numbering of curves. A curve
+// of a Coons patch has an error of at most max_error * of_curves, times the curve's tightness. The curves of other patches stay
+// within a share of their own. Fails with RIIS_LIMIT_EXCEEDED for more than max_triangles, and with RIIS_INVALID_PARAMETER if no
+// number of lines is enough.
 GridPlan plan_grids(const Vector<PatchSet> &states, double max_error, double of_curves,
                     const Vector<double> &tightness);
 
@@ -72,8 +72,8 @@ struct LeftOut {
   bool other_was_kept;
 };
 
-// The triangles of a plan at one of the openings, as ids of the plan's vertices. Two openings share such triangles if the same
-// triangles have an area at both openings.
+// The triangles of a plan at one of the openings, as ids of the plan's vertices. They serve all openings at which the same
+// triangles have an area.
 struct Connectivity {
   std::vector<std::int64_t> vertex_id, triangle_id;
   std::vector<std::int32_t> leaflet_id, patch_id;
@@ -117,7 +117,7 @@ struct Triangulation {
 // RIIS_LIMIT_EXCEEDED for more than max_triangles, and with RIIS_INVALID_PARAMETER for a patch without area.
 TriangleSet triangulate_adapted(const PatchSet &set, const Triangulation &asked, TriangleSet memory = {});
 // Makes the triangles of a plan. A triangle keeps its id even if other triangles lose their area. Fails as triangulate_adapted
-// does, and with RIIS_LIMIT_EXCEEDED if the plan is not within max_error of this state.
+// does. Also fails with RIIS_LIMIT_EXCEEDED if the plan's error in this state exceeds max_error.
 TriangleSet triangulate_fixed(const PatchSet &set, const Triangulation &asked, const TriangulationPlan &plan,
                               TriangleSet memory = {});
 

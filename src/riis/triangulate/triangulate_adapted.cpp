@@ -76,7 +76,8 @@ class QuadGroups {
     const bool along_u = j1 - j0 == 1 || (i1 - i0 > 1 && distance(grid_.point(i0, j), grid_.point(i1, j)) >
                                                              distance(grid_.point(i, j0), grid_.point(i, j1)));
     const auto before = [&](std::size_t cut) { return along_u ? Quads{i0, cut, j0, j1} : Quads{i0, i1, j0, cut}; };
-    // A cut near the middle makes both parts compact. Near the middle, the cut is made where it gives the fewest groups.
+    // A cut near the middle makes both parts compact. Of the places near the middle, the cut takes the one that gives the fewest
+    // groups.
     constexpr std::size_t farthest = 4;
     const std::size_t middle = along_u ? i : j, size = along_u ? i1 - i0 : j1 - j0;
     const auto n_groups = [](std::int64_t n_held) { return (n_held + triangles_per_group - 1) / triangles_per_group; };
@@ -132,7 +133,7 @@ Vector<std::size_t> make_triangles(const PatchSet &set, const Triangulation &how
   });
   if (!vanished.empty()) return vanished;
   join(tiles.all(), ends, triangles.grouping);
-  // Triangles were moved down to close gaps, but kept their ids.
+  // Closing the gaps has moved triangles together with their ids, so the ids are numbered again.
   if (triangles.n_triangles() < tiles.room())
     std::iota(triangles.triangle_id.begin(), triangles.triangle_id.end(), std::int64_t{0});
   return vanished;

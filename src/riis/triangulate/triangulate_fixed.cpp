@@ -17,8 +17,8 @@
 namespace riis {
 namespace {
 
-// Returns false if one of these triangles may have no area (has_zero_area), now or after its corners move by up to an eighth of
-// `shift`.
+// Returns true if all these triangles surely have an area (has_zero_area), and keep it when their corners move by up to an eighth
+// of `shift`.
 bool have_area(const double *vertices, const std::vector<std::int64_t> &vertex_id, const Range &triangles,
                double shift) {
   const Kernels &simd = kernels(best_instruction_set());
@@ -43,7 +43,7 @@ bool have_area(const TriangleSet &set) {
   return true;
 }
 
-// Bounds how far rounding moves a corner of an image from its place in an exactly congruent image.
+// Images of a patch are congruent except for rounding. Bounds how far rounding moves a corner.
 double rounding_of_corners(const QuadGrid &grid, const Patch &patch, const Placement &placement) {
   double largest = 0, farthest = 0;
   for (const Vec3 &p : grid.points) largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
@@ -68,7 +68,7 @@ Vector<std::size_t> make_triangles(Tiles &tiles) {
 // Gives a set the triangles of a plan if the set lacks them.
 void take_connectivity(const Connectivity &from, bool flip_normals, TriangleSet &set) {
   const std::uint64_t number = 2 * from.number + (flip_normals ? 1 : 0);
-  // The number of the plan alone is not enough, because a set keeps its number after its triangles were given away.
+  // The plan's number alone is not enough: a set whose triangles were given away still has its number.
   if (set.connectivity == number && set.triangle_id.size() == from.triangle_id.size()) return;
   set.connectivity = 0;
   set.vertex_id = from.vertex_id;
@@ -82,13 +82,13 @@ void take_connectivity(const Connectivity &from, bool flip_normals, TriangleSet 
   set.connectivity = number;
 }
 
-// Places the vertices of these grids, and gives them the triangles of a plan. Returns false if triangles are missing, or if the
-// triangles with an area are not the same as in the plan.
+// Places the vertices of these grids, and gives them the triangles of a plan. Returns false if triangles are missing, or if other
+// triangles have an area than in the plan.
 bool take_planned_triangles(const PatchSet &set, const Triangulation &how, const Vector<LevelledGrid> &grids,
                             const Connectivity &planned, TriangleSet &triangles) {
   Tiles tiles(set, how, grids, triangles);
-  // The images of a patch are congruent. If all images have the same triangles, the areas of one image are checked, with a margin
-  // for rounding. An image with a seam is checked separately, because it takes points of another image.
+  // The images of a patch are congruent. Where all images have the same triangles, only one image's areas are checked, with a
+  // margin for rounding. An image with a seam is checked by itself, because it takes points from another image.
   std::atomic<bool> all_have_area{true};
   tiles.place_vertices([&](std::int64_t i) {
     const Tile &tile = view(tiles.all())[i];
@@ -125,8 +125,8 @@ TriangleSet triangulate_fixed(const PatchSet &set, const Triangulation &asked, c
            " of the fixed triangulation may be off by ", grids[i].error_bound, " at this opening; it must be at most ",
            how.max_error, ", which is tolerance * half_thickness before scaling");
   if (!take_planned_triangles(patches, how, grids, plan.connectivity, memory)) {
-    // At this opening, the triangles with an area are not the same as in the plan. The plan's groups do not fit them, so new
-    // groups are made.
+    // At this opening, the triangles with an area are not the same as in the plan. The plan's groups do not fit these triangles,
+    // so they get new groups.
     Tiles tiles(patches, how, grids, memory);
     const Vector<std::size_t> vanished = make_triangles(tiles);
     if (!vanished.empty()) fail_for_vanished(set, vanished.front(), " in the fixed triangulation at this opening");
@@ -154,8 +154,8 @@ void raise_levels(const PatchSet &set, double max_error, TriangulationPlan &plan
   for (std::size_t i = 0; i < grids.size(); ++i) raise_levels(grids[i], max_error, plan.levels[i]);
 }
 
-// Halves the columns of a patch of arcs if this gives the patch fewer triangles, because the quads then need fewer halvings.
-// Returns whether the columns of any patch were halved. After the halving, the levels of the plan must be found again.
+// Halves the columns of a patch of arcs where this gives fewer triangles, because the narrower quads need fewer halvings. Returns
+// whether the columns of any patch were halved. After the halving, the levels of the plan must be found again.
 bool halve_columns(const PatchSet &set, TriangulationPlan &plan) {
   bool are_any = false;
   for (std::size_t i = 0; i < set.patches.size(); ++i) {
@@ -241,8 +241,8 @@ TriangulationPlan plan_triangulation(const Vector<PatchSet> &given, double asked
   // The plan uses less than the whole error, because the remainder is for openings between the given openings.
   constexpr double share = 0.95;
   const double planned_error = share * max_error;
-  // If a curve is shared at only one opening, it has two numbers at other openings. The state with most curves therefore gives
-  // the numbering.
+  // A curve that patches share at only one opening is two curves at other openings. The state with the most curves therefore
+  // gives the numbering.
   const PatchSet &widest = *std::max_element(given.begin(), given.end(), [](const PatchSet &a, const PatchSet &b) {
     return a.curves.size() < b.curves.size();
   });

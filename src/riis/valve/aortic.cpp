@@ -36,8 +36,8 @@ constexpr CuspOpening default_opening{0.75, 0.05};
 
 std::size_t position_of(std::size_t cusp, OfCusp parameter) { return n_general + cusp * n_of_cusp + parameter; }
 
-// The rules for rotations that the caller did not set. If the sum of the leaflet angles is 180 degrees, all neighbours meet
-// at their commissures. If the sum is not 180 degrees, neighbours have three equal gaps or three equal overlaps between them.
+// The rules for rotations that the caller did not set. If the sum of the leaflet angles is 180 degrees, all neighbours meet at
+// their commissures. With any other sum, the three gaps or overlaps between neighbours are equal.
 double leaflet_angle_of(const ParameterValues &values, std::size_t cusp) {
   return values[position_of(cusp, leaflet_angle)][0];
 }
@@ -61,9 +61,9 @@ constexpr double table[n_cusps][n_of_cusp] = {{0.24, 1.365, 61.0, 1.58, 0.40, 1.
                                               {0.49, 1.495, 58.5, 2.77, 0.74, 1.355, 43.00, 4.12, 119.5, -1},
                                               {0.20, 1.380, 60.5, 1.19, 0.67, 1.435, 42.75, 2.54, -121.5, -1}};
 
-// The rules of exponents that were not set. With an exponent above the bound, the free edge reaches beyond the plane through the
-// axis and its commissure, into the next cusp. The paper's right and left exponents are above this bound, and keep their ratio to
-// the bound.
+// The rules of exponents that were not set. An exponent above the bound lets the free edge reach into the next cusp, beyond the
+// plane through the axis and the commissure. The paper's right and left exponents are above the bound. Their rules keep the ratio
+// of each to its bound.
 double power_bound(double radius_in, double radius_out, double angle) {
   const double x = radius_out * sine_cosine_degrees(angle).cosine;
   return x > radius_in ? x / (x - radius_in) : std::numeric_limits<double>::infinity();
@@ -177,7 +177,8 @@ void check_together(const ParameterValues &values) {
   }
 }
 
-// Checks every curve of one state. At any opening, curves lie between the curves of the two checked states and need no check.
+// Checks every curve of one state. The curves at other openings need no check, because they lie between those of the two checked
+// states.
 void check_values(const ParameterValues &values) {
   check_together(values);
   for (std::size_t cusp = 0; cusp < n_cusps; ++cusp) {
@@ -203,12 +204,12 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
   PatchSet set;
   for (std::size_t cusp = 0; cusp < n_cusps; ++cusp) {
     const HalfCusp closed_half = half_cusp(shape_of(closed.values, cusp));
-    // At opening 0, the open state of the valve's own parameters is not made. A closed valve does not need it, and it might be
-    // refused.
+    // At opening 0, the open state of the valve's own parameters is not made. A closed valve does not need this state, and the
+    // state might be refused.
     const HalfCusp open_half = !has_own_open_state ? half_cusp(shape_of(open.values, cusp))
                                : opening != 0      ? own_open_half(closed.values, cusp)
                                                    : open_half_of(closed.values, cusp);
-    // The position of a cusp consists of angles and a shift, not of control points, so these numbers are blended.
+    // A cusp's position has no control points to blend, so its angles and its shift are blended.
     const auto vector_of = [&](OfCusp parameter) {
       const std::size_t i = position_of(cusp, parameter);
       return riis::blend(riis::vector_of(closed.values[i]), riis::vector_of(open.values[i]), opening);
@@ -222,7 +223,7 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
 }  // namespace
 
 const ValveKind &aortic_valve_kind() {
-  // The kind is made when it is first used, and is never destroyed, so it serves until the process ends.
+  // The kind is made at its first use. It is never destroyed, so that it serves until the process ends.
   static const ValveKind &kind = *new ValveKind(with_skirt(make_kind(), SkirtAxis::of_cusp));
   return kind;
 }

@@ -23,7 +23,8 @@ namespace riis {
 namespace {
 
 // A leaflet has `n_places` evenly spaced places along the annulus, from one commissure to the next. From each place hangs a
-// meridian. A free edge and a coaptation line consist of two cubics each, and thus have one control point for each place.
+// meridian. A free edge consists of two cubics, and so does a coaptation line. Each of these lines thus has one control point for
+// each place.
 constexpr std::size_t n_places = 7, middle = 3, n_cells = n_places - 1;
 template <class Value>
 struct AtPlaces {
@@ -44,11 +45,11 @@ constexpr double first_drop = 0.2;
 constexpr std::array<double, 4> edge_rise{0, 0, 0.6, 1};
 // A bump lifts a meridian's first inner control point by only `lift_of_start` times the bump's lift.
 constexpr double lift_of_start = 0.3;
-// Next to a commissure, bumps lift a leaflet at most `most_lift_by_commissure` * commissure_length farther than the commissure.
-// A steeper leaflet would go through its neighbour, because leaflets lie close together there.
+// Next to a commissure, bumps lift a leaflet at most `most_lift_by_commissure` * commissure_length farther than the commissure. A
+// leaflet that rises more steeply would go through its neighbour, because leaflets lie close together there.
 constexpr double most_lift_by_commissure = 0.5;
-// If a leaflet is too short, its end moves back in at most `most_steps` steps, until the leaflet lacks at most `rounding` times
-// its length.
+// If a leaflet is too short for its end, the end moves back in at most `most_steps` steps. The leaflet may then still be too
+// short by `rounding` times its length.
 constexpr int most_steps = 60;
 constexpr double rounding = 1e-12, rounding_of_zone = 1e-6;
 // A leaflet has at least the share `least_ratio` of the annulus. The way from the middle of a leaflet's part of the annulus to
@@ -114,8 +115,8 @@ struct Hinge {
   }
 };
 
-// The annulus and the places of the leaflets. The annulus is stored twice, one copy after the other, so that each leaflet has one
-// connected part.
+// The annulus and the places of the leaflets. The annulus is stored as two laps, one after the other, so that each leaflet's part
+// of it is connected.
 class Annulus {
  public:
   Annulus(const std::array<Bezier, 4> &lap, const Vector<double> &commissures) : laps_(two_laps(lap)) {
@@ -133,8 +134,8 @@ class Annulus {
     leaflets_.back()[n_cells].hinge = leaflets_.front()[0].hinge;
   }
 
-  // Sets the point where all leaflets meet, seen along z. Commissures then lead towards this point, so that neighbours stay on
-  // opposite sides of one plane.
+  // Sets the point where all leaflets meet, seen along z. All commissures lead towards this point, which keeps neighbours on
+  // opposite sides of a plane.
   void set_meeting(Vec3 at) {
     meeting_ = at;
     for (AtPlaces<Place> &leaflet : leaflets_)
@@ -190,7 +191,7 @@ AtPlaces<Vec3> on_parts(const std::array<Bezier, n_cells> &parts) {
   return points;
 }
 
-// While it moves, a meridian arrives at the coaptation line in the direction of the zone.
+// A moving meridian arrives at the coaptation line in the direction in which the zone continues.
 Bezier meridian(Vec3 hinge, Vec3 start, double turn, Vec3 on_line, Vec3 on_edge) {
   return Bezier::cubic(hinge, hinge + start, on_line + turn * unit(on_line - on_edge), on_line);
 }
@@ -253,7 +254,7 @@ Leaflet closed_leaflet(const Sizes &sizes, const Annulus &annulus, std::size_t k
     if (sizes.n_leaflets() == 2) return end == 0 ? Vec3{away.y, -away.x, 0} : Vec3{-away.y, away.x, 0};
     return unit(level(end_of_edge(sizes, annulus.hinge(k, end))) - meeting);
   };
-  // The leaflet stays half the gap away from the lines along which leaflets meet.
+  // Each leaflet stays half the gap away from the lines along which leaflets meet.
   const double sine = std::min(length(cross(away, along(0))), length(cross(away, along(n_cells))));
   Vec3 on_line = meeting + 0.5 * sizes.of(gap) / sine * away - Vec3{0, 0, sizes.of(tenting_height)};
   const auto zone_below = [&] { return sizes.length(k) - closed_length(sizes, hinge, on_line); };
@@ -302,7 +303,7 @@ Leaflet open_leaflet(const Sizes &sizes, const Annulus &annulus, std::size_t k, 
   const SineCosine down = sine_cosine_degrees(sizes.of(open_angle));
   AtPlaces<Vec3> edge;
   for (std::size_t i = 0; i < n_places; ++i) edge[i] = annulus.hinge(k, i).hang(closed.whole[i], down);
-  // The edge has no corner in the middle.
+  // Turns the control points beside the middle, so that the edge has no corner there.
   const Vec3 along = unit(edge[middle + 1] - edge[middle - 1]);
   edge[middle - 1] = edge[middle] - distance(edge[middle - 1], edge[middle]) * along;
   edge[middle + 1] = edge[middle] + distance(edge[middle + 1], edge[middle]) * along;
@@ -316,11 +317,11 @@ Leaflet open_leaflet(const Sizes &sizes, const Annulus &annulus, std::size_t k, 
   return made;
 }
 
-// A leaflet first turns about its hinges, and then becomes straight. Lengths therefore change later than angles. If lengths and
-// angles changed at the same pace, neighbouring leaflets would touch during the motion.
+// A leaflet first turns about its hinges, and then becomes straight. Lengths therefore change later than angles. If both changed
+// at the same pace, neighbouring leaflets would touch during the motion.
 double behind(double share) { return share * share; }
 
-// Swings a vector about its hinge from one state to another: blends the two vectors, and gives the result the blended length.
+// Swings a vector about its hinge: blends the vectors of the two states, and gives the result the blended length.
 Vec3 swung(Vec3 from, Vec3 to, double share) {
   const Vec3 blended = riis::blend(from, to, share);
   const double size = length(blended);
@@ -336,7 +337,7 @@ double middle_length(const Leaflet &leaflet) {
 
 // Returns the leaflet after every place has moved by a share of its way. Each control point swings about its hinge. After the
 // swing, the leaflet is stretched until its middle has the right length. The stretch becomes smaller towards the commissures.
-// Finally, bumps lift the leaflet along z. Seen along z, lifted leaflets are therefore as far apart as healthy leaflets.
+// Finally, bumps lift the leaflet. They lift it along z, so that lifted leaflets seen along z are as far apart as healthy ones.
 Leaflet moved(const Leaflet &closed, const Leaflet &open, const AtPlaces<double> &shares) {
   Leaflet made = closed;
   for (std::size_t i = 0; i < n_places; ++i) {
@@ -623,7 +624,7 @@ std::array<Bezier, 4> saddle_annulus(const SaddleAnnulus &annulus) {
   return made;
 }
 
-// The kinds are made when they are first used, and are never destroyed, so they serve until the process ends.
+// Each kind is made at its first use. It is never destroyed, so that it serves until the process ends.
 const ValveKind &mitral_coapting_valve_kind() {
   static const ValveKind &kind = *new_kind<2, mitral_coapting_valve_kind>(
       "mitral_coapting",

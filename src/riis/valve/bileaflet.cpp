@@ -83,7 +83,7 @@ struct Shape {
 };
 
 Shape blended(const ValveState &closed, const ValveState &open, double at) {
-  // If both states have the same value, returns this value without blending, so that a housing that does not move keeps its bits.
+  // A value that both states have is not blended, so that a housing that does not move keeps its bits.
   const auto both = [&](Parameter parameter) {
     const double from = closed.values[parameter][0], to = open.values[parameter][0];
     return from == to ? from : blend(from, to, at);
@@ -97,8 +97,8 @@ Shape blended(const ValveState &closed, const ValveState &open, double at) {
           blend(closed.values[closed_angle][0], open.values[open_angle][0], at)};
 }
 
-// Turns points of the orifice plane into points of the leaflet on the side x > 0. Seen along the axis, the point of the closed
-// leaflet is at (x, y).
+// Turns a point (x, y) of the orifice plane into a point of the leaflet on the side x > 0. On the closed leaflet, seen along the
+// axis, this point is at (x, y).
 class Turn {
  public:
   explicit Turn(const Shape &shape)
@@ -107,8 +107,8 @@ class Turn {
         closed_(sine_cosine_degrees(shape.closed_angle)),
         now_(sine_cosine_degrees(shape.angle)) {}
 
-  // The first coordinate is offset + (x - offset) cos(angle) / cos(closed_angle). The computation gives exactly x for a closed
-  // leaflet.
+  // The first coordinate is offset + (x - offset) cos(angle) / cos(closed_angle). The order of the operations gives exactly x for
+  // a closed leaflet.
   Vec3 operator()(double x, double y) const {
     const double along = (x - offset_) / closed_.cosine;
     return {x + along * (now_.cosine - closed_.cosine), y, height_ + along * now_.sine};

@@ -21,7 +21,8 @@
 namespace riis {
 namespace {
 
-// The positions in the lists of specs below. The parameters of all commissures and then of all cusps follow, then those of bumps.
+// The positions in the lists of specs below. Behind them, the lists have the parameters of all commissures, then of all cusps,
+// then of bumps.
 // clang-format off
 enum Parameter {
   root_radius, commissure_radius, commissure_height, effective_height, coaptation_height, gap, bottom_angle, belly, edge_rise,
@@ -32,19 +33,19 @@ enum OfCommissure { height, fusion, n_of_commissure };
 enum OfCusp { sector, own_effective_height, own_coaptation_height, own_open_radius_ratio, n_of_cusp };
 // clang-format on
 
-// An open free edge that does not hang must be shorter than `most_of_edge` times the closed free edge.
+// Without sag, the open free edge must be shorter than `most_of_edge` times the closed free edge.
 constexpr double most_of_edge = 0.998;
 // While the valve opens, the height of the free edge above the root must stay at least `least_height` times root_radius.
 constexpr double least_height = 0.05;
-// Every set of values is checked for folds of the cusps at four openings, because folds arise in the second half of the motion.
+// Every set of values is checked for folds of the cusps at these openings. Folds arise only in the second half of the motion.
 constexpr std::array<double, 4> openings_of_folds{0.6, 0.75, 0.9, 1};
 // At the root, the leaflet must rise by at least `least_rise` times the rise of a leaflet without sag.
 constexpr double least_rise = 0.05;
 // If a cusp rises by less than `usual_rise`, its open edge leaves the commissures at a smaller slope. If the rise is at most
 // usual_rise - rise_until_level, the edge leaves the commissures horizontally.
 constexpr double usual_rise = 0.1, rise_until_level = 0.15;
-// A cusp that would fold gets a smaller slope. The height of its edge above the root must then stay at least
-// `least_height_of_flat` times root_radius. In a lower leaflet, triangles would cross near the attachment.
+// The edge of a cusp that would fold gets a smaller slope at the commissures. The height of its edge above the root must then
+// stay at least `least_height_of_flat` times root_radius. In a lower leaflet, triangles would cross near the attachment.
 constexpr double least_height_of_flat = 0.08;
 // Fused commissures must leave an open orifice of at least `least_orifice` of the area inside the commissures.
 constexpr double least_orifice = 0.06;
@@ -72,7 +73,8 @@ void check_values(const ParameterValues &list);
 template <std::size_t n_cusps>
 PatchSet make_patches(const ValveState &closed, const ValveState &open, double opening);
 
-// Appends a parameter of one cusp or commissure. Until the parameter is set, it has the value of the valve's own parameter.
+// Appends a parameter of one cusp or commissure. Until the caller sets the parameter, it has the value of the parameter that the
+// whole valve has.
 void add_own(Vector<ParameterSpec> &specs, const std::string &owner, const char *name, Parameter of_valve) {
   ParameterSpec own = specs[of_valve];
   own.rule = {of_valve == commissure_height ? "commissure_height" : name, nullptr, of_valve};
@@ -171,7 +173,7 @@ class ValveValues {
   double meeting_shift() const { return n_cusps_ == 2 ? values_[at_cusp(n_cusps_, sector)][0] : 0; }
   std::size_t before(std::size_t k) const { return (k + n_cusps_ - 1) % n_cusps_; }
 
-  // Returns whether all cusps and all commissures have the same sizes, so that the cusps are images of one half.
+  // Returns whether the cusps are images of one half, because all cusps and all commissures have the same sizes.
   bool has_equal_cusps() const {
     for (std::size_t k = 1; k < n_cusps_; ++k) {
       for (const OfCommissure parameter : {height, fusion})
@@ -184,7 +186,7 @@ class ValveValues {
   }
   bool has_equal_halves() const { return has_equal_cusps() && !bumps_.any(); }
 
-  // The sizes of cusp k for both of its sides, or for the one side whose images make equal cusps.
+  // Returns the sizes of cusp k, for both of its sides. With has_equal_halves, returns one side, whose images make all cusps.
   CuspSizes sizes(std::size_t k, bool has_equal_halves) const;
 
  private:
@@ -260,7 +262,7 @@ double least_rise_of(const Vector<Vector<HalfCusp>> &halves) {
   return least;
 }
 
-// The least rise at the root, over the openings at which cusps may fold. Openings at which the edge hangs too low do not count.
+// The least rise at the root over the openings at which cusps may fold. It leaves out openings at which the edge hangs too low.
 struct RiseOnWay {
   double least = std::numeric_limits<double>::infinity();
   bool hangs_too_low = false;  // at one of these openings
@@ -285,8 +287,8 @@ struct CuspMotion {
 
 // Returns the states between which a cusp moves. A long open edge hangs deep. If such an edge leaves the commissures steeply, the
 // leaflet folds beside its attachment. The slope at the commissures therefore becomes smaller as the cusp comes nearer to a fold.
-// Three equal cusps keep their usual edge, so their triangles are the same, bit for bit, with and without this rule. Fused cusps
-// also keep this edge, because the patches beside the fused part would become too narrow.
+// Three equal cusps keep their usual edge, so that this rule does not change a bit of their triangles. Fused cusps also keep it,
+// because the patches beside the fused part would become too narrow.
 CuspMotion motion_of(const CuspSizes &closed, CuspSizes open) {
   EndStates usual = end_states(closed, open);
   const bool is_fused =
@@ -334,8 +336,8 @@ void check_cusp(const ValveValues &values, std::size_t k) {
          " long, too short to open so far: look at effective_height, commissure_height, open_radius_ratio, "
          "commissure_expansion");
   if (sizes.keeps_ratio && is_half) {
-    // The middle of the edge is at least as far from a commissure as the symmetry plane is. The middle therefore never hangs
-    // deeper than this value.
+    // The middle of the edge is at least as far from a commissure as the symmetry plane is. The middle is therefore never lower
+    // than this value.
     const double away = sizes.sector.sine * sizes.commissure_radius;
     const double low = values.of_commissure(k, height) - std::sqrt(edge_length * edge_length - away * away);
     if (!(low >= least_height * sizes.root_radius))
@@ -414,7 +416,7 @@ void check_values(const ParameterValues &list) {
   check_fusion(values);
 }
 
-// An open state may have other sizes than the closed valve, but must have the same cusps.
+// An open state may have other sizes than the closed valve, but not other cusps.
 void check_same_cusps(const ValveValues &closed, const ValveValues &open) {
   for (std::size_t k = 0; k < closed.n_cusps(); ++k) {
     if (closed.sectors()[k] != open.sectors()[k])
@@ -439,7 +441,7 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
   PatchSet set;
   if (has_equal_halves) {
     add_cusps(set, halves(0).front(), equal_places(n_cusps, shift));
-    // The cusps meet only at the commissures, where the side u1 of the top patch is one point.
+    // The cusps meet only at the commissures. There the side u1 of the top patch is one point.
     sew_equal_cusps(set, top_patch(set) - 1, SeamPlace::corner);
     sew_equal_cusps(set, top_patch(set), SeamPlace::side_u1);
     return set;
@@ -457,7 +459,7 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
 
 }  // namespace
 
-// The kinds are made when they are first used, and are never destroyed, so they serve until the process ends.
+// Each kind is made at its first use. It is never destroyed, so that it serves until the process ends.
 const ValveKind &bicuspid_valve_kind() {
   static const ValveKind &kind = *new ValveKind(make_kind<2>("bicuspid", 0.1));
   return kind;

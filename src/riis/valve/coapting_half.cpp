@@ -13,14 +13,14 @@ namespace riis {
 namespace {
 
 // The coaptation line is turned in `n_crease_steps` steps until no crease is left. Each step computes the crease at the ends of
-// `n_crease_spans` parts. The stiffness is the weight of the line's displacement in comparison with the crease. With these values
-// the largest crease of random valves is below one degree.
+// `n_crease_spans` parts. The stiffness says how much the line's displacement weighs in comparison with the crease. With these
+// values the largest crease of random valves is below one degree.
 constexpr int n_crease_steps = 2;
 constexpr std::size_t n_crease_spans = 8;
 constexpr double crease_stiffness = 0.03;
 
-// If a fused part has at least `turned_from` of the edge, it is wide enough for a line that arrives at the coaptation line
-// without a crease.
+// A fused part with at least the share `turned_from` of the edge has room for a parting curve without a crease at the coaptation
+// line.
 constexpr double turned_from = 0.3;
 
 // Along the coaptation line K, the derivative of the lower patch by v is T = K - c + (1 - u) Y + u A, with the chord c of K. Y
@@ -81,10 +81,10 @@ Bezier first_coaptation_line(const Bezier &free_edge, Vec3 middle, const EndTang
   return cubic_through(middle, point(1.0 / 3), point(2.0 / 3), free_edge.last());
 }
 
-// Moves the inner control points of the coaptation line, so that the two patches that meet at this line have a common tangent
-// plane. The crease is the sine of the angle between two planes: the plane of K' and T, and the plane of K' and F - K. The sine
-// is computed at the ends of parts of K. A step linearizes the determinant of K', T and F - K. Patches pair points of K and F at
-// equal shares u of the lengths of both curves.
+// Moves the inner control points of the coaptation line until the patches above and below the line have a common tangent plane.
+// The crease is the sine of the angle between two planes: the plane of K' and T, and the plane of K' and F - K. The sine is
+// computed at the ends of parts of K. A step linearizes the determinant of K', T and F - K. A patch joins the points of K and F
+// at equal shares u of their lengths.
 Bezier smoothed(Bezier line, const Bezier &free_edge, const EndTangents &tangents) {
   const double edge_length = arc_length(free_edge), chord = distance(line.first(), line.last());
   for (int step = 0; step < n_crease_steps; ++step) {
@@ -128,8 +128,9 @@ Bezier moved(Bezier curve, Vec3 by) {
 }
 
 // Returns the curve between the free and the fused part below the coaptation line. The curve is a mixture of the symmetry curve
-// and the attachment. The curve arrives in the direction of the zone's edge S, so that the leaflet has no crease at the end. In a
-// narrower fused part the curve turns less, because a larger turn would lead out of this part and across the attachment.
+// and the attachment. So that the leaflet has no crease at the end, the curve arrives there in the direction of the zone's edge
+// S. In a fused part below `turned_from` the curve turns less, because a larger turn would lead it out of this part and across
+// the attachment.
 Bezier parting_curve(const HalfCusp &half, const Bezier &attachment, double share, const Bezier &S) {
   const Vec3 first = half.symmetry_below.first(), last = S.first();
   const Vec3 off = last - mix(half.symmetry_below.last(), attachment.last(), share);

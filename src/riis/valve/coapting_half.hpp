@@ -9,13 +9,13 @@
 
 namespace riis {
 
-// The middle of the free edge hangs `depth` below the edge's end, at the height `low`. Both `depth` and `low` are given, because
-// the two halves of a cusp must have the same height to the last bit. Returns one part or, if the half is fused, the free and the
-// fused part.
+// The middle of the free edge hangs `depth` below the edge's end, at the height `low`. `low` is given although it follows from
+// `depth`, because both halves of a cusp must have the same height to the last bit. Returns one part or, if the half is fused,
+// the free and the fused part.
 Vector<HalfCusp> coapting_half(const HalfNumbers &numbers, double depth, double low);
 
-// Returns the least rise of the leaflet at the root. The unit is the rise of a leaflet that has no sag, and that has the length
-// of the symmetry curve everywhere. With a negative rise, the leaflet dips below its attachment and folds.
+// Returns the least rise of the leaflet at the root. The unit is the rise of a leaflet without sag that is everywhere as long as
+// the symmetry curve. With a negative rise, the leaflet dips below its attachment and folds.
 double rise_at_root(const Vector<HalfCusp> &parts);
 
 }  // namespace riis

@@ -27,8 +27,8 @@ Bezier profile_curve(const CuspProfile &profile, double height) {
                        last);
 }
 
-// Splits the curve at t. Replaces the common point of two curves by `point`, which must be on the curve up to rounding. At this
-// point, the curve therefore has the same bits as the ends of other curves.
+// Splits the curve at t. The common end of both parts becomes `point`, which must be on the curve up to rounding. Both parts thus
+// meet other curves there to the last bit.
 std::pair<Bezier, Bezier> split_through(const Bezier &curve, double t, Vec3 point) {
   auto [below, above] = split(curve, t);
   view(below.control)[below.degree] = point;
@@ -36,7 +36,7 @@ std::pair<Bezier, Bezier> split_through(const Bezier &curve, double t, Vec3 poin
   return {below, above};
 }
 
-// For the power 2, the cubic equals the profile exactly if the length of its end tangents is a third of the end's y.
+// With the power 2, a cubic whose end tangents are a third of the end's y long equals the profile exactly.
 CuspProfile parabola(double radius_in, double radius_out, double angle) {
   const double third = radius_out * sine_cosine_degrees(angle).sine / 3;
   return {radius_in, radius_out, angle, 2, third, third};
@@ -71,7 +71,7 @@ SymmetrySides add_middle(PatchSet &set, const MovingHalf &half) {
 }
 
 // Adds the patches of all parts. The first part begins at `middle`. The last part ends at `commissure`, or at its own side.
-// images(0, number) makes the images of the lower patch of a part, and images(1, number) those of its upper patch.
+// images(0, number) makes the images of a part's lower patch, and images(1, number) those of the upper patch.
 template <class Images>
 void add_parts(PatchSet &set, const MovingHalf &half, const SymmetrySides &middle,
                const std::optional<Side> &commissure, const Images &images) {
@@ -91,7 +91,7 @@ void add_parts(PatchSet &set, const MovingHalf &half, const SymmetrySides &middl
   }
 }
 
-// Returns the half after the operations of an image.
+// Returns the half after it is mirrored, turned and moved like an image.
 MovingHalf turned(const MovingHalf &half, const PatchImage &image) {
   const auto turn = [&](Bezier curve) {
     for (int i = 0; i <= curve.degree; ++i) view(curve.control)[i] = place(image, view(curve.control)[i]);
@@ -108,7 +108,7 @@ MovingHalf turned(const MovingHalf &half, const PatchImage &image) {
   return {turn_all(half.parts), turn_all(half.rates)};
 }
 
-// Gives a half the middle of the other half, which differs from its own middle only by rounding.
+// Gives a half the middle of the other half. The two middles differ only by rounding.
 void begin_at(HalfCusp &half, const HalfCusp &other) {
   half.leaflet.control[0] = other.leaflet.first();
   half.bending.control[0] = other.bending.first();
@@ -223,7 +223,7 @@ Vector<CuspPlace> equal_places(std::size_t n_cusps, Vec3 shift) {
   Vector<CuspPlace> places;
   for (std::size_t cusp = 0; cusp < n_cusps; ++cusp) {
     const double turn = 360.0 / static_cast<double>(n_cusps) * static_cast<double>(cusp);
-    // The sum with 0 turns -0 into 0, so the cusps have the same bits where they meet on the axis.
+    // Adding 0 turns -0 into 0, so that the cusps have the same bits where they meet on the axis.
     places.push_back(
         {rotation_xyz({0, 0, turn > 180 ? turn - 360 : turn}), shift + Vec3{0, 0, 0}, static_cast<std::int32_t>(cusp)});
   }
@@ -244,7 +244,8 @@ void add_unequal_cusps(PatchSet &set, const Vector<UnequalCusp> &cusps, Vec3 shi
     placed.push_back({turned(cusp.halves[0], {Mirror::none, turn, {0, 0, 0}, 0, 0}),
                       turned(cusp.halves[1], {Mirror::in_y, turn, {0, 0, 0}, 0, 0})});
   }
-  // Each turn rounds differently, so one of two curves takes its end from the other curve.
+  // Two curves meet at a commissure, but each is turned with its own rounding. One of the curves therefore takes its end from the
+  // other.
   Vector<Side> commissures;
   for (std::size_t k = 0; k < n_cusps; ++k) {
     const auto &[here, there] = placed[k];

@@ -47,9 +47,9 @@ HalfCusp blend(const HalfCusp &closed, const HalfCusp &open, double opening);
 // Returns the derivatives of the control points with respect to the opening, from two states whose openings differ by `apart`.
 HalfCusp rate(const HalfCusp &closed, const HalfCusp &open, double apart = 1);
 
-// Refuses curves that extend far away. Values within their ranges can together make such curves: for example a high power with a
-// long tangent, or a bending curve near the root. `state` and `cusp` begin the message, for example "" and "the right cusp".
-// `also` ends the list of parameters in the message.
+// Refuses curves that extend far away. Such curves can arise from values that are each within their range, for example a high
+// power with a long tangent. `state` and `cusp` begin the message, for example "" and "the right cusp". `also` ends the list of
+// parameters in the message.
 void check_reach(const HalfCusp &half, const CuspShape &shape, const char *state, const char *cusp, const char *also);
 
 // The position of a cusp. The cusp is turned and then shifted. The id of its leaflet also numbers its patches.
@@ -59,31 +59,33 @@ struct CuspPlace {
   std::int32_t leaflet_id;
 };
 
-// Half a cusp in parts that lie side by side from the symmetry plane to the commissure, with the rates of their curves. The sinus
-// curves of a part are the symmetry curves of the next part.
+// The parts of half a cusp, which lie side by side from the symmetry plane to the commissure, with the rates of their curves. The
+// sinus curves of a part are the symmetry curves of the next part.
 struct MovingHalf {
   Vector<HalfCusp> parts, rates;
 };
 
-// Adds the lower and the upper patch of each part. At each place of a cusp, all patches get images for both halves of the cusp,
-// with y >= 0 first. The upper patch of the last part becomes the last patch of the set. The side v1 of this last patch is the
-// free edge, which ends at the commissure (u = 1). If there are second parts, the ids of their patches follow the ids of the
-// first parts of all cusps.
+// Adds the lower and the upper patch of each part. At each place of a cusp, every patch gets two images, for the half y >= 0 and
+// then for the other half. The upper patch of the last part becomes the last patch of the set. The side v1 of this last patch is
+// the free edge, which ends at the commissure (u = 1). If cusps have second parts, the patches of these parts have ids after
+// those of all first parts.
 void add_cusps(PatchSet &set, const MovingHalf &half, const Vector<CuspPlace> &places);
 inline std::size_t top_patch(const PatchSet &set) { return set.patches.size() - 1; }
 
-// Returns the places of equal cusps. Equal cusps follow each other around the axis, from the x axis on, and are then shifted.
+// Returns the places of equal cusps. The first cusp is at the x axis, the others follow around the z axis, and then all are
+// shifted.
 Vector<CuspPlace> equal_places(std::size_t n_cusps, Vec3 shift);
-// Sews the images of a patch of equal cusps together. The half y < 0 of each cusp meets the half y >= 0 of the cusp before it.
+// Sews together the images that a patch has in equal cusps. The half y < 0 of each cusp meets the half y >= 0 of the cusp before
+// it.
 void sew_equal_cusps(PatchSet &set, std::size_t patch, SeamPlace place);
 
-// A cusp that differs from its neighbours, or whose halves y >= 0 and y < 0 differ. Each half is given as for y >= 0.
+// A cusp that differs from its neighbours, or whose two halves differ. Each half is given as if it were the half y >= 0.
 struct UnequalCusp {
   double turn_degrees;
   std::array<MovingHalf, 2> halves;
 };
-// Adds the patches of cusps that follow each other around the axis, with the ids that equal cusps have. To the last bit, the
-// halves of a cusp share their middle, and neighbours share their commissure.
+// Adds the patches of cusps that follow each other around the axis. The ids are those that equal cusps would have. To the last
+// bit, the halves of a cusp share their middle, and neighbours share their commissure.
 void add_unequal_cusps(PatchSet &set, const Vector<UnequalCusp> &cusps, Vec3 shift);
 
 }  // namespace riis

@@ -14,16 +14,16 @@
 namespace riis {
 namespace {
 
-// An edge that would be too short for open_radius_ratio opens until `used_of_edge` of its length is used, without sag.
+// An edge that is too short for open_radius_ratio opens until an edge without sag would use up `used_of_edge` of its length.
 constexpr double used_of_edge = 0.97;
-// The open edge leaves the commissure like an arc of a circle, if it reaches `round_from` of the arc's height.
+// An open edge that reaches `round_from` of the height of a circle's arc leaves the commissure like this arc.
 constexpr double round_from = 0.7;
 // The edges of three equal cusps are always round. Their half sectors are 60 degrees. The edge of another cusp becomes straighter
-// as the cosine of its half sector moves away from the cosine of 60 degrees. From a difference of `not_of_three` on, the sector
-// does not make the edge round.
+// as the cosine of its half sector moves away from the cosine of 60 degrees. If the cosines differ by `not_of_three` or more, the
+// edge gets no roundness from its sector.
 constexpr double not_of_three = 0.22;
-// If a cusp has a sector of more than `most_of_one_piece` degrees, its attachment has two pieces, because one cubic would leave
-// the cylinder.
+// The attachment of a cusp whose sector exceeds `most_of_one_piece` degrees has two pieces, because one cubic would leave the
+// cylinder.
 constexpr double most_of_one_piece = 210;
 
 std::array<double, 4> blend(const std::array<double, 4> &from, const std::array<double, 4> &to, double share) {
@@ -114,7 +114,7 @@ HalfNumbers closed_half(const CuspSizes &sizes, const CuspSizes::Side &side) {
   // is half the gap.
   const double sine_of_plane = sizes.meeting == 0 ? sizes.sector.sine : C.y / hypotenuse(C.x - sizes.meeting, C.y);
   const double x_in = sizes.meeting + 0.5 * sizes.gap / sine_of_plane;
-  // The tangent is limited, so that its end lies neither above half the height of the coaptation line nor beyond the zone.
+  // The tangent is limited. Its end must not lie above half the height of the coaptation line, and not beyond the zone.
   const auto [sine, cosine] = sine_cosine_degrees(sizes.bottom_angle);
   double tangent = std::min(sizes.belly * R, sine > 0 ? 0.5 * z_k / sine : sizes.belly * R);
   if (sizes.meeting != 0) tangent = std::min(tangent, 0.9 * (R - x_in));
@@ -140,9 +140,9 @@ HalfNumbers closed_half(const CuspSizes &sizes, const CuspSizes::Side &side) {
 }
 
 // Returns the numbers of the closed half with the free edge of the open half. Seen along the axis, the edge is round like an arc
-// of a circle. An edge that is too short for an arc opens less, and leaves the commissure in a direction between the arc's
-// direction and a straight line. A fused edge is shorter than the arc, and its straight direction leads to the inner control
-// point at the middle.
+// of a circle. An edge that is too short for an arc opens less. It leaves the commissure in a direction between the arc's
+// direction and a straight line. For a fused edge, which is shorter than the arc, the straight line leads to the inner control
+// point beside the middle.
 HalfNumbers with_open_edge(const CuspSizes &sizes, const CuspSizes::Side &side, const HalfNumbers &closed,
                            double ratio) {
   const HalfSector &sector = sizes.sector;
@@ -221,15 +221,15 @@ CuspNumbers open_cusp(const CuspSizes &sizes) {
 }  // namespace
 
 HalfSector half_sector(double sector_degrees) {
-  // For three equal cusps, this root has the same rounding as the sine of 60 degrees.
+  // For three equal cusps, the sine of 60 degrees is this root, rounded correctly.
   const double sine_60 = std::sqrt(0.75), on_cylinder_60 = tangent_on_cylinder(sine_60, 0.5);
   if (sector_degrees == 120) return {sine_60, 0.5, 4.0 / 3.0 * (2 - std::sqrt(3.0)), 1, std::nullopt};
   const auto [sine, cosine] = sine_cosine_degrees(sector_degrees / 2);
   HalfSector made{sine, cosine, arc_reach(sector_degrees / 2), tangent_on_cylinder(sine, cosine) / on_cylinder_60,
                   std::nullopt};
   if (sector_degrees > most_of_one_piece) {
-    // The arc ends at the middle of the single cubic. After the arc, the attachment continues with a cubic, which is built like
-    // the single cubic of a narrower cusp.
+    // The arc ends at the middle of the single cubic. From there the attachment continues with a cubic, which is built like the
+    // single cubic of a narrower cusp.
     const double arc_cosine = (1 + cosine) / 2, arc_sine = std::sqrt(1 - arc_cosine * arc_cosine);
     const double on_cylinder =
         tangent_on_cylinder(sine * arc_cosine - cosine * arc_sine, cosine * arc_cosine + sine * arc_sine);
@@ -269,9 +269,9 @@ EdgeLength::Value EdgeLength::at(double depth) const {
   return value;
 }
 
-// The length of the free edge is a growing and convex function of its depth. Newton's method starts at a depth that is too large.
-// Newton's method therefore descends to the solution and never passes it. Half an edge is at least as long as the straight line
-// between its ends. At the starting depth, the line of one half alone has the whole length, so this depth is large enough.
+// The length of the free edge is a growing and convex function of its depth. Newton's method starts at a depth that is too large,
+// so it descends to the solution and never passes it. At the starting depth, the straight line between the ends of one half alone
+// is as long as the whole edge should be. A half is at least as long as its line, so this depth is large enough.
 double edge_depth(const CuspNumbers &cusp) {
   Vector<EdgeLength> halves(cusp.begin(), cusp.end());
   const double wanted = total_length(cusp), first_top = cusp.front().edge_top;

@@ -23,7 +23,7 @@ inline constexpr std::array<Abscissa, 4> gauss_4{{{0.06943184420297371239, 0.173
                                                   {0.66999052179242813240, 0.32607257743127307131},
                                                   {0.93056815579702628761, 0.17392742256872692869}}};
 
-// The arc with which the attachment of a wide cusp begins at the symmetry plane, given by the arc's angle.
+// The arc with which the attachment of a wide cusp begins at the symmetry plane. Its angle is given by sine and cosine.
 struct AttachmentArc {
   double sine, cosine;
   double reach;  // the length of its end tangents, divided by the second piece's start tangent
@@ -35,7 +35,7 @@ inline constexpr double least_sector = 50, most_sector = 240;
 // Half of a cusp's sector: the angle theta from its symmetry plane to a commissure.
 struct HalfSector {
   double sine, cosine;
-  // The distance of the inner control points from the ends, in radii, of a cubic that approximates an arc of theta.
+  // A cubic approximates an arc of theta. This is the distance, in radii, of its inner control points from its ends.
   double arc_reach;
   double attachment_factor;  // factor of the attachment's start tangent, which keeps its middle on the cylinder
   std::optional<AttachmentArc> arc;
@@ -59,7 +59,7 @@ struct CuspSizes {
     std::array<LocalOpening, 4> local;  // at the control points of the free edge, from the middle
   };
   Vector<Side> sides;  // the sides y >= 0 and y < 0, or one side for both
-  // In the open free edge, the inner control points beside the commissures hang `open_sag` times as deep as the middle.
+  // How deep the inner control points of the open free edge hang beside the commissures, as a share of the depth of the middle.
   double open_sag = usual_open_sag;
 };
 
@@ -85,7 +85,7 @@ struct HalfNumbers {
   double band_lean;   // in the middle, how much farther from the axis the coaptation line is than the free edge
   double belly_x;     // x of the first inner control point of the symmetry curve
   double belly_rise;  // height of that point, as a share of the height of the coaptation line's middle
-  double band_start;  // height from the second inner control point to the coaptation line, in the same unit
+  double band_start;  // height of the coaptation line above the second inner control point, as the same share
   std::optional<AttachmentArc> attachment_arc = {};
   std::optional<FusedPart> fused = {};
 };
@@ -96,8 +96,8 @@ using CuspNumbers = Vector<HalfNumbers>;
 // Blends the numbers of two states.
 CuspNumbers blend(const CuspNumbers &a, const CuspNumbers &b, double opening);
 
-// The length of half a free edge as a function of the depth of its middle below its end. A fixed quadrature rule computes this
-// length, so the length is a smooth function of the cusp's sizes.
+// The length of half a free edge. It depends on how far the edge's middle hangs below its end. A fixed quadrature rule computes
+// this length, so the length is a smooth function of the cusp's sizes.
 class EdgeLength {
  public:
   explicit EdgeLength(const HalfNumbers &half);
@@ -117,8 +117,8 @@ class EdgeLength {
   double chord_;
 };
 
-// Returns how far the middle of the free edge hangs below the end of the first half. At the returned depth, all halves together
-// have the length that is given for them. The halves must be at least as long as at depth 0.
+// Returns how far the middle of the free edge hangs below the end of the first half. At this depth, all halves together have the
+// length that they are given. The halves must be at least as long as at depth 0.
 double edge_depth(const CuspNumbers &cusp);
 // Returns the length of the free edge whose middle is as high as its lower end.
 double least_edge_length(const CuspNumbers &cusp);

@@ -14,8 +14,8 @@ namespace {
 
 // A landmark lies on a curve if its distance is at most `share_on_curve` of the curve's length.
 constexpr double share_on_curve = 0.01;
-// In the span's parameter, a cut has at least the distance `least_part` from the ends of the span and from other cuts. The warped
-// curve has the right point and direction at a landmark, so the curve beside the landmark is also right.
+// A landmark makes no cut nearer than `least_part`, in the span's parameter, to an end of the span or to another cut. At ends and
+// cuts, the warped curve has the right point and direction, so it is also right beside them.
 constexpr double least_part = 1.0 / 256;
 // The nearest point of a span is searched beside the best of `n_search_steps` even steps.
 constexpr int n_search_steps = 16;
@@ -26,7 +26,7 @@ double polygon_length(const Bezier &span) {
   return sum;
 }
 
-// Tells whether a point is so near to the box of the control points that the span may be within reach of it.
+// Returns false only if the box of the control points, and thus the span, is out of the point's reach.
 bool is_near_box(const Bezier &span, Vec3 p, double reach) {
   for (double Vec3::*axis : {&Vec3::x, &Vec3::y, &Vec3::z}) {
     double least = span.first().*axis, most = least;
@@ -47,7 +47,7 @@ double nearest_parameter(const Bezier &span, Vec3 p) {
   }
   constexpr double step = 1.0 / n_search_steps;
   double low = std::max(0.0, t - step), high = std::min(1.0, t + step);
-  // Either the derivative of half of the squared distance changes its sign between the ends, or the nearest point is an end.
+  // The nearest point is an end unless the derivative of half the squared distance changes its sign between the ends.
   for (int i = 0; i < 60 && high - low > 1e-15; ++i) {
     const auto d = derivatives(span, t);
     const Vec3 apart = evaluate(span, t) - p;
@@ -74,7 +74,7 @@ void add_cut(Vector<PointOnSpan> &cuts, const PointOnSpan &cut) {
   cuts.insert(at, cut);
 }
 
-// Returns the place on a curve at which a landmark cuts it, or nothing.
+// Returns the place at which a landmark cuts the curve, or nothing if it does not.
 std::optional<PointOnSpan> cut_by(const Vector<Bezier> &spans, Vec3 landmark, double reach) {
   PointOnSpan nearest{0, 0};
   double least = reach;
@@ -87,7 +87,8 @@ std::optional<PointOnSpan> cut_by(const Vector<Bezier> &spans, Vec3 landmark, do
   return nearest;
 }
 
-// The number of sides of a patch that may be cut. The sides u0 and u1 of a patch of arcs are bent anew between v0 and v1.
+// The number of sides of a patch that may be cut. The sides u0 and u1 of a patch of arcs are not cut, because they are bent anew
+// between v0 and v1.
 std::array<const Side *, 4> sides_of(const Patch &patch) { return {&patch.v0, &patch.v1, &patch.u0, &patch.u1}; }
 std::size_t n_sides_to_cut(const PatchSet &set) { return set.rates.empty() ? 2 : 4; }
 

@@ -14,7 +14,7 @@
 namespace riis {
 
 // The places at which landmarks lie on the curves of a valve. A warped curve is cut there, so that it meets the map's landmarks.
-// The places are found at rest, so they do not depend on the warp's targets or on the opening.
+// The places are found on the valve at rest. They therefore depend neither on the warp's targets nor on the opening.
 class LandmarkCuts {
  public:
   // Adds the landmarks of a map that lie on the curves of this state. All states must be built alike.
@@ -28,8 +28,8 @@ class LandmarkCuts {
   Vector<Vector<PointOnSpan>> on_sides_;
 };
 
-// Returns the cuts of each copy. Two patches may share a curve in one state only, so each side has separate cuts. A copy of a
-// curve has the cuts of all sides that use this copy.
+// Returns the cuts of each copy. Each side has cuts of its own, because two patches may share a curve in one state only. A copy
+// of a curve has the cuts of all sides that use it.
 Vector<Vector<PointOnSpan>> cuts_by_copy(Unfolding &unfolding, const LandmarkCuts &cuts);
 
 // Returns the spans, or their rates, with each cut span replaced by its parts.

@@ -109,8 +109,8 @@ class Annulus {
   Curve half_;
 };
 
-// Returns the cubic from `first` to `last` that passes through the tip at 1/2. This cubic is the affine image of the cubic that
-// approximates a circular arc of that angle. (The paper's matrix should give this curve, but has rank 3.)
+// Returns the cubic from `first` to `last` that passes through the tip at 1/2. This cubic is an affine image of the cubic that
+// approximates a circular arc of the angle `arc_angle`. (The paper's matrix should give this curve, but has rank 3.)
 Bezier free_edge(Vec3 first, Vec3 tip, Vec3 last, double arc_angle) {
   const auto [quarter_sine, quarter_cosine] = sine_cosine_degrees(0.25 * arc_angle);
   const auto [half_sine, half_cosine] = sine_cosine_degrees(0.5 * arc_angle);
@@ -120,7 +120,7 @@ Bezier free_edge(Vec3 first, Vec3 tip, Vec3 last, double arc_angle) {
   return Bezier::cubic(first, middle - along * half_chord + rise, middle + along * half_chord + rise, last);
 }
 
-// Returns the length of a free edge. Refuses an edge that is nearly one point, because it bounds no leaflet.
+// Returns the length of a free edge. Refuses an edge that is nearly a point, because such an edge bounds no leaflet.
 double checked_length(const Bezier &edge, const char *which, const Bezier &annulus) {
   const double length = arc_length(edge);
   if (!(length >= 1e-6 * arc_length(annulus)))
@@ -150,7 +150,7 @@ HalfValve half_valve(const ParameterValues &values, bool is_open) {
 
   const Annulus annulus(half.annulus);
   const double u_pm = half.u_commissure;
-  // Closed leaflets end in the plane z = 0, whatever the height of the annulus at the commissures.
+  // Closed leaflets end in the plane z = 0, although the annulus may be higher or lower at the commissures.
   const auto edge_point = [&](double u, double x) {
     Vec3 p = annulus.below(u, x, is_open ? sine_cosine_degrees(value(leaflet_inward_angle)) : SineCosine{0, 1});
     if (!is_open) p.z = 0;
@@ -225,14 +225,14 @@ class Patches {
     const auto [side_edge, rest] = split(half.anterior, half.cleft);
     const Bezier middle_edge = up_to_symmetry_plane(rest, (0.5 - half.cleft) / (1 - half.cleft));
     const std::size_t anterior_side = set_.add(side_edge).curve, anterior_middle = set_.add(middle_edge).curve;
-    // Closed leaflets share their edge. The common edge is therefore stored once and becomes one polyline.
+    // Closed leaflets have one edge in common. This edge is stored once, so that it becomes one polyline.
     const std::size_t posterior_side = is_closed ? anterior_side : set_.add(half.side_scallop).curve;
     const std::size_t posterior_middle =
         is_closed ? anterior_middle : set_.add(up_to_symmetry_plane(half.middle_scallop, 0.5)).curve;
     const Side commissure = set_.add(Bezier::point(side_edge.first()));
 
-    // u runs along the annulus. Beside the triangle, the spans of the anterior edge share the annulus in proportion to their
-    // lengths.
+    // u runs along the annulus. Outside of the triangle, the annulus is divided among the spans of the anterior edge in
+    // proportion to their lengths.
     const double u_pm = half.u_commissure, u_triangle = u_pm + half.triangle_width;
     const double side_length = arc_length(side_edge), middle_length = arc_length(middle_edge);
     const double u_anterior_cleft = u_triangle + side_length / (side_length + middle_length) * (0.5 - u_triangle);
@@ -319,7 +319,7 @@ std::array<Bezier, 3> half_annulus(const MitralAnnulus &annulus) {
 }
 
 const ValveKind &mitral_valve_kind() {
-  // The kind is made when it is first used, and is never destroyed, so it serves until the process ends.
+  // The kind is made at its first use. It is never destroyed, so that it serves until the process ends.
   static const ValveKind &kind = *new ValveKind(with_skirt(make_kind(), SkirtAxis::vertical));
   return kind;
 }

@@ -21,18 +21,18 @@ enum class Mirror { none, in_x, in_y };
 inline constexpr std::size_t no_patch = static_cast<std::size_t>(-1);
 
 // The placement of a patch. The patch may first be mirrored. After mirroring, the patch is turned and moved. All images of a
-// patch come from the same operations on the same points. A patch and its mirror image therefore meet in the mirror's plane to
-// the last bit.
+// patch come from the same operations on the same points. To the last bit, a patch and its mirror image therefore meet in the
+// mirror's plane.
 struct PatchImage {
   Mirror mirror;
   Rotation rotation;
   Vec3 translation;
   std::int32_t leaflet_id;
   std::int32_t patch_id;
-  bool is_turned_over = false;  // S_u x S_v of the patch itself points upstream, because it was once a mirror image
+  bool is_turned_over = false;  // S_u x S_v of the patch points upstream, because it comes from a mirror image
 };
 
-// Returns whether S_u x S_v of the placed patch points upstream, so that its triangles are turned over.
+// Returns whether the triangles of the placed patch are turned over, because its S_u x S_v points upstream.
 inline bool points_upstream(const PatchImage &image) { return (image.mirror != Mirror::none) != image.is_turned_over; }
 
 inline Vec3 place(const PatchImage &image, Vec3 p) {
@@ -44,8 +44,8 @@ inline Vec3 place(const PatchImage &image, Vec3 p) {
 // Returns the image without its translation. The result places directions.
 inline PatchImage turn_of(const PatchImage &image) { return {image.mirror, image.rotation, {0, 0, 0}, 0, 0}; }
 
-// A curve as the side of a patch. The curve is given by its position in PatchSet::curves, and runs from its first point or from
-// its last point.
+// A curve as the side of a patch. The curve is given by its position in PatchSet::curves. The side runs along the curve from its
+// first or from its last point.
 struct Side {
   std::size_t curve;
   bool reversed = false;
@@ -81,8 +81,8 @@ struct Patch {
 // The points that two images have in common.
 enum class SeamPlace : std::uint8_t { corner, side_v1, side_u1 };  // the corner is u = v = 1
 
-// Two images, of one patch or of two patches, that have points in common. Both images place the same points of the patches there.
-// The image `image` takes the placed points from the image `twin`, because two separate turns would round differently.
+// Two images, of one patch or of two patches, that have points in common. Where they meet, both images place the same points. The
+// image `image` takes these placed points from the image `twin`, because two separate turns would round differently.
 struct Seam {
   std::size_t patch, image, twin;
   SeamPlace place;
@@ -135,8 +135,8 @@ struct AttachedEnd {
   bool is_last;
 };
 // Two ends of attached sides that are neighbours but are not joined, because they belong to different leaflets. In the order
-// around the axis of the attachment, one side ends where the next side begins. In some valves a skirt is turned at such ends only
-// after a warp. Such valves store the angles, in radians, by which the skirt would be turned at both ends before the warp.
+// around the axis of the attachment, one side ends where the next side begins. In some valves the skirt is turned at such ends
+// only after a warp. These valves store by which angles, in radians, the skirt would be turned at both ends before the warp.
 struct NeighbourEnds {
   AttachedEnd before, after;
   std::optional<std::array<double, 2>> turns_at_rest = {};
@@ -154,13 +154,13 @@ struct PatchSet {
   // Bounds the Hausdorff distance of the patches from the valve's shape. The bound is not 0 if curves approximate arcs of
   // circles.
   double deviation = 0;
-  // The derivatives of the spans' control points with respect to the opening, or nothing if the valve does not blend control
-  // points. The list of derivatives has entries for the first curves. The curves of a skirt come later and have no entry.
+  // The derivatives of the spans' control points with respect to the opening. Empty if the valve does not blend control points.
+  // The list ends before the curves of a skirt, which come last and have no derivatives.
   Vector<Vector<Bezier>> rates = {};
-  // Only warped patches have this list. Each curve has an entry, except the lines between the sides of a skirt. These lines need
-  // no entry, because equal shares of their lengths stand for the same points.
+  // Only warped patches have this list. Each curve has an entry, except the lines between the sides of a skirt. On these lines,
+  // the points at equal shares of the length are the same material anyway.
   Vector<std::optional<MaterialPoints>> material = {};
-  // Only warped patches have this list. For each patch, the list says to which places the map takes points inside the patch.
+  // Only warped patches have this list. Its entries say to which places the map takes points inside each patch.
   Vector<MappedInside> mapped_inside = {};
   // Only valves whose skirts lead away from the axis of the attachment have this list. The patches of such valves have one image
   // each.

@@ -10,16 +10,16 @@
 
 namespace riis {
 
-// Bits of an entry of TriangleSet::rim_sides. The bit free_v1 marks a side v1 of only one patch of the leaflet. The marked side
+// Bits of an entry of TriangleSet::rim_sides. The bit free_v1 marks a side v1 that only one patch of the leaflet has. This side
 // is a part of the leaflet's free edge, even if closed leaflets meet there. A skirt has no free edge. The bit `held` marks a
-// patch whose attached side belongs to no other patch, except perhaps to a skirt.
+// patch whose attached side no other patch has, unless it is the patch of a skirt.
 enum PatchRim : std::uint8_t { rim_v0 = 1, rim_v1 = 2, rim_u0 = 4, rim_u1 = 8, free_v1 = 16, held = 32 };
 
-// Returns, for each patch_id, the sides on the rim. Two patches share a side if both have the same curve there and their images
-// put this curve at the same position. A side in the mirror's plane is shared by a patch and its own mirror image. A patch shares
-// a side with itself if two of its sides are the same curve. Images also share the sides at which they are sewn together (Seam).
-// Patches may also meet inside a side, as along the bending curve. Such vertices do not change the rim, so a T-junction does not
-// count as rim.
+// Returns, for each patch_id, the sides on the rim. Two patches share a side if both have one curve there, and their images put
+// this curve at one position. A patch and its own mirror image share a side in the mirror's plane. If two sides of a patch are
+// the same curve, the patch shares this side with itself. Images also share the sides at which they are sewn together (Seam).
+// Along a common side, such as the bending curve, a patch may have vertices inside the edges of the other patch. Such T-junctions
+// are not on the rim.
 Vector<std::uint8_t> rim_sides(const PatchSet &set);
 
 // Returns the sides of the patch on which a vertex with this u and v lies. A vertex on a side has exactly the side's parameter.

@@ -18,25 +18,26 @@ namespace {
 // A skirt of one length has `n_even_parts` parts on each side of a patch. The outer edge then has an error of at most a
 // thousandth of the length (tests/surface/test_skirt.c).
 constexpr std::size_t n_even_parts = 8;
-// Two ends of cusps that are not joined are neighbours if their distance is at most `most_between_ends` times the longest side.
+// Ends of cusps that are not joined count as neighbours up to a distance of `most_between_ends` times the longest side.
 constexpr double most_between_ends = 0.5;
-// The line through two neighbouring ends has an angle to the outward direction. If the angle's sine is between these two numbers,
-// the skirts lead along the line. The sine is positive if the ends have passed each other. Outside of this range, the skirts use
-// a sine that decreases to 0.
+// The line through two neighbouring ends makes an angle with the outward direction. The skirts lead along this line if the sine
+// of the angle is between these two numbers. The sine is positive if the ends have passed each other. Outside of this range, the
+// skirts use a sine that decreases to 0.
 constexpr double most_apart_in_line = -0.5, most_past_in_line = 0.98;
-// The sine that is used also falls to 0 if the sine of the line's angle to the axis is below `least_sine_to_axis`.
+// This sine also falls to 0 where the line is nearly parallel to the axis: the sine of their angle is then below
+// `least_sine_to_axis`.
 constexpr double least_sine_to_axis = 0.2;
-// If the sine of a side's angle to the plane across the axis is at least `least_rise`, the skirt leans as the side's tangent
-// does. Beside a flatter side the skirt leans less, and beside a side in the plane across the axis the skirt does not lean.
+// A side makes an angle with the plane across the axis. If its sine is at least `least_rise`, the skirt leans as the side's
+// tangent does. Beside a flatter side it leans less, and beside a side in this plane not at all.
 constexpr double least_rise = 0.5;
-// In some valves the skirt is not turned at rest, although its rule gives a turn there. If a warp hardly changes this turn, the
-// skirt is turned only by the change. If the warp changes the turn by `most_turn_as_at_rest` or more, the skirt is turned by the
-// whole new turn. In between, the turn passes gradually from one value to the other.
+// In some valves the skirt is not turned at rest, although the rule for neighbouring ends would turn it. If a warp hardly changes
+// this turn, the skirt is turned only by the change. After a change of `most_turn_as_at_rest` or more, the skirt is turned by the
+// whole new turn. Between these cases, the turn changes gradually.
 constexpr double most_turn_as_at_rest = pi / 4;
-// A disc about the axis has `n_corners` corners when it is warped.
+// The disc about the axis that is warped has `n_corners` corners.
 constexpr int n_corners = 24;
-// To differentiate a turned direction, the difference is taken between two points, `direction_step` times the length on either
-// side.
+// A turned direction is differentiated by the difference between two points, each at `direction_step` times the length from the
+// place.
 constexpr double direction_step = 1e-4;
 
 Vec3 without_placement(const PatchImage &image, Vec3 p) {
@@ -69,8 +70,8 @@ Vector<Step> steps_of_attachment(const PatchSet &set, const Vector<HeldSide> &si
     const Vector<Step> of_side = steps_of(along(set, held.side));
     for (const PatchImage &image : set.patches[held.patch].images) {
       const PatchImage turn = turn_of(image);
-      // Triangles are turned over in a mirror image, and in a patch that a warp has made of a mirror image. In a patch made of a
-      // mirror image, the sides run in the opposite direction.
+      // In a mirror image, the sides run around the axis in the opposite direction. This is also so in a patch that a warp has
+      // made from a mirror image.
       const double sign = points_upstream(image) ? -1 : 1;
       for (const Step &step : of_side) steps.push_back({place(image, step.at), sign * place(turn, step.by)});
     }
@@ -165,7 +166,7 @@ class SkirtMaker {
     set_.patches.push_back(std::move(strip));
   }
 
-  // Sews the strips together if their patches are sewn together at the end of their attached sides.
+  // Sews two strips together if their patches are sewn together at the end of the attached sides.
   void sew() {
     const Vector<Seam> seams = set_.seams;
     for (const Seam &seam : seams) {
@@ -189,9 +190,8 @@ class SkirtMaker {
     return found->second;
   }
 
-  // Returns the derivative of the length at one of the shares, per step between shares. The length between two shares then stays
-  // between the lengths at these shares, so a skirt does not overshoot at a corner of the wall (F. N. Fritsch, R. E. Carlson
-  // 1980).
+  // Returns the derivative of the length at one of the shares, per step between shares. Between two shares, the length then stays
+  // between the lengths at both, so that a skirt does not overshoot at a corner of the wall (F. N. Fritsch, R. E. Carlson 1980).
   static double growth_at(const Vector<double> &lengths, std::size_t i) {
     const double before = i == 0 ? 0 : lengths[i] - lengths[i - 1];
     const double after = i + 1 == lengths.size() ? 0 : lengths[i + 1] - lengths[i];
@@ -276,7 +276,7 @@ struct PlacedEnd {
   Vec3 tangent;
 };
 
-// Returns the line between two axes.
+// Returns the line midway between two axes.
 AxisLine between(const AxisLine &a, const AxisLine &b) {
   if (are_equal(a, b)) return a;
   const Vec3 direction = a.direction + b.direction;
@@ -288,7 +288,7 @@ double angle_about(const AxisLine &axis, Vec3 from, Vec3 to) {
   return arc_tangent(dot(cross(from, to), axis.direction), dot(from, to));
 }
 
-// Returns two angles, one for each of two neighbouring ends. The skirt at an end turns by this angle from the outward direction
+// Returns two angles, one for each of two neighbouring ends. By its angle, the skirt at an end turns from the outward direction
 // of its own axis to direction_between.
 std::array<double, 2> turns_between(const AxisLine &axis_before, const SideEnd &before, const AxisLine &axis_after,
                                     const SideEnd &after) {
@@ -362,8 +362,8 @@ Vector<NeighbourEnds> neighbour_ends(const PatchSet &set, bool wants_turns) {
 }
 
 Vec3 direction_between(const AxisLine &axis, const SideEnd &before, const SideEnd &after) {
-  // Seen along `rise`, one side leaves its end to the left, and the other side leaves its end to the right. The planes of the
-  // skirts' ends contain the vector `rise`.
+  // Seen along `rise`, the two sides lead away from their ends in opposite directions: one to the left, one to the right. The
+  // planes of the skirts' ends contain the vector `rise`.
   const auto lean = [&](Vec3 tangent) {
     const double up = dot(tangent, axis.direction);
     return (up / std::max(least_rise * least_rise, up * up)) * (tangent - up * axis.direction);
@@ -405,7 +405,7 @@ SkirtDirections::SkirtDirections(const PatchSet &set, const Vector<HeldSide> &si
     End &turned_before = view(ends_[before])[ends.before.is_last ? 1 : 0],
         &turned_after = view(ends_[after])[ends.after.is_last ? 1 : 0];
     if (ends.turns_at_rest) {
-      // Without a warp, the skirt is not turned.
+      // Returns the turn that the warp adds. Without a warp, the skirt is not turned.
       const std::array<double, 2> now = turns_between(axes_[before], at_before, axes_[after], at_after);
       const auto added = [&](std::size_t i) {
         const double rest = view(*ends.turns_at_rest)[i];
@@ -481,8 +481,7 @@ void aim_skirt(PatchSet &set, SkirtAxis axis) {
     const PatchImage &image = patch.images.front();
     const PatchImage turn = turn_of(image);
     patch.axis = {without_placement(turn, whole.centre - image.translation), without_placement(turn, whole.direction)};
-    // A plane of symmetry contains the line. Rounding must not move the line out of this plane, because mirror images meet only
-    // in the plane.
+    // A plane of symmetry contains the line. Mirror images meet only in this plane, so rounding must not move the line out of it.
     for (const PatchImage &other : patch.images) {
       if (other.mirror == Mirror::in_x) patch.axis.centre.x = patch.axis.direction.x = 0;
       if (other.mirror == Mirror::in_y) patch.axis.centre.y = patch.axis.direction.y = 0;
@@ -491,8 +490,8 @@ void aim_skirt(PatchSet &set, SkirtAxis axis) {
 }
 
 void aim_warped_skirt(PatchSet &set, const PatchSet &at_rest, const BlendedWarp &warp) {
-  // Sides that have the same line at rest also have the same line after the warp, so that strips meet. Cusps with separate lines
-  // at rest get separate lines after the warp.
+  // So that strips meet, sides with a common line at rest also have a common line after the warp. Cusps with separate lines at
+  // rest get separate lines after the warp.
   struct Group {
     AxisLine axis;
     Vector<Step> steps;

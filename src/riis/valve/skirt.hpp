@@ -24,9 +24,9 @@ enum class SkirtAxis : std::uint8_t {
 
 // Gives every attached patch its axis.
 void aim_skirt(PatchSet &set, SkirtAxis axis);
-// Gives every attached patch of a warped valve the line to which the map takes its axis before the warp. `at_rest` has the
-// patches before the warp, with their axes. The identity keeps all axes, and a map without scale turns the axes as a placement
-// does.
+// Gives every attached patch of a warped valve its axis: the line to which the map takes the axis that the patch has at rest.
+// `at_rest` has the patches before the warp, with their axes. The identity keeps all axes, and a map without scale turns the axes
+// as a placement does.
 void aim_warped_skirt(PatchSet &set, const PatchSet &at_rest, const BlendedWarp &warp);
 
 // A side at which a patch is attached. No other patch has the attached side.
@@ -37,28 +37,28 @@ struct HeldSide {
 // Returns the held sides that have a length, in the order of the patches. The patches must have no skirt yet.
 Vector<HeldSide> held_sides(const PatchSet &set);
 
-// The lengths of a skirt whose length is not the same everywhere. There is one list for each image of each patch with a held
-// side, in the order of held_sides. The list has the lengths at evenly spaced shares of the side's length.
+// The lengths of a skirt whose length is not the same everywhere. Each image of each held side has a list, in the order of
+// held_sides. The list has the lengths of the skirt at evenly spaced shares of the side's length.
 using SkirtLengths = Vector<Vector<double>>;
 inline constexpr std::size_t n_skirt_parts = 32;  // parts of each side with such lengths
 
 // Returns the attached ends of different leaflets that are neighbours but not joined, such as two aortic cusps at a commissure.
 // Patches are numbered as after a warp, where each image is a patch of its own. With `wants_turns`, the ends also get the turns
-// that they have before the warp. Before the call, the patches must have their axes.
+// that they have before the warp. The patches must already have their axes.
 Vector<NeighbourEnds> neighbour_ends(const PatchSet &set, bool wants_turns);
 
-// An end of a side, with the unit tangent there, which may point either way along the side.
+// An end of a side, and the unit tangent there. The tangent may point either way along the side.
 struct SideEnd {
   Vec3 point, tangent;
 };
 
-// Returns the direction in which the skirts at two neighbouring ends lead. Two parallel planes contain these ends of the skirts,
-// and each skirt is on its own side of the planes. The inclination of the planes is the mean inclination of the two sides. The
+// Returns the direction in which the skirts at two neighbouring ends lead. The ends of the two skirts lie in parallel planes.
+// Each skirt stays on its own side of its plane. The inclination of the planes is the mean inclination of the two sides. The
 // direction depends continuously on the points and the tangents.
 Vec3 direction_between(const AxisLine &axis, const SideEnd &before, const SideEnd &after);
 
-// The direction in which a skirt leads away from its attachment. A skirt leads outwards from the axis, except near neighbouring
-// ends.
+// The direction in which a skirt leads away from its attachment. A skirt leads outwards from the axis, except near two ends that
+// are neighbours but not joined.
 class SkirtDirections {
  public:
   SkirtDirections(const PatchSet &set, const Vector<HeldSide> &sides);
@@ -83,7 +83,7 @@ double attachment_radius(const PatchSet &set, const Vector<HeldSide> &sides);
 // The least and the largest length of a skirt, as multiples of attachment_radius.
 inline constexpr double least_skirt = 1e-4, most_skirt = 10;
 // The least length of a skirt to a wall, as a multiple of attachment_radius. The vertices of the outer edge are evenly spaced
-// along its length, and thus not exactly beside the attachment's vertices. A thinner strip along a round attachment would go
+// along its length, so they are not exactly beside the attachment's vertices. A thinner strip along a round attachment would go
 // through itself.
 inline constexpr double least_skirt_to_wall = 0.01;
 

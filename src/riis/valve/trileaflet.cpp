@@ -22,7 +22,7 @@ enum Parameter {
 // Half the angle of a cusp in degrees, from its symmetry plane to the end of its free edge.
 constexpr double half_angle = 60;
 
-// The rules for sizes that the caller did not set. If other sizes change while these sizes stay, the cusps cross
+// The rules for sizes that the caller did not set. Without these rules, the cusps would cross if a caller changed other sizes
 // (docs/theory/trileaflet.md).
 using Rule = std::array<double, 3>;
 Rule bending_height_rule(const ParameterValues &values) { return {0.5 * values[leaflet_height][0]}; }
@@ -88,7 +88,7 @@ CuspShape open_shape(const ParameterValues &values) {
   return riis::open_shape(closed_shape(values), {values[open_radius_ratio][0], values[commissure_expansion][0]});
 }
 
-// Checks both states, because one set of values defines both.
+// Checks the closed and the open state, because one set of values defines both.
 void check_values(const ParameterValues &values) {
   const Reference radius{"root_radius", values[root_radius][0]}, height{"leaflet_height", values[leaflet_height][0]};
   const auto check = [&](Parameter parameter, const Reference &reference, double least, double most) {
@@ -118,7 +118,7 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
 }  // namespace
 
 const ValveKind &trileaflet_valve_kind() {
-  // The kind is made when it is first used, and is never destroyed, so it serves until the process ends.
+  // The kind is made at its first use. It is never destroyed, so that it serves until the process ends.
   static const ValveKind &kind = *new ValveKind(with_skirt(make_kind(), SkirtAxis::of_cusp));
   return kind;
 }

@@ -15,7 +15,7 @@ namespace riis {
 struct CurveCopy {
   std::size_t curve;
   const PatchImage *image;
-  std::size_t next;  // another copy of the same curve, or the largest number
+  std::size_t next;  // another copy of the same curve; the largest number if there is none
   Vector<Bezier> spans, rates;
 };
 

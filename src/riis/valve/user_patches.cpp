@@ -128,8 +128,8 @@ void check_states(const ValveState &valve, const ValveState &other, const char *
          " patches, the valve ", from.curves.size(), " and ", from.patches.size(),
          ": both must have as many curves and patches");
   for (std::size_t i = 0; i < from.curves.size(); ++i) {
-    // The degree of a straight line counts as 2, because lines are stored as quadratics. In the other state, a line may therefore
-    // be a quadratic.
+    // A straight line is stored as a quadratic, so its degree is 2. A curve may thus be a line in one state and a quadratic in
+    // the other.
     const int degree = from.curves[i].spans().front().degree, other_degree = to.curves[i].spans().front().degree;
     if (degree != other_degree)
       fail(RIIS_INVALID_PARAMETER, "curve ", i, " is cubic in ", other_degree == 3 ? name : "the valve",

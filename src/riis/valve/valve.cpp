@@ -56,10 +56,10 @@ bool is_of_bump(std::string_view name) { return name.substr(0, 5) == "bump_"; }
 
 bool is_of_a_leaflet(const ParameterSpec &spec) { return spec.name.find('.') != std::string::npos; }
 
-// Whether a name belongs to a parameter, and what the name stands for.
+// Says whether a name means a parameter, and how the value under this name follows from the parameter's value.
 struct Naming {
   bool names_it = false;
-  bool is_whole = false;  // it names no other parameter
+  bool is_whole = false;  // the name means no other parameter
   double factor = 1;      // factor from the parameter's value to the value under that name
 };
 
@@ -106,8 +106,8 @@ void check_range(const ParameterSpec &spec, std::string_view name, double factor
          factor * spec.minimum, " to ", factor * spec.maximum);
 }
 
-// Checks values that follow from rules. A rule may give a value out of range if the sizes on which it depends are near the ends
-// of their ranges.
+// Checks values that follow from rules. Such a value may be out of range if the sizes in its rule are near the ends of their own
+// ranges.
 void check_derived(const ValveKind &kind, const ValveState &state) {
   for (std::size_t i = 0; i < kind.parameters.size(); ++i) {
     const ParameterSpec &spec = kind.parameters[i];
@@ -259,8 +259,7 @@ void Valve::set_warp(const WarpMap *closed, const WarpMap *open) {
     warp_.reset();
     return;
   }
-  // The copies are complete before they replace the old maps, because assigning one member after another could fail half way. The
-  // copies use the memory of maps that the valve had earlier.
+  // The copies are complete before they replace the old maps, because assigning one member after another could fail half way.
   Warp made{*closed, {}, warp_ ? warp_->known : nullptr};
   if (open) made.open = *open;
   warp_ = std::move(made);
@@ -398,7 +397,7 @@ PatchSet Valve::make_patches(FoldCheck check) const {
          " valve has only one state: set its open state with riis_valve_set_open_state");
   check_derived(*kind_, state_);
   if (kind_->check_values) {
-    // The opening plays no part in these checks, so they are not repeated in each time step.
+    // These checks do not depend on the opening, so a time step does not repeat them.
     const std::uint64_t shape = shape_digest();
     if (checked_.digest != shape) {
       kind_->check_values(state_.values);

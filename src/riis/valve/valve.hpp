@@ -35,8 +35,8 @@ struct ParameterRule {
   }
 };
 
-// A second name for a parameter, under which the value is a multiple of the parameter's value. The factor is a power of 2, so no
-// value is rounded.
+// A second name for a parameter. The value under this name is the parameter's value times a factor, a power of 2, so that nothing
+// is rounded.
 struct OtherName {
   const char *name;
   double factor;
@@ -77,15 +77,15 @@ struct ValveKind {
   // Makes the patches at an opening from 0, the closed state, to 1, the open state. Both states have been checked. The two states
   // are the same object if the valve was given no open state.
   PatchSet (*make_patches)(const ValveState &closed, const ValveState &open, double opening);
-  // Refuses another state whose curves or patches are not built like the valve's. The message calls the other state by `name`,
-  // such as "the open state". NULL if all states of the kind are built alike.
+  // Refuses another state whose curves or patches are not built like the valve's. The message calls this state `name`, such as
+  // "the open state". NULL if all states of the kind are built alike.
   void (*check_states)(const ValveState &valve, const ValveState &other, const char *name);
-  // True if leaflets meet only at common vertices of their triangles, such as at commissures. In valves without this property,
-  // leaflets may touch anywhere. Their triangles may then penetrate each other by as much as the triangles' error.
+  // True if leaflets meet only where their triangles have common vertices, for example at commissures. Otherwise leaflets may
+  // touch anywhere, and their triangles may penetrate each other by as much as the triangles' error.
   bool has_exact_contacts = false;
   // True if the orifice is seen along the valve's z axis. Otherwise the orifice is seen along the vector area of the edges that
-  // are farthest from its middle. If cusps differ and their open edges reach beyond the attachment, the vector area would be
-  // oblique.
+  // are farthest from its middle. This vector area would be oblique in valves whose cusps differ and whose open edges reach
+  // beyond the attachment.
   bool is_seen_along_z = false;
   // The leaflet_id of a wall that hinges reach into, or -1.
   std::int32_t housing = -1;
@@ -100,9 +100,8 @@ struct ValveKind {
 // Adds the parameter "skirt_length" to a kind.
 ValveKind with_skirt(ValveKind kind, SkirtAxis axis);
 
-// The kinds of valves that are defined by parameters. Each kind is in a file of its name, with two exceptions. The kinds with two
-// to four coapting cusps are in valve/coapting.cpp. The kinds with coapting leaflets on an annulus are in
-// valve/atrioventricular.cpp.
+// The kinds of valves that are defined by parameters. Most kinds are in files with their names. The kinds with two to four
+// coapting cusps are in valve/coapting.cpp. The kinds with coapting leaflets on an annulus are in valve/atrioventricular.cpp.
 const ValveKind &aortic_valve_kind();
 const ValveKind &bicuspid_valve_kind();
 const ValveKind &bileaflet_valve_kind();
@@ -124,7 +123,8 @@ class Valve {
   const ValveKind &kind() const { return *kind_; }
   const ParameterValues &values() const { return state_.values; }
 
-  // If a name without a leaflet is no parameter of the valve itself, it sets the parameter of this name in every leaflet.
+  // A name without a leaflet means the valve's own parameter. If the valve has no such parameter, the name means the parameter of
+  // every leaflet.
   void set(std::string_view name, std::int64_t n_values, const double *new_values);
   void get(std::string_view name, std::int64_t n_values, double *out) const;
   // Returns the least and the largest value of a parameter. The name must mean only one parameter.
@@ -155,7 +155,7 @@ class Valve {
   // Returns whether make_patches adds a skirt.
   bool has_skirt() const { return kind_->skirt_axis != SkirtAxis::none && state_.values[kind_->skirt_length][0] != 0; }
   // Replaces the skirt by a skirt with these lengths (valve/skirt.hpp). The parameter "skirt_length" becomes the largest of these
-  // lengths. If "skirt_length" is set later, the skirt loses these lengths.
+  // lengths. Setting "skirt_length" later removes these lengths.
   void set_skirt_lengths(SkirtLengths lengths);
 
   // Compares this valve with another valve. Fails if they differ in anything except the opening and the values of a warp. The
@@ -164,19 +164,19 @@ class Valve {
 
   // Returns whether all parameters except the opening have the kind's defaults.
   bool has_default_shape() const;
-  // Returns a digest of the shape without the opening, and of the landmarks of a warp without their targets. It is never 0. Two
-  // different shapes practically never have the same digest.
+  // Returns a digest of the shape and of a warp's landmarks, but not of the opening or the landmarks' targets. The digest is
+  // never 0. Two different shapes practically never have the same digest.
   std::uint64_t shape_digest() const;
 
   // Makes the patches at the current opening.
   PatchSet make_patches() const;
   // Makes the patches of `before`, an earlier state of this valve. `before` must be of the same kind and build. `known` has the
-  // patches of that state if they have been made already, or is null.
+  // patches of that state, or is null if they have not been made yet.
   PatchSet make_patches_before(const Valve &before, const PatchSet *known) const;
   // Returns a number that every change of the valve changes. Copies have the same number. Valves with the same number have the
   // same patches, to the last bit. The number is not 0.
   std::uint64_t revision() const { return revision_; }
-  // Fails if this valve cannot be a state of a valve of the given kind, with or without a warp.
+  // Fails if this valve cannot be a state of another valve, which is of the given kind and has a warp if `is_warped`.
   void check_is_state_of(const ValveKind &kind, bool is_warped, const StateNames &names) const;
   // Makes the patches without a search for folds. A message of failure begins with the state's name.
   PatchSet make_patches_unsearched(const char *name) const;
@@ -193,7 +193,7 @@ class Valve {
   void check_open_values() const;
   static std::uint64_t next_revision();
 
-  // The cuts of a shape at its landmarks. The cuts are kept, because they stay the same while the valve opens and the targets
+  // The cuts of a shape at its landmarks. The cuts are kept, because they do not change while the valve opens or the targets
   // move.
   struct KnownCuts {
     std::uint64_t shape_digest;

@@ -14,7 +14,8 @@
 namespace riis {
 namespace {
 
-// Sources count as planar if their rms distance from their mean plane is below `thinnest_share` of their largest rms extent.
+// Sources count as planar if they are nearly in a plane: the rms distance from it is below `thinnest_share` of their largest rms
+// extent.
 constexpr double thinnest_share = 0.05;
 // Sources also count as planar if the noise would change the stretch across the plane by more than `largest_stretch_error`.
 constexpr double largest_stretch_error = 0.1;
@@ -135,7 +136,7 @@ WarpLandmarks::WarpLandmarks(const Vector<Vec3> &sources, double noise, const ch
   const double root_n = std::sqrt(static_cast<double>(n));
   const double widest = std::sqrt(values[0]) / root_n, middle = std::sqrt(values[1]) / root_n,
                thinnest = std::sqrt(values[2]) / root_n;
-  // The nearest pair is found first, because landmarks in one place also lie on a line.
+  // The nearest pair is checked first: landmarks in one place also lie on a line, but need another message.
   Vector<std::size_t> nearest_to;
   for (std::size_t i = 0; i < n; ++i) {
     double least = std::numeric_limits<double>::infinity();
@@ -148,7 +149,7 @@ WarpLandmarks::WarpLandmarks(const Vector<Vec3> &sources, double noise, const ch
       fail(RIIS_INVALID_ARGUMENT, name, ": landmarks ", std::min(i, nearest), " and ", std::max(i, nearest),
            " are in one place, (", sources_[i].x, ", ", sources_[i].y, ", ", sources_[i].z, ")");
     nearest_to.push_back(nearest);
-    // If two landmarks are each other's nearest landmarks, the place between them is taken only once.
+    // If each of two landmarks is the other's nearest, the place between them is taken only once.
     if (nearest > i || nearest_to[nearest] != i)
       probes_.push_back({0.5 * (sources_[i] + sources_[nearest]), static_cast<std::int64_t>(i)});
   }
@@ -251,7 +252,7 @@ void WarpLandmarks::tridiagonalise(Vector<double> &matrix) {
       norm = orthogonalise(m + k);
     }
     beside_[k] = norm;
-    // At the start, and where an invariant subspace is complete, the method begins again with a unit vector.
+    // The method begins with a unit vector, and begins again with another one whenever an invariant subspace is complete.
     while (!(norm > 1e-13 * largest)) {
       beside_[k] = 0;
       std::fill(next.begin(), next.end(), 0.0);
@@ -290,9 +291,9 @@ double WarpLandmarks::solve(double lambda) {
   return square;
 }
 
-// Returns the lambda at which the sum of squares of all residuals is a given share of its expected value. The noise gives the
-// expected value, 3 noise^2 for each free landmark. The sum of squares grows with lambda, so at most one lambda gives the wanted
-// share. Returns infinity if even the affine map has a smaller sum.
+// Returns the lambda at which the residuals' sum of squares is a given share of its expected value. The noise makes this value 3
+// noise^2 for each free landmark. The sum of squares grows with lambda, so at most one lambda gives the wanted share. Returns
+// infinity if even the affine map has a smaller sum.
 double WarpLandmarks::smoothing_for_noise() {
   const double noise = noise_ / size_, wanted = residual_share * 3 * noise * noise * static_cast<double>(n_free_);
   if (wanted == 0) return 0;
@@ -314,7 +315,7 @@ Vector<double> WarpLandmarks::bending_matrix() {
   const std::size_t n = size();
   Vector<double> made(n * n, 0.0);
   pivot_.resize(n_free_);
-  // A solution has three components, so it serves three columns.
+  // solve() solves for vectors of three components, so one call gives three columns.
   for (std::size_t first = 0; first < n; first += 3) {
     const auto in_column = [&](std::size_t k, std::size_t j) { return j < n ? basis_[k * n + j] : 0; };
     reduced_.clear();
@@ -337,8 +338,8 @@ void WarpLandmarks::fit(const Vector<Vec3> &targets, WarpMap &map, WarpQuality &
   for (std::size_t i = 0; i < n; ++i) displacement_[i] = (1 / size_) * (targets[i] - sources_[i]);
   std::array<Vec3, 4> terms{};  // the terms of the map's polynomial
   if (is_planar_) {
-    // The map of the direction across the plane follows from the linear map that is nearest to the landmarks in the plane. The
-    // stretch across the plane is the mean stretch of the plane.
+    // Within the plane, the landmarks give a linear map by least squares. It takes the direction across the plane to the normal
+    // of the mapped plane, stretched by the mean stretch within the plane.
     Vec3 slopes[2] = {axis_[0], axis_[1]};
     for (std::size_t k = 0; k < 2; ++k)
       for (std::size_t i = 0; i < n; ++i) slopes[k] = slopes[k] + least_squares_[(k + 1) * n + i] * displacement_[i];

@@ -62,18 +62,18 @@ class BlendedWarp {
   double opening_;
 };
 
-// The quality of a map: its distances from the targets, its smoothing and its least determinant.
+// The quality of a map: how far it misses the targets, its smoothing and its least determinant.
 struct WarpQuality {
   double rms_residual, largest_residual;  // distances of mapped sources from their targets
   std::int64_t largest_landmark;
   double smoothing;          // lambda; infinite if the map is affine
-  double least_determinant;  // the derivative's least determinant, half way from each landmark to the nearest other one
+  double least_determinant;  // the least determinant of the map's derivative, half way between near landmarks
   Vec3 least_point;          // where the determinant is least
   std::int64_t least_landmark;
 };
 
-// Landmarks at rest. The equations of these landmarks are reduced to a tridiagonal matrix once. A map for new targets then takes
-// as many operations as a few products of a matrix and a vector.
+// Landmarks at rest. Their equations are reduced to a tridiagonal matrix once. A map to new targets then takes only as many
+// operations as a few products of a matrix and a vector.
 class WarpLandmarks {
  public:
   // `noise` is the standard deviation of each coordinate of the targets. It is at least 0. Fails with RIIS_INVALID_ARGUMENT for
@@ -82,12 +82,12 @@ class WarpLandmarks {
 
   std::size_t size() const { return sources_.size(); }
   const Vector<Vec3> &sources() const { return sources_; }
-  // True if the landmarks are so near a plane that they do not determine an affine map. The map then stretches the direction
-  // across the plane as the landmarks stretch the plane.
+  // True if the landmarks are too near to a plane to determine an affine map. The map then stretches the direction across the
+  // plane as the landmarks stretch the plane.
   bool is_planar() const { return is_planar_; }
 
-  // Returns an (n, n) matrix. The product of this matrix and the displacements gives the weights of a map that meets its targets.
-  // Displacements are measured in the map's `size`. The product of displacements and weights is the map's bending.
+  // Returns an (n, n) matrix. Its product with the displacements gives the weights of a map that meets its targets. The product
+  // of displacements and weights is the map's bending. Displacements are measured in the map's `size`.
   Vector<double> bending_matrix();
 
   // Writes the map to the targets, and the map's quality. The same targets give the same bits. Accepts a map of any quality.
@@ -109,10 +109,10 @@ class WarpLandmarks {
   std::size_t n_free_ = 0;            // the number of landmarks minus n_terms_
   Vector<Vec3> scaled_;               // (source - centre) / size
   Vector<double> basis_;              // (n_free_, n): U, columns orthogonal to the polynomials
-  Vector<double> least_squares_;      // (n_terms_, n): gives the polynomial nearest to values
-  Vector<double> of_kernel_;          // (n_terms_, n): the same for values of sums of |r|^3, by their weights
+  Vector<double> least_squares_;      // (n_terms_, n): gives the polynomial nearest to values at landmarks
+  Vector<double> of_kernel_;          // (n_terms_, n): the same for a sum of |r|^3, from the sum's weights
   Vector<double> diagonal_, beside_;  // diagonals of the tridiagonal matrix U^T |r|^3 U
-  // The places half way from each landmark to the nearest other landmark. If a map folds between landmarks, it changes most at
+  // The places half way from each landmark to the nearest other landmark. A map that folds between landmarks changes most at
   // these places.
   struct Probe {
     Vec3 place;
@@ -124,15 +124,14 @@ class WarpLandmarks {
   Vector<double> pivot_;
 };
 
-// Every image of a patch becomes a patch of its own, and a warp may move its curves (docs/theory/warp.md). The patches of a valve
-// become patches with one image each.
+// A warp moves the curves of a valve's patches (docs/theory/warp.md). Every image of a patch first becomes a patch of its own.
 
 // Returns the patches with every image as a patch of its own. The patches keep their order and their labels u and v. Patches that
 // met before still share their curves. Patches that already have one image each keep the numbers of their curves.
 PatchSet without_images(const PatchSet &set);
 
 // Returns the same patches with warped curves. Curves are cut at landmarks first. Each warped part has the warped ends and the
-// directions of the warped end tangents. The lengths of these tangents are chosen by least squares, so that the warped part is as
+// directions of the warped end tangents. The lengths of these tangents are fitted by least squares, to bring the warped part as
 // near as possible to the warped points. Arcs are bent anew between warped curves. With `check`, fails with
 // RIIS_INVALID_PARAMETER for a warp that folds at a patch or turns a part of the patch over. The message names the place and the
 // value.

@@ -26,9 +26,9 @@ constexpr double least_factor = 0.2, most_factor = 5, most_of_missing = 0.5;
 constexpr std::size_t n_fold_cells = 3;
 // A cell is a sliver if the sine of the angle between its diagonals is below `sliver_sine`. A sliver is hardly wider than a line,
 // so it has no clear normal. Half-open coapting leaflets have slivers beside the attachment. The chords of a curve in a sliver do
-// not show the direction of the surface. In 20,000 states of valves with rough warps, cells with a sine up to 0.067 turned over
-// although no triangle did. In some states triangles turned over, but no wider cell did. Those triangles had at most 0.6 mm^2.
-// One cell of the default valve has the sine 0.041 at the opening 0.9.
+// not show the direction of the surface. Slivers are therefore not checked. In 20,000 states of valves with rough warps, cells
+// with a sine up to 0.067 turned over although no triangle did. Where triangles turned over and no wider cell did, the triangles
+// had at most 0.6 mm^2. One cell of the default valve has the sine 0.041 at the opening 0.9.
 constexpr double sliver_sine = 0.07;
 
 Bezier raised_to_cubic(const Bezier &span) {
@@ -51,8 +51,8 @@ struct EndTangent {
   double factor;  // 1 if the curve itself has a tangent there, else 0
 };
 
-// Returns the direction of a curve at the first of these control points. The direction leads to the first control point that
-// differs from the end.
+// Returns the direction of a curve at the first of these control points. The direction leads from this end to the first control
+// point that differs from it.
 EndTangent end_tangent(const std::array<Vec3, 4> &control, const MapAt &at) {
   const double size =
       distance(control[0], control[1]) + distance(control[1], control[2]) + distance(control[2], control[3]);
@@ -140,8 +140,8 @@ class MapAtEnds {
   std::size_t next_ = 0;
 };
 
-// The material points of a curve before any image is placed. The weights belong to the points of a mapped span, and define the
-// polynomial through these points.
+// The material points of a curve before any image is placed. The weights are those of a mapped span's points, for the polynomial
+// through these points.
 struct MaterialOfCurve {
   explicit MaterialOfCurve(const Curve &curve) {
     const CurvePoints points(curve, false, material_shares());
@@ -149,7 +149,7 @@ struct MaterialOfCurve {
     weigh();
   }
 
-  // Returns the same points after the curve was cut at these ascending places.
+  // Returns the same points for the curve after it is cut at these places, which ascend.
   MaterialOfCurve after_cuts(const Vector<PointOnSpan> &cuts) const {
     MaterialOfCurve made = *this;
     for (PointOnSpan &at : made.on_curve) {
@@ -194,8 +194,8 @@ struct MaterialOfCurve {
   }
 };
 
-// Estimates the length of a span between two near parameters by Gauss's rule of 3 points. Both states use the same rule, so a
-// point that does not slide gets exactly the slide 0.
+// Estimates the length of a span between two near parameters by Gauss's rule of 3 points. Both states use this rule, so that a
+// point that does not slide has a slide of exactly 0.
 double length_near(const Bezier &span, double from, double to) {
   const double middle = 0.5 * (from + to), reach = 0.5 * (to - from) * 0.77459666924148337704;
   return (to - from) / 18 *
@@ -291,7 +291,7 @@ class LabelGrid {
 // Points of a mapped patch on the same grid.
 using MappedGrid = std::array<Vec3, (n_fold_cells + 1) * (n_fold_cells + 1)>;
 
-// The normal of a cell, whose length is twice the cell's area, and whether the cell is too narrow for a meaningful normal.
+// The normal of a cell, as long as twice the cell's area. Also says whether the cell is too narrow to have a meaningful normal.
 struct CellNormal {
   // `at` gives the points of the grid. The cell begins at point (i, j).
   template <class At>
@@ -328,7 +328,7 @@ void map_inner_points(const LabelGrid &before, const PatchImage &image, const Bl
     }
 }
 
-// Maps the points of the grid at the patch's sides. Points of the sides that were mapped earlier are given.
+// Maps the points of the grid at the patch's sides. Takes the points that were already mapped with the sides' curves.
 void map_outer_points(const PatchSet &made, const Patch &patch, const LabelGrid &before, const PatchImage &image,
                       const BlendedWarp &warp, bool has_arcs, MappedGrid &mapped) {
   constexpr std::size_t last = n_material - 1, step = last / n_fold_cells;
@@ -342,14 +342,15 @@ void map_outer_points(const PatchSet &made, const Patch &patch, const LabelGrid 
   for (std::size_t j = 1; j < n_fold_cells; ++j)
     for (const bool is_end : {false, true}) {
       const std::size_t i = is_end ? n_fold_cells : 0;
-      // The known points lie at shares of the length of a side, but along an arc v is not the share of the length.
+      // The known points lie at even shares of a side's length. Along an arc, v is not the share of the length, so these points
+      // are mapped anew.
       mapped[j * (n_fold_cells + 1) + i] =
           has_arcs ? warp.value(place(image, before.at(i, j))) : known(is_end ? patch.u1 : patch.u0, step * j);
     }
 }
 
-// Fails if a part of the warped patch is turned over relative to the mapped patch. A cell is not checked if it is a sliver before
-// the warp, after the warp, or with only its corners mapped.
+// Fails if a part of the warped patch is turned over relative to the mapped patch. A cell is not checked if it is a sliver in any
+// of three forms: before the warp, after the warp, or as its mapped corners span it.
 void check_turns(const LabelGrid &before, const PatchImage &image, const LabelGrid &now, const MappedGrid &mapped) {
   const auto at_mapped = [&](std::size_t i, std::size_t j) -> const Vec3 & {
     return mapped[j * (n_fold_cells + 1) + i];
@@ -431,7 +432,7 @@ PatchSet warped(const PatchSet &set, const BlendedWarp &warp, const LandmarkCuts
   bend_arcs(made);
   for (std::size_t i = 0; i < material.size(); ++i) locate_on_curve(made.curves[i], *material[i]);
   made.material = std::move(material);
-  // Only kinds without rates have arcs. The arcs themselves are not checked, because an arc may be straight at an opening.
+  // Only kinds without rates have arcs. The arcs themselves do not show it, because an arc may be straight at an opening.
   const bool has_arcs = set.rates.empty();
   const auto at_rest = [&](std::size_t curve) -> const std::array<PointOnSpan, n_material> & {
     return of_curves[curve]->on_curve;
