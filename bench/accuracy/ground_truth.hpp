@@ -33,7 +33,8 @@ struct TruthRequest {
 
 struct GroundTruth {
   TruePoints on_surface;  // evenly by area; u and v at least SmoothSurface::step away from a patch's sides
-  // The points of on_surface, each moved by all offsets in turn. The two fields below count points that are left out.
+  // The points of on_surface, each of which is moved by every offset in turn. The two fields below count points that are left
+  // out.
   TruePoints off_surface;
   std::int64_t n_curved;  // points whose radius of curvature is too small for the offset
   std::int64_t n_nearer;  // points to which another part of the surface is nearer than the foot

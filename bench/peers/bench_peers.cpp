@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// ./run bench peers: gives the library's nodes and triangles to other programs (CGAL, VTK, OpenVDB), on one thread. First the
-// marks of all programs are compared with the marks of a loop over all triangles. After the comparison of marks, the programs are
-// timed in turns. One group of bars is for queries without a limit: queries over leaves are compared with queries node by node,
-// with FCPW and with CGAL. Fails if the library or CGAL marks other nodes than the loop. Also fails if queries over leaves give
-// other bits than queries node by node.
+// ./run bench peers: gives the library's nodes and triangles to other programs (CGAL, VTK, OpenVDB), on one thread. The marks of
+// all programs are compared with the marks of a loop over all triangles. Then the programs are timed in turns. The bars for
+// queries without a limit compare queries over leaves with queries node by node, with FCPW and with CGAL. Fails if the library or
+// CGAL marks other nodes than the loop. Also fails if queries over leaves give other bits than queries node by node.
 //   argv[1]  a file for the results as JSON
 //   argv[2]  thousands of nodes; default 100
 //   argv[3]  a folder for nodes, triangles and distances as raw binary numbers, for peers.py
@@ -292,8 +291,8 @@ bool compare(const char *kind, const Cylinder &cylinder, std::int64_t about_n_no
     is_right = is_right && is_equal(marks[name]) && marks[name]["largest_anywhere"] <= 1e-12;
   };
   add_right("riis, every distance", n_slow_turns, all_distances);
-  // Times a marking with a limit that includes every node. The marking runs over the clusters of a prepared mesh, and node by
-  // node with Embree.
+  // Times a marking with a limit that includes every node. The marking runs once over the clusters of a prepared mesh, and once
+  // node by node with Embree.
   const auto marking = [&](const riis_surface *of, std::int32_t search) {
     riis_mark_options options;
     check(riis_mark_options_init(&options, sizeof options));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The band around a surface, with all rules for a band with an offset (docs/theory/marks.md, "Offset"). A node's distance and
-// height determine the half thickness that marks the node, and the node's distance from the middle of the band.
+// The band around a surface, with all rules for a band with an offset (docs/theory/marks.md, "Offset"). Two numbers follow from a
+// node's distance and height: the half thickness that marks the node, and the node's distance from the middle of the band.
 #pragma once
 
 #include <cmath>
@@ -19,8 +19,7 @@ struct Band {
   // Returns the same band with another half thickness.
   Band with(double other_half_thickness) const { return {other_half_thickness, offset}; }
 
-  // Returns the largest distance of the band's nodes. Numbers are rounded so that no node beyond this reach is ever taken for a
-  // marked node.
+  // Returns the largest distance of the band's nodes. Rounding never lets a node beyond this distance count as marked.
   double reach() const { return reach_of(half_thickness); }
   // Returns a distance up to which all nodes are in the band.
   double sure_distance() const { return (1 - std::abs(offset)) * half_thickness; }
@@ -31,7 +30,8 @@ struct Band {
     if (!steps_aside() || !(distance > 0)) return distance;
     const double cosine = height / distance, along = offset * cosine;
     const double root = std::sqrt(1 - offset * offset * ((1 - cosine) * (1 + cosine)));
-    // Neither formula of a root subtracts numbers of the same sign, so no digits are lost. For a node off the rim, the root is 1.
+    // Neither formula of the half thickness subtracts numbers of the same sign, so no digits are lost. For a node off the rim,
+    // `root` is 1.
     const double made =
         root == 1 || along >= 0 ? distance / (along + root) : distance * (root - along) / ((1 - offset) * (1 + offset));
     double least = distance / reach_of(1);
@@ -39,8 +39,8 @@ struct Band {
     return made < least ? least : made;
   }
   bool holds(double distance, double height) const {
-    // The sign of the equation at the half thickness decides without a root. Rounding could change this decision only near the
-    // edge of the band.
+    // The sign of the equation at the half thickness decides without a square root. Near the edge of the band, where rounding
+    // could change this sign, marking_thickness decides.
     constexpr double near_edge = 1e-6;
     const double e = half_thickness,
                  over = ((1 - offset) * (1 + offset) * e + 2 * offset * height) * e - distance * distance;

@@ -13,7 +13,8 @@
 namespace riis::flat_parts {
 namespace {
 
-// Distances from the plane, as shares of the wall's size: within a flat part, and within a part that the user points at.
+// The largest distance from the plane within a flat part, and within a part that the user points at, as shares of the wall's
+// size.
 constexpr double flat_share = 5e-4, pointed_share = 5e-3;
 // The largest angle between a triangle of a flat part and the part's plane, in degrees. Triangles with little height may lean
 // more because of rounding.
@@ -27,8 +28,8 @@ constexpr std::size_t n_sectors = 12;
 // Two flat parts that touch are both unclear if their areas differ by a factor of less than `most_apart`. If the areas differ
 // more, only the smaller part is unclear.
 constexpr double most_apart = 10;
-// A small part is an end if its rim has at least `least_sides` sides, and if the wall is also steep in a wider band, up to
-// `wide_band_share` times the radius.
+// A small part is an end only if its rim has at least `least_sides` sides. In a wider band, up to `wide_band_share` times the
+// radius, the wall must also be steep.
 constexpr std::int64_t least_sides = 12;
 constexpr double wide_band_share = 1.5;
 
@@ -133,8 +134,8 @@ bool Finder::is_large(const Part &part) const {
   return part.area >= least_share * total_ && static_cast<std::int64_t>(part.triangles.size()) >= least_triangles;
 }
 
-// The sum of the area vectors depends only on the rim, and is exact for a flat part. A least-squares plane would depend on the
-// corners.
+// The sum of the area vectors depends only on the rim, and is exact for a flat part. A least-squares plane would also depend on
+// the corners inside the part.
 void Finder::fit(Part &part) const {
   Vector3 area{}, centre{};
   part.area = 0;
@@ -165,7 +166,7 @@ Part Finder::grown(std::int64_t seed, double tolerance) {
   Part part;
   part.triangles = {seed};
   fit(part);
-  // At first the plane moves with each triangle. The triangles are then collected anew in the plane, until the collection stays
+  // At first, each new triangle moves the plane. The triangles are then collected anew in the moved plane, until their set stays
   // the same.
   Vector3 area = part.area * part.plane.normal, centre = part.area * part.plane.point;
   double sum = part.area;

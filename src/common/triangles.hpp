@@ -96,8 +96,8 @@ void for_each_edge(const std::vector<TriangleSide> &sides, const Visit &visit) {
   }
 }
 
-// Returns for each triangle the triangles beyond its three sides, or -1 where the edge has not exactly two triangles. Side k goes
-// from corner k to the next corner.
+// Returns for each triangle the neighbours beyond its three sides. A neighbour is -1 if the edge does not have exactly two
+// triangles. Side k goes from corner k to the next corner.
 inline std::vector<Triangles::Corners> neighbours_of(const Triangles &triangles) {
   std::vector<Triangles::Corners> beyond(triangles.corners.size(), {-1, -1, -1});
   for_each_edge(sorted_sides(triangles.corners), [&](const TriangleSide *side, std::size_t n_sides) {

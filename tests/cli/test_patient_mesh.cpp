@@ -296,7 +296,7 @@ void failing_programs(random_source &random, const std::string &folder) {
     stand_for_gmsh(folder, "exit 0");
     mesh_patient(crossed, options);
   });
-  // A surface has a hole, like those that gmsh makes from overlapping triangles.
+  // This surface has a hole, as gmsh's surfaces of overlapping triangles have.
   stand_for_gmsh(folder,
                  words +
                      "printf '$MeshFormat\\n2.2 0 8\\n$EndMeshFormat\\n$Nodes\\n3\\n1 0 0 0\\n2 1 0 0\\n3 0 1 0\\n"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fuzzes meshes that are the axes of a grid. A grid is made, or refused with a reason. The grid gives the marks, leaks and open
-// regions that its nodes as points give. Some numbers of a grid belong to no node, and no result contains them.
+// Fuzzes meshes that are the axes of a grid. A grid is made, or refused with a reason. The grid and its nodes as points give the
+// same marks, leaks and open regions. Some numbers of a grid belong to no node, and no result contains them.
 #include <riis/riis.h>
 
 #include <array>

@@ -25,8 +25,8 @@ struct ProgramEnd {
   std::vector<std::string> messages{};  // all these lines
 };
 // Runs the program whose name is the first word, and waits until the program ends. A name without a slash is looked for in PATH.
-// The program reads the file `input` from its present position, or nothing if `input` is NULL. `read` gets each line of the
-// output.
+// The program reads the file `input` from its present position, or nothing if `input` is NULL. Passes each line of the output to
+// `read`.
 ProgramEnd run_program(
     const std::vector<std::string> &words, std::FILE *input = nullptr,
     const std::function<void(const std::string &)> &read = [](const std::string &) {});

@@ -45,8 +45,8 @@ std::vector<std::string> split(const std::string &text, const char *marks);
 // joined_by puts a text between the parts. one_of returns a list for a sentence, such as "m, cm or mm".
 std::string joined_by(const std::vector<std::string> &parts, const char *between);
 std::string one_of(const std::vector<std::string> &names);
-// Returns ", did you mean NAME?" with the name nearest to a word, or "" if no name is near. The name stands between `before` and
-// `after`.
+// Returns ", did you mean NAME?" with the name nearest to a word, or "" if no name is near. `before` and `after` enclose the
+// name.
 std::string did_you_mean(const std::string &word, const std::vector<std::string> &names, const char *before = "",
                          const char *after = "");
 

@@ -65,8 +65,8 @@ void check_open_state(const ValveOptions &options) {
     refuse_usage("--params-open has no effect with --valve " + options.valve + ": the open state is in that file");
 }
 
-// Refuses an open state if the user gave no opening. Most valves are closed by default, so the open state would have no effect,
-// and the user would not notice.
+// Refuses the parameters of an open state if the user gave no opening. Without an opening the valve stays closed, so these
+// parameters would have no effect, and the user would not notice.
 void check_open_state_is_met(const MarkOptions &options) {
   if (!options.params_open.empty() && !sets_opening(options) && options.series.cycle.empty())
     refuse_usage("--params-open needs --opening or --cycle: without them the valve stays closed");
@@ -104,7 +104,7 @@ void finish_valve(const Command &command, ValveOptions &options) {
   finish_units(options);
 }
 
-// Completes the options of a surface in a mesh. If the command lacks an option, the option has its default. `sweeps_openings`
+// Completes the options of a surface in a mesh. An option that the command does not have keeps its default. `sweeps_openings`
 // says whether the command itself opens the valve.
 void finish_surface_in_place(const Command &command, MarkOptions &options, bool sweeps_openings = false) {
   check_valve(command, options);
@@ -119,8 +119,8 @@ void check_distance(const Command &command, const MarkOptions &options) {
     refuse_usage("--distance-tolerance has no effect with --distance triangles: see --tolerance");
 }
 
-// Refuses options for the looks of pictures if there is neither a picture nor a movie. Also refuses options for looks that a
-// movie, or a picture without a mesh, cannot have.
+// Refuses options for the looks of pictures if there is neither a picture nor a movie. Also refuses an option that a movie cannot
+// follow, or that needs a mesh where there is none.
 void check_style(const Command &command, const MarkOptions &options) {
   const std::string &movie = options.series.movie;
   const PictureStyle &style = options.style;
@@ -163,8 +163,8 @@ void check_solver_scale(const ExportOptions &options) {
                " in place of --scale; riis export then converts the lengths");
 }
 
-// svMultiPhysics gets numbers in grams, centimetres and seconds. Without --unit, numbers are taken as they are, because they are
-// in the solver's units.
+// svMultiPhysics gets numbers in grams, centimetres and seconds. Without --unit, numbers count as numbers in the solver's units,
+// so nothing is converted.
 void finish_solver_units(ExportOptions &options) {
   check_solver_scale(options);
   const auto in_solver_units = [&](const std::optional<Amount> &given, const Quantity &quantity, double usual) {

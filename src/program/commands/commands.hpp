@@ -41,7 +41,8 @@ struct UrisExport {
 UrisExport write_uris(const ExportOptions &options, const std::string &named_folder);
 
 // riis size-field. The inputs are valves and their motion. The result is a grid of edge lengths that gmsh reads. The edges are
-// short near the valves. Each edge length follows from the least distance of the grid's point from the valves at any time.
+// short near the valves. The edge length at a point of the grid follows from the point's least distance from the valves over all
+// times.
 ExitCode run_size_field(const SizeFieldOptions &options);
 
 // The input is the user's request. The results are the files, and the report on stdout. Returns exit_none_marked if no node was

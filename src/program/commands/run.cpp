@@ -14,7 +14,8 @@
 namespace riis::program {
 namespace {
 
-// Returns advice about the band. No parameter of a valve sets the band.
+// Returns advice about the band for a valve of this kind. The table of parameters has no line about the band, because no
+// parameter sets it.
 std::string advice_on_band(const std::string &kind) {
   if (kind == "bileaflet") return "band: leave --offset at 0, because the flow passes on both sides of the leaflets\n";
   std::string advice =

@@ -160,7 +160,7 @@ States measure_states(const StatesOptions &options) {
 
 // ---- State table ----
 
-// The summary mentions a change of a free edge's length only if it exceeds a certain share of the length.
+// The summary mentions a free edge if its length changes by more than this share.
 constexpr double fair_change = 0.1;
 // Lengths and areas count as equal if their difference can be due to rounding.
 constexpr double same = 1e-9;
@@ -271,8 +271,8 @@ std::string text_of_changes(const States &states) {
   return text.empty() ? "all " + range : "not " + range + ": " + text;
 }
 
-// Returns names of columns. Blanks and dashes in the names of leaflets become _. If a name has other special characters, as "x >
-// 0" has, all leaflets get numbers as names.
+// Returns names of columns. Blanks and dashes in the names of leaflets become _. If a name has other special characters, such as
+// those of "x > 0", numbers name all leaflets.
 std::vector<std::string> columns_of(const States &states) {
   std::vector<std::string> columns = states.names;
   bool are_words = true;
@@ -351,8 +351,8 @@ std::string summary_of(const States &states, const StatesOptions &options) {
 
 riis_surface_options own_frame(const ValveOptions &options) {
   // The orifice of the triangles differs slightly from the orifice of the smooth valve. At the program's usual tolerance, the two
-  // orifices of the prosthesis differ by up to 0.3 %. At the tolerance chosen here, these two orifices differ by at most about
-  // 0.1 % for the prosthesis and for the aortic valve.
+  // orifices of the prosthesis differ by up to 0.3 %. The tolerance chosen here reduces the difference to at most about 0.1 % for
+  // the prosthesis and for the aortic valve.
   constexpr double fine_tolerance = 0.01;
   riis_surface_options own = options.surface_options;
   if (!options.has_tolerance) own.tolerance = fine_tolerance;

@@ -252,7 +252,7 @@ void read_json(const Json &root, LandmarkFile &file) {
       to.add(name, point_of(file.path, quoted(name), value));
       continue;
     }
-    // If several landmarks may have a name, the points of a list get the name with a number. If only one landmark may have the
+    // If several landmarks may share a name, each point of the list gets the name and a number. If only one landmark may have the
     // name, the list must have one point.
     const std::optional<Place> place = place_of_name(name);
     for (std::size_t i = 0; i < value.size(); ++i) {
@@ -503,7 +503,7 @@ void check_names_of_cusps(const LandmarkFile &landmarks, const std::string &kind
     else
       given.insert({role, a, b});
   }
-  // A landmark without a leaflet may be any of the missing landmarks.
+  // A landmark that names no leaflet may be any of the missing landmarks.
   if (n_without > 0 || given.empty()) return;
   std::vector<std::string> missing;
   for (const std::string &name : names_of_cusps(kind)) {

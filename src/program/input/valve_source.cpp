@@ -406,8 +406,8 @@ std::string hint_for_msh(const std::string &path, const std::string &refusal) {
 
 std::string conversion_hint(const std::string &path, Content wanted, const std::string &refusal) {
   const std::string ending = ending_of(path);
-  // In a refusal, question marks replace control characters. If a path has control characters, there is no hint, because the
-  // printed command would not work.
+  // A refusal shows control characters as question marks. A path with control characters therefore gets no hint: the printed
+  // command would name another file.
   if (std::any_of(path.begin(), path.end(), is_control) || has_text(refusal, "Git LFS")) return "";
   if (wanted == Content::mesh) {
     if (ending == ".msh") return hint_for_msh(path, refusal);

@@ -32,7 +32,7 @@ class NewValve {
   // `valve` is a kind, or a file of patches. `subject` begins the refusal of an unknown kind.
   NewValve(const std::string &valve, const std::string &subject);
   operator riis_valve *() const { return valve_; }
-  // Hands over the valve. Refuses an opening if the valve's file has no open state. Otherwise the library would refuse it, and
+  // Hands over the valve. Refuses an opening if the valve's file has no open state. The library would also refuse it, but would
   // advise another valve.
   Valve take();
   Valve take_unchecked() { return std::move(valve_); }

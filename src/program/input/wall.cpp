@@ -22,13 +22,13 @@ namespace {
 
 // The number of openings at which the wall must be near enough.
 constexpr std::int32_t n_openings = 11;
-// The gap may be longer than the skirt by a small share, because the two are measured at different points.
+// The gap and the skirt are measured at different points, so the gap may exceed the skirt by this share.
 constexpr double most_beyond = 0.01;
 // The largest length of a hole in the wall, as a share of the attachment's length. A longer open line is the end of a vessel.
 constexpr double longest_hole = 0.3;
 
-// A wall that differs from its file. Its lengths are multiplied by a factor, or it is turned by half a turn about z, as between
-// the axes LPS and RAS.
+// A change that is tried on the wall of a file. The wall's lengths are multiplied by a factor, or the wall is turned half a turn
+// about z, as from the axes LPS to RAS.
 struct Change {
   const char *factor;
   bool is_turned;

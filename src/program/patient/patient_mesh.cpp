@@ -39,10 +39,10 @@ constexpr double end_edge_share = 0.35;
 constexpr double least_seconds = 120, seconds_per_triangle = 0.01;
 // If gmsh may have to run twice, the first run gets this share of the time.
 constexpr double first_share = 0.25;
-// In the second try, nodes are moved by at most a tiny share of the wall's size. The movement is as small as the rounding errors
-// of files in single precision.
+// In the second try, nodes are moved by at most this share of the wall's size. The movement is as small as the rounding errors of
+// files in single precision.
 constexpr double moved_share = 1e-7;
-// Triangles that overlap by more than a tiny share of the wall's size count as a self-intersection.
+// An overlap of triangles counts as a self-intersection if it is longer than this share of the wall's size.
 constexpr double least_crossing_share = 1e-5;
 // The number of triangles of each new patch that are compared with the wall.
 constexpr std::size_t n_compared = 9;

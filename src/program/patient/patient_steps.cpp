@@ -24,8 +24,8 @@ namespace fs = std::filesystem;
 
 const char *const marker_file = "UNFINISHED.txt", *const report_file = "patient.json";
 
-// The names of the files that riis patient writes into its folder. If riis patient uses a folder again, other files in the folder
-// stay.
+// The names of the files that riis patient writes into its folder. When riis patient uses a folder again, it keeps all other
+// files.
 const char *const own_names[] = {report_file,     "wall.stl",       "placed.json",        "params.json",
                                  "valve.dat",     "gmsh",           "mesh.msh",           "mesh.vtu",
                                  "faces",         "closed.vtu",     "open.vtu",           "closed.png",
@@ -157,7 +157,7 @@ void PatientFolder::finish() {
 
 std::string cure_of_full_disc(const std::string &reason) {
   const auto says = [&](int error) { return reason.find(system_text(error)) != std::string::npos; };
-  // gmsh does not say why it leaves out a part of a file.
+  // On a disc that is nearly full, gmsh may leave out a part of a file without saying why.
   constexpr std::uintmax_t hardly_any = 1 << 20;
   std::error_code error;
   const fs::space_info space = fs::space(".", error);

@@ -21,7 +21,7 @@ namespace {
 constexpr double joined_share = 1e-5;
 // A piece is an island of the segmentation if its area is below a small share of the largest piece's area.
 constexpr double island_share = 0.01;
-// A hole is flat if all points of its rim are close to a plane, compared with the rim's width.
+// A hole is flat if no point of its rim is farther from a plane than this share of the rim's width.
 constexpr double flat_hole_share = 0.02;
 
 // A triangle is thin if its height is below a tiny share of the wall's size. With thin triangles, gmsh would run for hours. A

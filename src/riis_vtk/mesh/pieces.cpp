@@ -84,8 +84,7 @@ Declared declared_array(XmlAttributes attributes) {
   Declared array{value_of(attributes, "Name").value_or(""), value_of(attributes, "type").value_or("")};
   if (const auto n = value_of(attributes, "NumberOfComponents"); n && !read_number(*n, array.n_components))
     array.n_components = -1;
-  // dolfinx 0.5 writes no number of components for scalars. For VTK, an array has one component if a .vtu file states no number
-  // of components.
+  // dolfinx 0.5 writes no number of components for scalars. VTK then gives the array one component.
   if (array.n_components == 0) array.n_components = 1;
   return array;
 }

@@ -99,7 +99,8 @@ class PointGrid {
 };
 
 // Cuts the volume cells of a mesh into tetrahedra, and their faces into triangles. A cell is cut around its middle. A face with
-// more than three corners is cut around the middle of the face. Two neighbouring cells thus cut their common face in one way.
+// more than three corners is cut around the middle of the face. Two neighbouring cells therefore cut their common face in the
+// same way.
 class SolidCells {
  public:
   explicit SolidCells(vtkUnstructuredGrid *grid)

@@ -404,7 +404,7 @@ Scene::Scene(vtkUnstructuredGrid *grid, const riis_vtk_picture_options &options,
   }
   if (wall) {
     around_ = grid ? static_cast<vtkPointSet *>(grid) : wall.Get();
-    // Without captions, no key would explain the dashes.
+    // Without captions, no key would explain the dashes, so the shell has none.
     shell_.emplace(wall, style_.shell_grey, style_.line, layout_.line_width(),
                    style_.captions == RIIS_VTK_CAPTIONS_ALL);
   }

@@ -106,7 +106,8 @@ class FoamFile {
         });
   }
 
-  // Reads lists of nodes one after the other. `ids` also gets the end of each list.
+  // Reads lists of nodes one after the other. `ids` gets the nodes of all lists, and `ends` gets 0 and the end of each list in
+  // `ids`.
   void read_faces(Ids &ids, Ids &ends) {
     if (is_compact()) {
       ends = labels();

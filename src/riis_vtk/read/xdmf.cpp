@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads XDMF: an .xdmf file describes a mesh, and its numbers are in this file, in HDF5 files or in plain binary files (xdmf.org,
+// Reads XDMF. An .xdmf file describes a mesh, whose numbers are in this file, in HDF5 files or in plain binary files (xdmf.org,
 // "XDMF Model and Format"). The reader reads XDMF as FEniCS, dolfinx and meshio write it. The nodes of a cell are in VTK's order,
 // as in FEniCS, dolfinx and meshio.
 #include <algorithm>
@@ -29,8 +29,8 @@ namespace {
 namespace fs = std::filesystem;
 
 // A type of cells: its number in a list of mixed types, and its names in lower case without "_". If the number of nodes varies,
-// n_nodes is 0. If a type of cells has several names, the first name is written. If XDMF gives no number to a type of cells, the
-// number is 0. Cells of order 3 are an example: dolfinx writes them with VTK's order of nodes.
+// n_nodes is 0. If a type of cells has several names, the first name is written. The number is 0 for a type without a number in
+// XDMF, such as cells of order 3. dolfinx writes cells of order 3 with VTK's order of nodes.
 struct Topology {
   int number, vtk_type, n_nodes;
   const char *written;

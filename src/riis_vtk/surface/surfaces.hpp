@@ -79,8 +79,8 @@ struct Frames {
 };
 
 // Reads a surface file for each time. Fails if the cells of a file differ from those of the first file, or if a coordinate is not
-// finite. In .stl files, corners that are at one position in the first file become one vertex. In every other .stl file, the
-// corners of one vertex must also be at one position.
+// finite. In .stl files, corners that are at one position in the first file become one vertex. In every later .stl file, all
+// corners of a vertex must again be at one position.
 Frames frames_of_files(const std::vector<std::string> &paths, std::vector<double> times, const LeafletArray &leaflets,
                        const CaughtOutput &caught);
 
