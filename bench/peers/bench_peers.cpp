@@ -46,7 +46,7 @@ constexpr double fine = 0.0034;  // the tolerance of the fine triangles of ./run
 constexpr double wide = 40;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// In each row named "node by node", Embree gets one query for each point, without leaves and groups.
+// In the rows named "node by node", Embree answers one query for each point, without leaves and groups.
 constexpr RatioBar distance_bars[] = {
     {"every distance of a prepared mesh: node by node / leaves", "riis, every distance, node by node",
      "riis, every distance of a prepared mesh", Wanted::at_least, 8},
@@ -105,8 +105,8 @@ void find_closest(const riis_surface *surface, const std::vector<double> &xyz, s
   }
 }
 
-// Adds two contenders that compute every field of the given points: over leaves, and node by node. Returns whether both ways give
-// the same bits.
+// Adds two contenders that compute every field of the given points: over leaves, and node by node. Returns whether the two
+// contenders give the same bits.
 bool add_closest(Contest &contest, const std::string &name, const riis_surface *surface,
                  const std::vector<double> &xyz) {
   const std::size_t n = xyz.size() / 3;
@@ -131,7 +131,7 @@ enum class Measures { triangles, approximately };
 
 // Compares a peer's distances with the truth. Counts, by reason, the nodes that are marked differently.
 json compared(const Truth &truth, const std::vector<double> &distance, Measures measures = Measures::triangles) {
-  // The errors in cm of coordinates of some centimetres: in double precision, and in single precision.
+  // The rounding errors, in cm, of coordinates of some centimetres in double and in single precision.
   constexpr double rounding = 1e-12, single = 2e-6;
   std::map<std::string, std::int64_t> reasons;
   std::int64_t n_marked = 0, n_different = 0;

@@ -166,8 +166,7 @@ double longest_edge(const Corners &corners) {
   return longest;
 }
 
-// Tests whether a node is in the solver's box. On each side, this box extends beyond the bounding box of the faces' nodes by a
-// tenth.
+// Tests whether a node is in the solver's box. The solver widens the bounding box of the faces' nodes by a tenth on each side.
 class SolverBox {
  public:
   explicit SolverBox(const std::vector<double> &xyz) {

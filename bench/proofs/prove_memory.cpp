@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ./run bench proof, its second part: both valves open and close for 10,000 time steps, with 100,000 nodes and 2 threads. At the
-// end, the memory of the process must equal the memory at step 100 to within 1 MB. With one thread, a marking must no longer call
-// malloc after the valve has been in all positions. The program prints a table and fails if one of these claims does not hold.
+// end, the memory of the process must equal the memory at step 100 to within 1 MB. With one thread, no marking may call malloc
+// after the valve has been in all positions. The program prints a table and fails if one of these claims does not hold.
 //   argv[1]  the number of steps, a multiple of 100; 10,000 by default
 #include <algorithm>
 #include <atomic>

@@ -116,8 +116,8 @@ void search_exhaustive(benchmark::State &state) { mark_repeatedly(state, RIIS_SE
 void search_neighbor_warm(benchmark::State &state) { mark_repeatedly(state, RIIS_SEARCH_NEIGHBOR); }
 void search_paper(benchmark::State &state) { mark_repeatedly(state, RIIS_SEARCH_PAPER); }
 
-// Marks into a new result every time. The search therefore has no earlier marking as a start, and no memory to reuse. The mesh
-// already has its balls of nodes.
+// Marks into a new result every time. The search therefore cannot start from an earlier marking, and has no memory to reuse. The
+// mesh already has its balls of nodes.
 void search_neighbor_cold(benchmark::State &state) {
   const riis_mesh *mesh = mesh_of(state).mesh();
   MovingValve &valve = valve_of(state);

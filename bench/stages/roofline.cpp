@@ -122,7 +122,7 @@ struct Counted {
 };
 Counted *counted = nullptr;
 
-// While this object exists, it adds the operations and pairs that the kernels count.
+// While an object of this type lives, it collects the operations and pairs that the kernels count.
 class CountsOf {
  public:
   explicit CountsOf(riis::Counts &to) : to_(to), before_(riis::counts_of_kernels) {}

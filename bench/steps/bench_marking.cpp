@@ -211,8 +211,8 @@ bool compare_with_others(Contest &contest, Bars &bars, std::int64_t about_n_node
               100.0 * static_cast<double>(marked.n_nodes) / static_cast<double>(n));
   std::fflush(stdout);
   contest.run();
-  // Contenders with more threads than processors come last. For such a contender, OpenMP starts and ends threads, which would
-  // slow other contenders on two threads.
+  // Contenders with more threads than processors come last. OpenMP starts and ends threads for these contenders, which would slow
+  // the contenders on two threads.
   add(contest, "step, 4 threads", four);
   contest.run();
   const double ns_a_pair = 1e6 * contest.least("the paper's search, every triangle, 1 thread") /

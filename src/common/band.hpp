@@ -24,8 +24,8 @@ struct Band {
   // Returns a distance up to which all nodes are in the band.
   double sure_distance() const { return (1 - std::abs(offset)) * half_thickness; }
 
-  // Returns the least half thickness that marks a node. Off the rim, it is h / (1 + offset) for h >= 0, and -h / (1 - offset) for
-  // h < 0. At a rim, this half thickness is the root e of (1 - offset^2) e^2 + 2 offset h e - d^2 = 0, also for h = d and h = -d.
+  // Returns the least half thickness that marks a node. Off the rim, this half thickness is h / (1 + offset) for h >= 0, and -h /
+  // (1 - offset) for h < 0. At a rim, it is the root e of (1 - offset^2) e^2 + 2 offset h e - d^2 = 0, also for h = d and h = -d.
   double marking_thickness(double distance, double height) const {
     if (!steps_aside() || !(distance > 0)) return distance;
     const double cosine = height / distance, along = offset * cosine;

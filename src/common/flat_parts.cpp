@@ -13,8 +13,8 @@
 namespace riis::flat_parts {
 namespace {
 
-// The largest distance from the plane within a flat part, and within a part that the user points at, as shares of the wall's
-// size.
+// A flat part stays within the first share of the wall's size from its plane, and a part that the user points at within the
+// second share.
 constexpr double flat_share = 5e-4, pointed_share = 5e-3;
 // The largest angle between a triangle of a flat part and the part's plane, in degrees. Triangles with little height may lean
 // more because of rounding.
@@ -102,7 +102,7 @@ std::vector<Part> Finder::find(std::vector<Part> parts) {
   for (const std::int64_t seed : seeds) {
     if (view(is_known)[seed] != 0 || view(areas_)[seed] == 0) continue;
     Part part = grown(seed, flat_share * size_);
-    // A triangle of a part does not become the seed of another part, but may belong to another part.
+    // A triangle of this part may also belong to another part, but is no longer a seed.
     for (const std::int64_t i : part.triangles) view(is_known)[i] = 1;
     if (!is_large(part)) continue;
     measure(part);

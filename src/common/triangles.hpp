@@ -87,7 +87,7 @@ inline std::vector<TriangleSide> sorted_sides(const std::vector<Triangles::Corne
   return sides;
 }
 
-// Calls `visit` with the first side and the number of sides of each edge.
+// Calls `visit` for each edge, with the edge's first side and the number of its sides.
 template <class Visit>
 void for_each_edge(const std::vector<TriangleSide> &sides, const Visit &visit) {
   for (std::size_t i = 0, end = 0; i < sides.size(); i = end) {

@@ -103,7 +103,7 @@ struct Points {
   riis_adjacency *edges = nullptr;
 };
 
-// Counts the numbers of the grid's nodes from its fields, and orders the nodes by their numbers.
+// Computes the number of each node from the grid's fields, and sorts the nodes by these numbers.
 Points points_of(const Case &of, std::int64_t n_numbers) {
   const riis_grid &grid = of.grid;
   const std::int64_t n[3] = {grid.ni, grid.nj, grid.nk};

@@ -273,8 +273,8 @@ class Shares {
     return static_cast<std::size_t>(found - all_.begin());
   }
 
-  // Halves the ranges for which is_tight(i) is false. Narrow ranges stay. Returns whether a range was halved. Returns false if
-  // there are too many ranges, which happens for a curve whose bounds never become tight.
+  // Halves the ranges for which is_tight(i) is false. Narrow ranges stay. Returns whether a range was halved. Also returns false
+  // if there are too many ranges, which happens for a curve whose bounds never become tight.
   template <class IsTight>
   bool halve(const IsTight &is_tight) {
     if (all_.size() > 2 * most_ranges) return false;

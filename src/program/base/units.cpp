@@ -88,7 +88,7 @@ constexpr double smallest_half_thickness = 0.3;
 // may stand in a wide basin.
 constexpr double most_too_narrow = 1.5, most_too_wide = 10;
 // The oddity of a unit tells how unlikely the unit is. It is a product of ratios, each at least 1. A unit is possible if its
-// oddity is at most a few times the oddity of the likeliest unit.
+// oddity is at most this number of times the oddity of the likeliest unit.
 constexpr double most_odd = 2.7;
 // In a wide basin, the present unit is right if the oddity of every other unit is larger by this factor.
 constexpr double surely_odder = 1.35;

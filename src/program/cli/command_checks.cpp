@@ -48,7 +48,7 @@ void finish_units(ValveOptions &options) {
   apply_units(options);
 }
 
-// Refuses a motion without a time, and a time without a motion. Also refuses a period if there is neither a motion nor a cycle.
+// Refuses a motion without a time, and a time without a motion. Also refuses a period without a motion or a cycle.
 void check_motion(const Command &command, const MarkOptions &options) {
   check_surface_files(command, options);
   const bool moves = is_motion(options);

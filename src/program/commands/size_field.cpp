@@ -254,7 +254,7 @@ ExitCode run_size_field(const SizeFieldOptions &options) {
   double spacing = std::numeric_limits<double>::infinity();
   for (const Edges &one : edges) spacing = std::min(spacing, 0.5 * one.half_thickness);
   if (options.spacing) spacing = *options.spacing;
-  // Collecting all states may take minutes. A grid around the first states shows earlier that it would have too many points.
+  // Collecting all states may take minutes. A grid around only the first states tells earlier whether it has too many points.
   Box first = empty_box();
   for (std::size_t i = 0; i < valves.size(); ++i)
     first.grow(box_of(info_of(valves[i].surface())).widened(edges[i].reach()));

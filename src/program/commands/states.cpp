@@ -293,8 +293,8 @@ std::string cells_of(const riis_leaflet &now, const riis_leaflet &closed, bool h
   return text + "," + shortest(now.area) + "," + shortest(now.area / closed.area);
 }
 
-// The table has a column for the opening, then NAME_edge, NAME_edge_ratio, NAME_area and NAME_area_ratio of each leaflet, then
-// orifice_area, orifice_perimeter and effective_area. A ratio is the value divided by the value of the closed state.
+// The columns are the opening, then NAME_edge, NAME_edge_ratio, NAME_area and NAME_area_ratio of each leaflet, then orifice_area,
+// orifice_perimeter and effective_area. A ratio is the value divided by the value of the closed state.
 std::string csv_of(const States &states) {
   std::string text = states.is_of_file ? "time" : "opening";
   for (const std::string &name : columns_of(states)) {

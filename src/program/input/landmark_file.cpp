@@ -15,8 +15,8 @@
 namespace riis::program {
 namespace {
 
-// The words for leaflets: of a valve with three cusps, of a tricuspid valve, and of a valve with any number of cusps. In the
-// list, non_coronary stands before non, because the first fitting word counts.
+// The words for the leaflets of three groups of valves: with three cusps, tricuspid, and with any number of cusps. In the list,
+// non_coronary stands before non, because the first fitting word counts.
 struct LeafletWord {
   const char *word;
   std::int32_t leaflet_id;

@@ -110,7 +110,7 @@ std::vector<double> places_on_valve(const Placed &placed, const riis_valve *valv
   return closest;
 }
 
-// Finds the pairs of landmarks for the warp. Refuses two landmarks if no warp can take both to their places.
+// Finds the pairs of landmarks for the warp. Refuses a pair of landmarks that no warp can take to their places at once.
 void pair_landmarks(Placed &placed, const riis_valve *valve, bool is_exact) {
   const LandmarkFile &landmarks = placed.landmarks;
   const auto apart = [](const std::vector<double> &xyz, std::size_t i, std::size_t k) {

@@ -334,7 +334,7 @@ const std::set<std::string> faces_of_meshio = {".xdmf", ".xmf", ".inp", ".e", ".
 const std::set<std::string> surfaces_of_paraview = {".vtkhdf", ".pvtp", ".vtm"};
 const std::set<std::string> surfaces_only = {".stl", ".vtp", ".ply", ".ply2", ".obj", ".off"};
 
-// Returns the path in a form that a shell reads as one word and no program takes for an option.
+// Returns the path so that a shell reads it as one word, and no program takes it for an option.
 std::string path_in_shell(const std::string &path) { return shell_word(path[0] == '-' ? "./" + path : path); }
 
 std::string with_ending(const std::string &path, const char *ending) {

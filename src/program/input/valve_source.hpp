@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The input is the description of a valve, from the command line or from a case. The results are the valve, or the file that has
-// its surface, and the surface itself.
+// The input is the description of a valve, from the command line or from a case. The results are the valve or the file of its
+// surface, and the surface.
 #pragma once
 
 #include <string>

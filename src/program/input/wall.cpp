@@ -174,7 +174,7 @@ void set_skirt(const ValveOptions &options, riis_valve *valve, const std::string
   if (!options.skirt) return;
   if (options.wall.empty()) {
     check(riis_valve_set_scalar(valve, "skirt_length", *options.skirt / options.surface_options.scale), subject);
-    // The library's refusal gives the skirt's length only in the valve's own unit, so the program's refusal also gives the user's
+    // The library's refusal gives the skirt's length only in the valve's own unit. The program's refusal also gives the user's
     // length. The library tests the skirt's length before it makes the triangles.
     riis_surface_options how = options.surface_options;
     how.triangulation = RIIS_TRIANGULATION_ADAPTED;

@@ -18,8 +18,7 @@ struct Ends {
   std::vector<Boundary> outlets;
   double outlet_area = 0;
 };
-// Refuses a case that does not have exactly one inlet, one wall and at least one outlet. Also refuses a case whose lengths have
-// another unit.
+// Refuses other cases: a case must have one inlet, one wall, at least one outlet, and lengths in this unit.
 Ends ends_of(const SolverCase &solver, Unit unit);
 
 // Makes the solver's folder. Refuses a folder that already contains a case.
@@ -70,8 +69,8 @@ inline constexpr double opening_pressure = 50;
 // m3/s. A mitral valve closes when the flow falls below this value, so that less blood returns.
 inline constexpr double closing_flow_of_mitral = 1e-4;
 
-// The systole at another heart rate than usual, as a share of the usual systole. At N beats a minute, the time from the Q wave to
-// the second heart sound is 546 ms - 2.1 ms N (A. M. Weissler et al., Circulation 37, 1968, 149-159, for men).
+// The length of the systole in a beat of this period, as a share of its usual length. At N beats a minute, the time from the Q
+// wave to the second heart sound is 546 ms - 2.1 ms N (A. M. Weissler et al., Circulation 37, 1968, 149-159, for men).
 inline double systole_at(double period) {
   const auto seconds = [](double duration) { return 0.546 - 2.1e-3 * 60 / duration; };
   return seconds(period) / seconds(usual_period);

@@ -330,7 +330,7 @@ namespace {
 
 // The largest mean distance of landmarks from their wall, in millimetres. Cusps and annuli are about 25 mm wide.
 constexpr double at_wall = 5;
-// Another unit or other axes are excluded if they would put the landmarks clearly farther from the wall.
+// Another unit or other axes are excluded if the landmarks would then be farther from the wall by this factor.
 constexpr double clearly_farther = 2;
 
 // The mean distance of a usual valve's landmarks from their middle, in centimetres. The range is narrower than a factor of ten,
@@ -413,7 +413,7 @@ std::string cure_of_unit(const LandmarkFile &landmarks, Unit other) {
   return "write " + quoted(key) + ": " + quoted(name) + " in it";
 }
 
-// Refuses landmarks whose file probably states a wrong unit. With another unit, their numbers would have the size of a valve and
+// Refuses landmarks whose file probably states a wrong unit. In another unit, these landmarks would have the size of a valve and
 // would lie at the wall.
 void check_stated_unit(const riis_surface *wall, const LandmarkFile &landmarks) {
   for (const Unit other : {Unit::millimetre, Unit::centimetre, Unit::metre}) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The input is the file of a patient's wall. The results are a closed surface whose triangles face outwards, the flat ends at
-// which the vessels were cut, and the unit and the axes of the file.
+// The input is the file of a patient's wall. The results are a closed surface, the flat ends at which the vessels were cut, and
+// the unit and the axes of the file. The triangles of the surface face outwards.
 #pragma once
 
 #include <array>

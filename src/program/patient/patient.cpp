@@ -39,8 +39,8 @@ Words joined(std::initializer_list<Words> lists) {
 constexpr double aortic_half_thickness = 1, mitral_half_thickness = 1.5, usual_skirt = 6, usual_noise = 0.3;
 // Limits of the half thickness. A value beyond these limits has a wrong unit, or would close the open valve.
 constexpr double least_half_thickness_mm = 0.1, most_half_thickness_mm = 4, most_skirt_mm = 30;
-// Landmarks that a person sets are usually at most the first distance away from the wall, on average. Beyond the second distance,
-// the landmarks are probably wrong.
+// Landmarks that a person sets are usually, on average, within the first distance from the wall. Beyond the second distance, the
+// landmarks are probably wrong.
 constexpr double usual_distance_mm = 1, doubtful_distance_mm = 2;
 constexpr double usual_band_edge = 0.95, usual_largest_edge = 3;
 // svMultiPhysics spreads K over whole elements. In a coarser mesh, svMultiPhysics' closed valve would therefore leak much

@@ -224,7 +224,7 @@ std::vector<BoundaryGroup> boundary_groups(const PatientWall &wall) {
   std::vector<BoundaryGroup> groups;
   for (std::size_t i = 0; i < wall.ends.size(); ++i)
     groups.push_back({wall.ends[i].name, static_cast<std::int32_t>(i)});
-  // The inlet is the first boundary. After the inlet follow outlet, outlet_2 and so on.
+  // The inlet is the first boundary. It is followed by outlet, outlet_2 and so on.
   std::sort(groups.begin(), groups.end(), [](const BoundaryGroup &a, const BoundaryGroup &b) {
     return std::make_pair(a.name.size(), a.name) < std::make_pair(b.name.size(), b.name);
   });

@@ -17,8 +17,8 @@ namespace {
 constexpr double solver_step = svmultiphysics_cost.step;  // s
 constexpr int steps_between_files = 10;                   // seconds_between_files
 // The largest edge of the leaflets' triangles, in half thicknesses. With such triangles, the K that the solver computes is
-// correct to 5 %, and the K that riis computes in the solver is exact (docs/export.md, "How fine the triangles must be"). With
-// finer triangles, the solver would need hours.
+// correct to 5 %. The K that riis computes in the solver is exact (docs/export.md, "How fine the triangles must be"). With finer
+// triangles, the solver would need hours.
 constexpr double largest_edge = 0.5;
 constexpr int n_modes = 128;  // of a curve of pressure, which differs from its polygon by less than 0.5 mmHg
 

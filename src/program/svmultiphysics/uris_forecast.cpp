@@ -237,7 +237,7 @@ class Forecaster {
 
   // Returns the shorter edge length that has the same effect as multiplying the half thickness by `factor`. The drop depends on
   // the ratio of edge and half thickness. All edges are assumed to become shorter by the same length, because size fields with
-  // different edges in the band differ so.
+  // different edges in the band differ in this way.
   std::string text_of_finer_mesh(const std::vector<double> &near, double factor) const {
     std::vector<double> lengths, volumes;
     const SolverElement &element = *mesh_.element;

@@ -73,9 +73,9 @@ class FinerTriangles {
   std::vector<Corners> triangle_edges_;
 };
 
-// svMultiPhysics searches a mesh only in the box of the valve's nodes, widened by a tenth. The box of a flat valve is so thin
-// that it leaves out nodes that should be marked, and parts of the bands in which the solver measures pressures. The inputs are
-// the triangles. The results are three additional triangles, which enlarge the box.
+// svMultiPhysics searches a mesh only in the box of the valve's nodes, widened by a tenth. The box of a flat valve is too thin.
+// It leaves out nodes that should be marked, and parts of the bands in which the solver measures pressures. The inputs are the
+// triangles. The results are three additional triangles, which enlarge the box.
 
 // Returns a power of two. Coordinates are rounded to its multiples. `largest` is the largest coordinate. The sum of three rounded
 // coordinates is then exact, even in a box that is about ten times as large.

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// The share by which the solver widens its box on each side. Nodes outside the box get a distance of the second number of half
+// The share by which the solver widens its box on each side. The second number is the distance of nodes outside the box, in half
 // thicknesses.
 constexpr double widening = 0.1, far_in_half_thicknesses = 1e6;
 

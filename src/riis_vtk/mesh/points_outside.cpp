@@ -47,7 +47,8 @@ struct CellBounds {
   }
 };
 
-// Sorts points into the boxes of a regular grid. Points in neighbouring boxes along z follow each other in the list.
+// Sorts points into the boxes of a regular grid. Boxes that are neighbours along z follow each other in the list, and so do their
+// points.
 class PointGrid {
  public:
   explicit PointGrid(std::vector<Vector3> points) : points_(std::move(points)) {

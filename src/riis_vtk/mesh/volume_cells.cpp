@@ -182,7 +182,7 @@ std::vector<Edge> lattice_edges(int type, const Orders &orders) {
 }
 
 // Finds the orders of a cell from its number of nodes, n_nodes. The cell has the orders in the file (`given`), or equal orders
-// along all axes. If n_nodes fits neither, the nodes form no lattice, and the function returns false.
+// along all axes. If n_nodes fits neither of these orders, the nodes form no lattice, and the function returns false.
 bool find_orders(int type, vtkIdType n_nodes, const double *given, Orders &orders) {
   orders[3] = static_cast<int>(n_nodes);
   const auto fit = [&] {

@@ -80,7 +80,7 @@ vtkSmartPointer<vtkActor> plain_actor(const Colour &colour) {
   return actor;
 }
 
-// Returns a strip of the given width along each line, in the plane of the view. Plain lines would not do, because OpenGL limits
+// Returns a strip of the given width along each line, in the plane of the view. Plain lines are not used, because OpenGL limits
 // their width.
 vtkSmartPointer<vtkPolyData> strips(vtkPolyData *lines, const View &view, double width) {
   vtkNew<vtkPoints> points;

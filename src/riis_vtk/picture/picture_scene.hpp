@@ -60,8 +60,8 @@ struct MarkCounts {
   vtkIdType n_partly_cells = 0;  // cells with some but not all nodes marked
 };
 
-// The panel with the marked cells. A cell has the colour of the leaflet of its closest node. The colour of a partly marked cell
-// is paler. Leaking edges are red. Cells whose dimension is below the largest in the grid are left out.
+// The panel with the marked cells. A cell has the colour of the leaflet to which its closest marked node belongs. The colour of a
+// partly marked cell is paler. Leaking edges are red. Cells whose dimension is below the largest in the grid are left out.
 class MarksPanel {
  public:
   // `pixels` is the width of a line.

@@ -49,7 +49,7 @@ const ElementType *find_type(std::int64_t gmsh_type) {
       {13, 18, VTK_BIQUADRATIC_QUADRATIC_WEDGE, {0, 2, 1, 3, 5, 4, 7, 9, 6, 13, 14, 12, 8, 11, 10, 16, 17, 15}},
       {19, 13, VTK_QUADRATIC_PYRAMID, {0, 1, 2, 3, 4, 5, 8, 10, 6, 7, 9, 11, 12}},
       // VTK 9.1 has no type for a pyramid with a node in the middle of its base. The node in the middle of the base stays a node
-      // of the mesh. The cell on the other side of the base gives it edges.
+      // of the mesh. The cell on the other side of the base gives this node its edges.
       {14, 14, VTK_QUADRATIC_PYRAMID, {0, 1, 2, 3, 4, 5, 8, 10, 6, 7, 9, 11, 12}},
   };
   const auto found =

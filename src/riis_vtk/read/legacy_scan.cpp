@@ -44,8 +44,8 @@ const std::map<std::string, std::string> &vtk_names() {
   return names;
 }
 
-// Returns whether VTK would read the whole word as a number of the given type. VTK reads numbers by C++ streams. These refuse
-// infinite numbers and numbers that are too large, but accept numbers that are too small.
+// Returns whether VTK would read the whole word as a number of the given type. VTK reads numbers by C++ streams. These streams
+// refuse infinite numbers and numbers that are too large, but accept numbers that are too small.
 bool is_number(std::string_view word, const std::string &type) {
   if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
   if (type == "float" || type == "double") {

@@ -433,7 +433,7 @@ Corners nodes_as(const Shape &shape, const Faces &faces, const std::vector<CellF
   return wanted == found && are_distinct ? nodes : Corners();
 }
 
-// Adds a cell as a linear cell of VTK, or as a polyhedron with its faces if VTK has no such cell.
+// If VTK has a linear cell of this shape, adds this cell. Otherwise adds a polyhedron with the cell's faces.
 void add_cell(const Faces &faces, const std::vector<CellFace> &cell, PlainGrid &mesh) {
   for (const Shape &shape : shapes) {
     const Corners nodes = nodes_as(shape, faces, cell);

@@ -539,7 +539,7 @@ class XdmfWriter {
                       "\" Center=\"", center, "\"", unit_of(array), ">\n");
       std::string dataset = std::string(center) + "_" + name;
       std::replace(dataset.begin(), dataset.end(), '/', '_');
-      // The ending is added, because the arrays a/b and a_b would otherwise get the same name.
+      // A "_" is added, because the arrays a/b and a_b would otherwise get the same name.
       while (!datasets_.insert(dataset).second) dataset += '_';
       const std::int64_t n = array->GetNumberOfTuples();
       if (array->GetDataType() == VTK_DOUBLE || array->GetDataType() == VTK_FLOAT) {

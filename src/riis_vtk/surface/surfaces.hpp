@@ -53,12 +53,12 @@ Faces faces_of(const std::string &path, vtkPointSet *data, const LeafletArray &w
 // has quads, its quads are cut into triangles. If only one of the two surfaces has an attachment, the attachment is lost.
 void append_faces(Faces &faces, const Faces &other);
 
-// Gives each vertex a number from 0 to the number of vertices minus 1, and returns these numbers. Two vertices have the same
-// number if and only if their coordinates are exactly equal.
+// Returns for each vertex a number below the number of vertices. Two vertices have the same number if and only if their
+// coordinates are exactly equal.
 std::vector<std::int64_t> places_of(const Faces &faces);
 
 // For each face, returns the piece to which the face belongs. Pieces are numbered in the order of their first faces. Two faces
-// are connected if they share a vertex, or if vertices of both have exactly equal coordinates.
+// are connected if they share a vertex, or if a vertex of one has exactly the coordinates of a vertex of the other.
 std::vector<std::int32_t> pieces_of(const Faces &faces);
 
 // Stores the arrays of the faces in the caller's struct. struct_size is the size of the struct in the caller's release of riis.h.
@@ -96,7 +96,7 @@ Frames frames_of_displacements(const std::string &path, const std::string &prefi
 Frames frames_of_text(const std::string &path, double time_step, const LeafletArray &leaflets,
                       const CaughtOutput &caught);
 
-// Appends the faces of another motion, in the same way as append_faces. Both motions must have the same times.
+// Appends the faces of another motion, as append_faces does. Both motions must have the same times.
 void append_frames(Frames &frames, const Frames &other);
 
 }  // namespace riis::vtk
