@@ -20,8 +20,7 @@ struct Place {
   double u, v;
 };
 
-// Chooses random points evenly by area. The choice uses the areas of triangles. The points are therefore evenly distributed up to
-// the triangles' tolerance.
+// Chooses random points evenly by area. The areas are those of triangles, so the points are even up to the triangles' tolerance.
 class Places {
  public:
   Places(const PatchSet &patches, const SmoothSurface &smooth)

@@ -47,7 +47,7 @@ struct Painter {
   double cell;
   Numbers &numbers;
 
-  // Several lines run along one parameter of a patch. Returns how many cells the longest line needs.
+  // Returns how many cells the longest of several lines needs. The lines run along one parameter of a patch.
   std::size_t n_cells(std::size_t image, const Part &u, const Part &v, bool along_u) const {
     constexpr std::size_t n = 16;
     const std::vector<Vec3> net = smooth.at_lines(image, ends_of_steps(n, u), ends_of_steps(n, v));

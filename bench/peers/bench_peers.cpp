@@ -82,8 +82,8 @@ struct Fields {
   }
 };
 
-// Finds closest points in parts of `per_piece` points, on one thread. If the parts are short, the library queries their points
-// one by one.
+// Finds the closest points of `per_piece` points at a time, on one thread. If `per_piece` is small, the library queries the
+// points one by one.
 constexpr std::int64_t in_one_piece = std::numeric_limits<std::int64_t>::max(), node_by_node = 63;
 void find_closest(const riis_surface *surface, const std::vector<double> &xyz, std::int64_t per_piece, Fields &to) {
   riis_closest_options options;
@@ -291,8 +291,8 @@ bool compare(const char *kind, const Cylinder &cylinder, std::int64_t about_n_no
     is_right = is_right && is_equal(marks[name]) && marks[name]["largest_anywhere"] <= 1e-12;
   };
   add_right("riis, every distance", n_slow_turns, all_distances);
-  // Times a marking with a limit that includes every node. The marking runs once over the clusters of a prepared mesh, and once
-  // node by node with Embree.
+  // Measures the time of a marking with a limit that includes every node. The marking runs once over the clusters of a prepared
+  // mesh, and once node by node with Embree.
   const auto marking = [&](const riis_surface *of, std::int32_t search) {
     riis_mark_options options;
     check(riis_mark_options_init(&options, sizeof options));

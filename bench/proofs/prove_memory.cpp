@@ -68,8 +68,8 @@ struct Case {
   const Cylinder &cylinder;
   int n_threads;
   int n_steps;
-  // The limit on allocations of all markings after the warm-up. Chance divides the work between threads. If a thread gets more
-  // work than ever before, its memory doubles. After some steps, the memory grows no further.
+  // The limit on allocations of all markings after the warm-up. Chance decides how the work is divided between threads. If a
+  // thread gets more work than ever before, its memory doubles. After some steps, the memory grows no further.
   std::int64_t most_allocations;
 };
 

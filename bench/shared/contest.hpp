@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Times several pieces of work in turns, so that other work on the machine slows them equally. Bars are required ratios of the
-// times of two contenders. The output is JSON, and tables in markdown.
+// Measures the times of several pieces of work in turns, so that other work on the machine slows them equally. Bars are required
+// ratios of the times of two contenders. The output is JSON, and tables in markdown.
 #pragma once
 
 #include <functional>

@@ -42,7 +42,7 @@ constexpr int n_turns = 100;
 
 double nanoseconds(Clock::duration duration) { return std::chrono::duration<double, std::nano>(duration).count(); }
 
-// The sums that the timing kernels below collect. Only one thread calls them.
+// The sums that the timing kernels below collect. Only one thread calls these kernels.
 struct Measured {
   const riis::Kernels *kernels;
   Clock::time_point regions_end;  // when the last comparison of boxes ended

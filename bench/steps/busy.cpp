@@ -35,7 +35,7 @@ using namespace bench;
 constexpr int most_turns = 400;
 constexpr std::chrono::seconds longest{5};       // for all turns of a subject
 constexpr std::chrono::seconds beside_busy{24};  // for all blocks of a subject while other processes are busy
-// A block of calls with 1 thread takes about this time. The system's slices take a tenth of this time.
+// A block of calls with 1 thread takes about this time. The system's slices of processor time are a tenth as long.
 constexpr double block_milliseconds = 40;
 
 [[noreturn]] void fail(const char *what) {

@@ -225,7 +225,7 @@ class OffsetStep {
   riis_mark_options marking_;
 };
 
-// Prints the processor time of a step with the offset 0.75, divided by that of a step without an offset. The two steps take
+// Prints the ratio of two processor times: of a step with the offset 0.75, and of a step without an offset. The two steps take
 // turns, so other work on the machine slows them equally.
 void print_offset() {
   constexpr double half_thickness = 0.1, spacing = half_thickness / 2;

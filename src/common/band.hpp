@@ -19,7 +19,8 @@ struct Band {
   // Returns the same band with another half thickness.
   Band with(double other_half_thickness) const { return {other_half_thickness, offset}; }
 
-  // Returns the largest distance of the band's nodes. Rounding never lets a node beyond this distance count as marked.
+  // Returns the largest distance that a node of the band can have. Rounding never lets a node beyond this distance count as
+  // marked.
   double reach() const { return reach_of(half_thickness); }
   // Returns a distance up to which all nodes are in the band.
   double sure_distance() const { return (1 - std::abs(offset)) * half_thickness; }
@@ -39,8 +40,8 @@ struct Band {
     return made < least ? least : made;
   }
   bool holds(double distance, double height) const {
-    // The sign of the equation at the half thickness decides without a square root. Near the edge of the band, where rounding
-    // could change this sign, marking_thickness decides.
+    // The sign of marking_thickness's equation at the half thickness decides without a square root. Near the edge of the band,
+    // rounding could change this sign, so marking_thickness decides there.
     constexpr double near_edge = 1e-6;
     const double e = half_thickness,
                  over = ((1 - offset) * (1 + offset) * e + 2 * offset * height) * e - distance * distance;

@@ -91,8 +91,8 @@ inline SineCosine sine_cosine_degrees(double degrees) {
   return elementary::turned_by_quarters(elementary::of_small((turned - 90.0 * quarters) * (half_pi / 90.0)), quarters);
 }
 
-// Returns the angle of the point (x, y), from -pi to pi, with a relative error of 3 units. Zeros count as in std::atan2. The sum
-// |x| + |y| must not overflow.
+// Returns the angle of the point (x, y), from -pi to pi, with a relative error of 3 units. Zeros are treated as in std::atan2.
+// The sum |x| + |y| must not overflow.
 inline double arc_tangent(double y, double x) {
   using elementary::half_pi;
   constexpr double in_squares[] = {-0.3333333333333333,  0.19999999999995516,  -0.14285714284665682,

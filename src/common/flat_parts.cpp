@@ -13,8 +13,8 @@
 namespace riis::flat_parts {
 namespace {
 
-// A flat part stays within the first share of the wall's size from its plane, and a part that the user points at within the
-// second share.
+// In a flat part, triangles stay within the first share of the wall's size from the plane. In a part that the user points at,
+// triangles stay within the second share.
 constexpr double flat_share = 5e-4, pointed_share = 5e-3;
 // The largest angle between a triangle of a flat part and the part's plane, in degrees. Triangles with little height may lean
 // more because of rounding.
@@ -154,7 +154,7 @@ bool Finder::is_in(const Plane &plane, std::int64_t triangle, double tolerance) 
   return dot(view(normals_)[triangle], plane.normal) >= least_cosine || is_thin(triangle);
 }
 
-// The normal of a triangle with so little height has no meaning.
+// Returns whether a triangle has so little height that its normal has no meaning.
 bool Finder::is_thin(std::int64_t triangle) const {
   double longest = 0;
   for (std::size_t k = 0; k < 3; ++k)

@@ -62,7 +62,7 @@ class Finder {
 
   // Returns the flat parts that may be ends, the largest first. The result includes `parts`, which are already known.
   std::vector<Part> find(std::vector<Part> parts);
-  // Returns the part of these triangles, which closed a hole.
+  // Returns the flat part that these triangles form. The triangles closed a hole.
   Part closed_hole(std::vector<std::int64_t> triangles);
   // Returns the flat part at a triangle to which the user points.
   Part pointed_at(std::int64_t triangle);

@@ -24,7 +24,7 @@ class NumberText {
  public:
   NumberText(const char *first, const char *last) : at(first), last_(last) {}
 
-  // Digits with or without a point and an exponent.
+  // Finds digits, with or without a point and an exponent.
   bool has_digits() {
     const char *next = behind_digits(at);
     std::ptrdiff_t n_digits = next - at;
@@ -41,7 +41,7 @@ class NumberText {
     if (const char *const end = behind_digits(next); end != next) at = end;
     return true;
   }
-  // "inf", "infinity", "nan" or "nan(...)", in capital or small letters.
+  // Finds "inf", "infinity", "nan" or "nan(...)", in capital or small letters.
   bool is_no_number() {
     if (has("inf")) {
       has("inity");

@@ -183,7 +183,7 @@ std::size_t more_at_start(const Curve &curve, const Curve &other) {
   return n == other.spans().size() + 1 && curve.length(0) < curve.length(n - 1) ? 1 : 0;
 }
 
-// A side of a patch in both states, at ascending shares of its length. The shares include the joints between spans.
+// A side of a patch in both states, divided at ascending shares of its length. The shares include the joints between spans.
 class SideInBoth {
  public:
   SideInBoth(const Curve &now, const Curve &before, const Vector<double> &shares)
@@ -246,8 +246,8 @@ class SideInBoth {
   const Curve &now_, &before_;
   const Vector<double> &shares_;
   CurvePoints at_now_, at_before_;
-  // Each number is 1 if its state has an additional span at the start, because a joint passed this end of the curve. Otherwise it
-  // is 0.
+  // Each number is 1 if its state has an additional span at the start, because a joint passed this end of the curve. Otherwise
+  // the number is 0.
   std::size_t more_now_, more_before_;
 };
 
@@ -273,8 +273,8 @@ class Shares {
     return static_cast<std::size_t>(found - all_.begin());
   }
 
-  // Halves the ranges for which is_tight(i) is false. Narrow ranges stay. Returns whether a range was halved. Also returns false
-  // if there are too many ranges, which happens for a curve whose bounds never become tight.
+  // Halves the ranges for which is_tight(i) is false. Does not halve narrow ranges. Returns whether a range was halved. Also
+  // returns false if there are too many ranges, which happens for a curve whose bounds never become tight.
   template <class IsTight>
   bool halve(const IsTight &is_tight) {
     if (all_.size() > 2 * most_ranges) return false;

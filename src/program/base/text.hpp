@@ -66,7 +66,7 @@ std::string ending_of(const std::string &path);
 // Returns whether the path has this ending, in small letters or in capitals.
 bool has_ending(const std::string &path, const std::string &ending);
 
-// Refuses the file. The reason may quote parts of the file, however long they are.
+// Refuses the file. The reason may quote parts of the file of any length.
 [[noreturn]] void refuse_file(const std::string &path, const std::string &reason);
 
 // Refuses a file that cannot be read or is empty.

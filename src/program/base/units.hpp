@@ -49,7 +49,7 @@ struct Box {
   }
   void grow(const double *point) { grow(point, point); }
   void grow(const Box &other) { grow(other.lower, other.upper); }
-  // Returns the box after each side was moved outwards.
+  // Returns the box with each side moved outwards by `by`.
   Box widened(double by) const {
     return {{lower[0] - by, lower[1] - by, lower[2] - by}, {upper[0] + by, upper[1] + by, upper[2] + by}};
   }
@@ -102,7 +102,7 @@ inline constexpr double usual_half_thickness = 0.04, largest_half_thickness = 0.
 // the band is so thin that it falls between the mesh's nodes.
 bool is_too_large(double half_thickness, const Sizes &sizes);
 bool is_too_small(double half_thickness, const Sizes &sizes);
-// Returns the present half thickness times a power of ten, so that it fits. If no power fits, returns the mesh's edge length. If
+// Returns a half thickness that fits: the present one times a power of ten. If no power fits, returns the mesh's edge length. If
 // the edge length does not fit either, returns 0.
 double better_half_thickness(const Sizes &sizes);
 

@@ -119,8 +119,8 @@ void check_distance(const Command &command, const MarkOptions &options) {
     refuse_usage("--distance-tolerance has no effect with --distance triangles: see --tolerance");
 }
 
-// Refuses options for the looks of pictures if there is neither a picture nor a movie. Also refuses an option that a movie cannot
-// follow, or that needs a mesh where there is none.
+// Refuses options for the looks of pictures if there is neither a picture nor a movie. Also refuses options that do not fit a
+// movie, and options that need a mesh if there is none.
 void check_style(const Command &command, const MarkOptions &options) {
   const std::string &movie = options.series.movie;
   const PictureStyle &style = options.style;

@@ -33,7 +33,7 @@ ExitCode run_patient(const PatientOptions &options);
 // names the files.
 void export_uris(const ExportOptions &options);
 // The files of an export, after they are written. `named_folder` is the path of the folder as the solver will see it. In the
-// block, the paths of the files begin with `named_folder`.
+// printed block of the solver's input, the paths of the files begin with `named_folder`.
 struct UrisExport {
   std::string block;
   std::string failure;  // why the drop was not found; "" if it was found, or without a mesh

@@ -119,7 +119,7 @@ class Search {
   riis_area_search search_ = defaults<riis_area_search>();
 };
 
-// Tells where the area stops growing or falling. Several openings or sizes can have the same area beyond such a turn.
+// Tells where the area stops growing or falling. Beyond such a turn, another opening or size can have the same area again.
 void warn_of_turns(const AreaOptions &options, const riis_area_range &range) {
   if (range.n_turns == 0) return;
   std::vector<std::string> places;

@@ -14,8 +14,8 @@
 namespace riis::program {
 namespace {
 
-// Returns advice about the band for a valve of this kind. The table of parameters has no line about the band, because no
-// parameter sets it.
+// Returns advice about the band for a valve of this kind. No parameter sets the band, so the table of parameters says nothing
+// about it.
 std::string advice_on_band(const std::string &kind) {
   if (kind == "bileaflet") return "band: leave --offset at 0, because the flow passes on both sides of the leaflets\n";
   std::string advice =

@@ -272,7 +272,7 @@ std::string text_of_changes(const States &states) {
 }
 
 // Returns names of columns. Blanks and dashes in the names of leaflets become _. If a name has other special characters, such as
-// those of "x > 0", numbers name all leaflets.
+// those of "x > 0", all leaflets are named by numbers.
 std::vector<std::string> columns_of(const States &states) {
   std::vector<std::string> columns = states.names;
   bool are_words = true;

@@ -18,7 +18,7 @@ namespace riis::program {
 
 using Json = nlohmann::ordered_json;
 
-// If the file is nested too deeply, the refusal calls its content by `content`, such as "parameters".
+// If the file is nested too deeply, the refusal names the file's content by `content`, such as "parameters".
 Json parse_json_file(const std::string &path, const std::string &content);
 Json parse_json(const std::string &path, const std::string &text, const std::string &content);
 

@@ -358,7 +358,7 @@ void read_fcsv(const std::string &text, LandmarkFile &file) {
       system = line.fact->second;
   }
   if (columns.empty()) {
-    // Versions 4 and 5 write the label as the twelfth of 14 cells. Version 3 writes it first.
+    // Versions 4 and 5 write the label as the twelfth of 14 cells. Version 3 writes the label as the first cell.
     const bool is_version_3 = rows.empty() || rows.front().cells.size() < 12;
     columns = is_version_3 ? std::vector<std::string>{"label", "x", "y", "z"}
                            : split("id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label", ",");
@@ -373,7 +373,7 @@ void read_fcsv(const std::string &text, LandmarkFile &file) {
   const std::size_t label = column("label");
   const std::array<std::size_t, 3> xyz = {column("x"), column("y"), column("z")};
   const std::size_t last = std::max({label, xyz[0], xyz[1], xyz[2]});
-  // Version 5 adds the status of a point after the 14 named cells: 2 for a placed point.
+  // After the 14 named cells, version 5 adds the status of the point, which is 2 for a placed point.
   constexpr std::size_t n_named = 14;
   Collector to(file);
   for (const CsvFile::Row &row : rows) {

@@ -62,7 +62,7 @@ LandmarkFile landmarks_of_json(const std::string &subject, const Json &root);
 // and like unit='mm' for Python.
 enum class Reader { program, python };
 
-// The user's statements about the landmarks, in addition to the file's.
+// The user's statements about the landmarks, in addition to the statements of the file.
 struct PlaceRequest {
   Reader reader = Reader::program;
   std::optional<Unit> unit;     // to which lengths are converted

@@ -18,7 +18,7 @@ struct Ends {
   std::vector<Boundary> outlets;
   double outlet_area = 0;
 };
-// Refuses other cases: a case must have one inlet, one wall, at least one outlet, and lengths in this unit.
+// A case must have one inlet, one wall, at least one outlet, and lengths in this unit. Refuses other cases.
 Ends ends_of(const SolverCase &solver, Unit unit);
 
 // Makes the solver's folder. Refuses a folder that already contains a case.
@@ -106,7 +106,7 @@ struct PressureCurve {
   }
 };
 
-// The pressure of the ventricle in a beat that begins at the end of diastole. It drives an aortic valve.
+// The pressure of the ventricle in a beat that begins at the end of diastole. This pressure drives an aortic valve.
 inline PressureCurve pressure_of_left_ventricle(double period) {
   const PressureCurve curve{
       {{0, 8}, {0.04, 8}, {0.09, 78}, {0.14, 108}, {0.2, 120}, {0.27, 112}, {0.32, 95}, {0.38, 8}, {0.8, 8}}};

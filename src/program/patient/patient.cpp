@@ -94,7 +94,7 @@ void check_kind(const std::string &kind) {
 // Returns the numbers that a step has written to its report.
 Json stats_of(const std::string &name) { return parse_json_file("logs/" + name + ".json", "stats"); }
 
-// Returns whether the file exists. Pictures and movies may be missing.
+// Returns whether the file exists, because pictures and movies may be missing.
 bool exists(const char *path) {
   std::error_code error;
   return fs::exists(path, error);
@@ -210,7 +210,7 @@ class PatientRun {
   }
 
   std::string in_mm(double length) const { return printed("%.3g", length / millimetre_) + " mm"; }
-  // These functions return a length in millimetres, rounded upwards, and the length as an option's value.
+  // rounded_mm returns a length in millimetres, rounded upwards, and option_mm returns this length as an option's value.
   double rounded_mm(double length) const { return std::ceil(100 * length / millimetre_ - 1e-6) / 100; }
   std::string option_mm(double length) const { return "'" + shortest(rounded_mm(length)) + " mm'"; }
 

@@ -125,7 +125,7 @@ class GmshReader {
   const char *next_;
 };
 
-// Writes a mesh in gmsh's format 2.2. Each element has a physical group, and a surface or volume of the same number.
+// Writes a mesh in gmsh's format 2.2. Each element has a physical group, and belongs to the surface or volume of the same number.
 class GmshText {
  public:
   explicit GmshText(const std::vector<Vector3> &points) {

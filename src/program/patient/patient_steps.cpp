@@ -96,8 +96,8 @@ class RunLocks {
   std::vector<int> files_;
 };
 
-// Removes what an earlier run wrote. All checks come before this. The report is removed first, so that a folder that has lost
-// some of its files never looks finished.
+// Removes what an earlier run wrote. All checks are done before the removal. The report is removed first, so that a folder that
+// has lost some of its files never looks finished.
 void remove_own_files(const fs::path &folder, const std::string &path) {
   const RunLocks locks(folder, path);
   for (const char *const name : own_names) {
@@ -107,7 +107,7 @@ void remove_own_files(const fs::path &folder, const std::string &path) {
   }
 }
 
-// Checks the folder, or makes it.
+// Checks the folder if it exists, and makes it otherwise.
 std::string taken_folder(const std::string &path, bool replace, const std::vector<std::string> &inputs,
                          std::string &removed) {
   std::error_code error;

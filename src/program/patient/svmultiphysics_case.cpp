@@ -86,7 +86,7 @@ ExportOptions export_of(std::vector<std::string> words) {
   return std::get<ExportOptions>(request.value());
 }
 
-// Returns the words of the command riis export. The files of the case's folder are in `folder`. The block of the export names the
+// Returns the words of the command riis export. `folder` is the path of the case's folder. The block of the export names the
 // valve's files by paths from the solver's folder.
 std::vector<std::string> export_words(const SolverCase &solver, const std::string &folder) {
   std::vector<std::string> words = {"riis", "export", "valve", folder + "/mesh.vtu"};

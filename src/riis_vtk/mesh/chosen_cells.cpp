@@ -144,9 +144,8 @@ bool may_tell_domains(const std::string &array_name) {
 constexpr std::size_t most_regions = 16;
 
 // Returns the values of volume cells. There must be few values, all whole numbers, and cells with different values must touch.
-// Two cells touch if they have the same type and a common node. If one of these conditions does not hold, returns no values.
-// Cells of different types do not count. Exodus needs a block for each type, so the blocks of one domain may have different
-// values.
+// Two cells touch if they have the same type and a common node. If one of these conditions does not hold, returns no values. The
+// types are compared because Exodus needs a block for each type, so the blocks of one domain may have different values.
 std::vector<double> touching_values(vtkUnstructuredGrid *grid, vtkDataArray *array) {
   std::set<double> values;
   // For each node, the value and the type of its first cell.

@@ -34,7 +34,7 @@ struct RegionName {
   std::string name;
 };
 
-// The values of a cell array that tells apart the domains of a mesh. There may be none.
+// The values of a cell array that tells apart the domains of a mesh. A mesh may have no such array.
 struct Regions {
   std::string array = {};
   std::vector<double> values = {};

@@ -120,8 +120,8 @@ std::unique_ptr<riis_vtk_pieces> read_pieces(const std::string &path, const Caug
   check_declared(path, made->cell_arrays);
   // In files of a function, dolfinx writes an array with a number of each node, which is valid on all ranks. These files are
   // refused, because the last bits of a shared node's coordinates differ between ranks. A file that states the order of bytes was
-  // written by VTK. It is accepted, because VTK's filters number the nodes of each piece separately, so that the numbers have
-  // another meaning.
+  // written by VTK. Such a file is accepted, because VTK's filters number the nodes of each piece separately, so that the numbers
+  // have another meaning.
   made->has_ids_of_dolfinx = !has_byte_order && std::any_of(made->point_arrays.begin(), made->point_arrays.end(),
                                                             [](const Declared &a) { return a.name == ids_of_dolfinx; });
   made->path = path;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The window of a picture. The window has panels. Bands above and below the panels have the captions, the key of colours, axes
-// and a scale bar. The window can show several surfaces and their marks one after another, each from any view.
+// The window of a picture, which has one panel or several. Bands above and below the panels have the captions, the key of
+// colours, axes and a scale bar. The window can show several surfaces and their marks one after another, each from any view.
 #pragma once
 
 #include <riis/riis_vtk.h>
@@ -128,7 +128,7 @@ struct PanelTexts {
   std::string upper_end = {};             // of the bar of speeds, with its unit; "" if there is no bar
 };
 
-// The leaking edges. They are drawn in red. If `edges` is NULL, the texts do not mention leaks.
+// The leaking edges, which are drawn in red. If `edges` is NULL, the texts do not mention leaks.
 struct Leaks {
   std::int64_t n_edges = 0;
   const std::int64_t *edges = nullptr;

@@ -308,9 +308,9 @@ class Scan {
     skip_metadata(width);
   }
 
-  // Skips a block METADATA, whose keyword has already been read. The block ends with a blank line. However, the line with the
-  // name of a component may also be blank. VTK compares only the beginning of a keyword such as INFORMATION. For example, VTK
-  // reads "INFORMATION8 1" as 8 keys.
+  // Skips a block METADATA, whose keyword has already been read. The block ends with a blank line. However, a line with the name
+  // of a component may also be blank, so not every blank line ends the block. VTK compares only the beginning of a keyword such
+  // as INFORMATION. For example, VTK reads "INFORMATION8 1" as 8 keys.
   void skip_metadata(std::int64_t n_components) {
     line();
     while (!rest_.empty()) {

@@ -564,7 +564,7 @@ bool read_parts(const std::string &path, const std::vector<fs::path> &folders, P
 
 bool is_mesh(const fs::path &folder) { return has_file(folder, "faces") && has_file(folder, "owner"); }
 
-// Returns the folders polyMesh of the parts of a decomposed case, in the order of the parts. Returns none for other cases.
+// Returns the folders polyMesh of the parts of a decomposed case, in the order of the parts. For other cases, returns no folders.
 std::vector<fs::path> parts_of(const fs::path &root) {
   std::vector<fs::path> folders;
   std::error_code error;

@@ -206,7 +206,8 @@ class XdmfFile {
     in.check_count(n, 1, "numbers");
     std::vector<Number> values(static_cast<std::size_t>(n));
     for (Number &value : values) {
-      // Only the end is checked. A check of the whole rest after each number would take a time proportional to the square of n.
+      // The rest is checked only near the end of the text. A check of the whole rest after each number would take a time
+      // proportional to the square of n.
       if (in.rest().size() < 64 && std::all_of(in.rest().begin(), in.rest().end(), is_blank))
         in.refuse("a DataItem has ", static_cast<std::int64_t>(&value - values.data()), " of its ", n, " numbers");
       if constexpr (std::is_same_v<Number, double>)

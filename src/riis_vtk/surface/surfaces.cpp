@@ -143,7 +143,7 @@ bool holds_quads_only(vtkPointSet *data) {
   return true;
 }
 
-// Returns a leaflet id for each cell. If the array is missing, returns none, or fails if the array is required.
+// Returns a leaflet id for each cell. If the array is missing, returns no ids, or fails if the array is required.
 std::vector<std::int32_t> leaflets_of_cells(const std::string &path, vtkPointSet *data, const LeafletArray &wanted) {
   const std::string name = "cell array " + wanted.name;
   vtkAbstractArray *abstract = data->GetCellData()->GetAbstractArray(wanted.name.c_str());

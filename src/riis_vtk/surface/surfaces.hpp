@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads a surface from a file, or takes it from the core, and makes a data set of it. Makes plain arrays for the core from the
-// data set, with a leaflet id for each face. Also finds pieces of faces that are connected.
+// Reads a surface from a file or takes a surface from the core, and makes a data set of this surface. Makes plain arrays for the
+// core from the data set, with a leaflet id for each face. Also finds pieces of faces that are connected.
 #pragma once
 
 #include <cmath>
@@ -21,7 +21,7 @@ vtkSmartPointer<vtkPointSet> read_surface_data(const std::string &path, const Ca
 // riis_vtk.h.
 vtkSmartPointer<vtkPolyData> polydata_of(const riis_surface *surface);
 
-// Faces as plain arrays. If the data set has only quads, the faces are quads. Otherwise they are triangles.
+// Faces as plain arrays. If the data set has only quads, the faces are quads. Otherwise the faces are triangles.
 struct Faces {
   std::vector<double> xyz;  // (3, n_vertices), all points, used or not
   // (corners_per_face, n_faces); the diagonal from a quad's first corner to its third lies inside the quad
