@@ -75,7 +75,7 @@ void pipeline_scene(benchmark::State &state, const char *kind) {
   state.counters["triangles"] = n_triangles_of(surface.get());
 }
 
-// Makes the scene again after the triangles have moved.
+// Measures the time to make the scene again after the triangles have moved.
 void pipeline_scene_again(benchmark::State &state, const char *kind) {
   const Surface surface = surface_of(moved_valve(kind).get());
   riis::TriangleScene scene;

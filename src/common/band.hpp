@@ -41,7 +41,7 @@ struct Band {
   }
   bool holds(double distance, double height) const {
     // The sign of marking_thickness's equation at the half thickness decides without a square root. Near the edge of the band,
-    // rounding could change this sign, so marking_thickness decides there.
+    // rounding could change this sign, so marking_thickness itself is computed there.
     constexpr double near_edge = 1e-6;
     const double e = half_thickness,
                  over = ((1 - offset) * (1 + offset) * e + 2 * offset * height) * e - distance * distance;

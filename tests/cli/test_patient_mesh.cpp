@@ -256,7 +256,7 @@ void failing_programs(random_source &random, const std::string &folder) {
   name_ends(wall, vessels.axes[0], -1 * vessels.axes[0]);
   const PatientMeshOptions options{folder, folder + "/sizes.dat", 1, [](const std::string &) {}, 0};
   const auto mesh = [&] { mesh_patient(wall, options); };
-  // The argument after -log is the log, and the argument after -o is the mesh.
+  // The argument after -log is the path of the log, and the argument after -o is the path of the mesh.
   const std::string words = "while [ $# -gt 0 ]; do case $1 in -log) log=$2;; -o) mesh=$2;; esac; shift; done; ";
   stand_for_gmsh(
       folder,

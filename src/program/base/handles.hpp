@@ -25,7 +25,7 @@ using Film = Handle<riis_vtk_film, riis_vtk_film_destroy>;
 using SurfaceFile = Handle<riis_vtk_surface, riis_vtk_surface_destroy>;
 
 // Calls a library function whose last argument receives a new object, and returns this object. Refusals begin with `subject`,
-// like those of check.
+// like the refusals of the function check.
 template <class Object, class Call, class... Arguments>
 Object create_for(const std::string &subject, const Call &call, const Arguments &...arguments) {
   Object object;

@@ -84,8 +84,8 @@ constexpr double most_edge = 10, most_edge_of_valve = 0.4;
 // The least half thickness, as a share of the mesh's edge length. A thinner band fits between two layers of nodes, and contains
 // few nodes.
 constexpr double smallest_half_thickness = 0.3;
-// A unit is impossible if it makes the vessel much too narrow or much too wide. The limit of too wide is larger, because a valve
-// may stand in a wide basin.
+// A unit is impossible if it makes the vessel much too narrow or much too wide. The limit for wide vessels is larger than the
+// limit for narrow vessels, because a valve may stand in a wide basin.
 constexpr double most_too_narrow = 1.5, most_too_wide = 10;
 // The oddity of a unit tells how unlikely the unit is. It is a product of ratios, each at least 1. A unit is possible if its
 // oddity is at most this number of times the oddity of the likeliest unit.

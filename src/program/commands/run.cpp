@@ -49,7 +49,7 @@ ExitCode run_command(const Request &request) {
   return exit_fine;
 }
 
-// Several ranks share the work only if the mesh has pieces. A case may name a mesh in pieces.
+// Several ranks share the work only if the mesh has pieces. The mesh of a case file may also have pieces.
 bool has_ranks(const Request &request) {
   const auto *options = std::get_if<MarkOptions>(&request);
   return options && (is_in_pieces(options->mesh) || !options->series.case_file.empty());

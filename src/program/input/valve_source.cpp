@@ -389,8 +389,8 @@ std::string first_file_of_list(const std::string &path) {
   return ", such as " + path_in_shell((fs::path(path).parent_path() / name).string());
 }
 
-// A .msh file may be from another version of gmsh, or from Ansys Fluent. A damaged .msh file cannot be converted. SimVascular
-// also uses the ending .msh, for an XML file that describes a mesh.
+// A .msh file may be from another version of gmsh, or from Ansys Fluent. For a damaged .msh file there is no hint, because no
+// program can convert the file. SimVascular also uses the ending .msh, for an XML file that describes a mesh.
 std::string hint_for_msh(const std::string &path, const std::string &refusal) {
   if (has_text(refusal, "is of gmsh's type")) return at_order_2(path);
   if (has_text(refusal, "of gmsh's format;")) return by_gmsh(path, "vtk");

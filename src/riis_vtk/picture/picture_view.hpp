@@ -46,8 +46,8 @@ struct View {
   std::array<Vector, 3> axes;
 
   // The value of `view` is a constant RIIS_VTK_VIEW_* for a single view, not the constant for three views. Views along the axes
-  // of the valve need `valve`. For RIIS_VTK_VIEW_VALVE_LONG, the caller turns the axes of the valve. The view is then that of
-  // RIIS_VTK_VIEW_VALVE_SIDE.
+  // of the valve need `valve`. For RIIS_VTK_VIEW_VALVE_LONG, the caller turns the axes of the valve, and the view is that of
+  // RIIS_VTK_VIEW_VALVE_SIDE with the turned axes.
   View(std::int32_t view, const Axes &valve);
   const Vector &right() const { return axes[0]; }
   const Vector &up() const { return axes[1]; }
