@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes points whose distance to the smooth surface is known. Some lie on the surface, and the others are moved from it along its
-// normal. The inputs are patches, the number of points and a seed. The results are points with their distances, and the results
-// of checks.
+// Makes points whose distance to the smooth surface is known. Some of the points lie on the surface, and the others are moved
+// away from the surface along its normal. The inputs are patches, the number of points and a seed. The results are points with
+// their distances, and the results of checks.
 #pragma once
 
 #include <array>

@@ -307,7 +307,7 @@ void Finder::mark_touching(std::vector<Part> &parts) const {
       const bool touches = std::any_of(vertices[i].begin(), vertices[i].end(),
                                        [&](std::int64_t id) { return vertices[j].count(id) > 0; });
       if (!touches) continue;
-      // A small part at the rim of an end is a facet of the wall there.
+      // Part i, the smaller one of the two parts, may be a facet of the wall at the rim of part j.
       parts[i].is_touching = true;
       if (parts[j].area <= most_apart * parts[i].area) parts[j].is_touching = true;
     }

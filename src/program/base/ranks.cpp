@@ -13,8 +13,8 @@ namespace {
 
 int own_rank = 0, number = 1;
 
-// An MPI type for an element of several bytes. MPI counts up to 2^31 elements, so a message of larger elements may have more
-// bytes than that.
+// An MPI type for an element of several bytes. MPI counts up to 2^31 elements, so a message of larger elements may have more than
+// 2^31 bytes.
 class ElementType {
  public:
   explicit ElementType(std::size_t size) {

@@ -27,8 +27,8 @@ double paper_half_thickness(Unit unit);
 
 // Returns the unit into which `factor` converts lengths from the unit `from`, or none.
 std::optional<Unit> unit_reached(Unit from, double factor);
-// Returns the units of a surface and a mesh between which this factor converts lengths. Returns none for the factor 1, and for a
-// factor that belongs to no pair of units.
+// Returns the units of a surface and a mesh between which this factor converts lengths. Returns nothing for the factor 1, and for
+// a factor that belongs to no pair of units.
 struct UnitPair {
   Unit surface, mesh;
 };

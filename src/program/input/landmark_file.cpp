@@ -275,7 +275,7 @@ Unit slicer_unit(const std::string &path, const Json &list, const std::string &w
   return stated_unit(path, unit.get<std::string>());
 }
 
-// A file of 3D Slicer has many keys, and they differ between versions. Only the keys that are needed are read.
+// A file of 3D Slicer has many keys, which differ between the versions of 3D Slicer. Only the keys that are needed are read.
 void read_slicer(const Json &root, LandmarkFile &file) {
   const std::string &path = file.path;
   const Json &lists = root["markups"];

@@ -430,7 +430,8 @@ std::string conversion_hint(const std::string &path, Content wanted, const std::
     const bool is_surface = surfaces_only.count(ending) != 0 || refusal.find("holds polydata") != std::string::npos;
     return is_surface ? "; --surface takes a surface" : "";
   }
-  // A .vtk file by gmsh has points and lines beside faces, and gmsh can convert it. A damaged .vtk file cannot be converted.
+  // A .vtk file by gmsh has points and lines beside faces, and gmsh can convert it. For other .vtk files there is no hint,
+  // because a damaged file cannot be converted.
   if (ending == ".vtk") return refusal.find("; a surface has") != std::string::npos ? by_gmsh(path, "stl") : "";
   if (surfaces_of_gmsh.count(ending) != 0) return by_gmsh(path, "stl");
   if (faces_of_meshio.count(ending) != 0) return by_meshio(path, "vtu");
