@@ -4,7 +4,7 @@
 
 # Further competitors for ./run bench. If a competitor is missing, it is left out with a message.
 bench_packages=(libcgal-dev libopenvdb-dev libmetis-dev "${plot_packages[@]}")
-# Packages that ./run bench peers needs to install packages from PyPI. open3d's wheel needs the last two.
+# Packages that ./run bench peers needs to install packages from PyPI. open3d's wheel needs the last two packages.
 peers_packages=(python3-venv libusb-1.0-0 libgl1)
 
 # ./run bench [short | full]

@@ -42,7 +42,7 @@ double quantile(const std::vector<double> &ascending, double share) {
   return ascending[std::min(ascending.size() - 1, static_cast<std::size_t>(share * n))];
 }
 
-// Counts values in bins of their logarithm. Values below the first bin are only counted in "below".
+// Counts the values in bins of equal width in the logarithm. Values below the first bin are only counted in "below".
 json histogram_of(const std::vector<double> &values, double lowest_power, double highest_power, double bins_per_power) {
   std::vector<std::int64_t> counts(static_cast<std::size_t>((highest_power - lowest_power) * bins_per_power));
   std::int64_t below = 0, above = 0;
@@ -67,7 +67,7 @@ json summary_of(std::vector<double> values) {
   return {{"median", quantile(values, 0.5)}, {"p95", quantile(values, 0.95)}, {"max", values.back()}};
 }
 
-// Returns microseconds per point. The fastest of three passes counts, because other work on the machine makes times longer.
+// Returns microseconds per point. Takes the fastest of three passes, because other work on the machine makes times longer.
 double mean_microseconds(const MeasuredSurface &surface, const TruePoints &points) {
   double least = std::numeric_limits<double>::infinity(), sum = 0;
   for (int pass = 0; pass < 3; ++pass) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes points whose distance to the smooth surface is known: points on it, and points moved from it along its normal. The inputs
-// are patches, the number of points and a seed. The results are points with their distances, and the results of checks.
+// Makes points whose distance to the smooth surface is known. Some of the points lie on the surface, and the others are moved
+// away from the surface along its normal. The inputs are patches, the number of points and a seed. The results are points with
+// their distances, and the results of checks.
 #pragma once
 
 #include <array>
@@ -33,7 +34,8 @@ struct TruthRequest {
 
 struct GroundTruth {
   TruePoints on_surface;  // evenly by area; u and v at least SmoothSurface::step away from a patch's sides
-  // The points of on_surface, each moved by all offsets in turn. The two fields below count points that are left out.
+  // The points of on_surface, each of which is moved by every offset in turn. The two fields below count points that are left
+  // out.
   TruePoints off_surface;
   std::int64_t n_curved;  // points whose radius of curvature is too small for the offset
   std::int64_t n_nearer;  // points to which another part of the surface is nearer than the foot

@@ -25,7 +25,7 @@ struct Part {
   double from, to;
 };
 
-// Returns the middles of n equal steps (first = 0.5), or their starts (first = 0).
+// Returns n places in equal steps: the middles of the steps if `first` is 0.5, and their starts if `first` is 0.
 std::vector<double> equal_steps(std::size_t n, double first, const Part &part) {
   std::vector<double> steps;
   for (std::size_t i = 0; i < n; ++i)
@@ -39,7 +39,7 @@ std::vector<double> ends_of_steps(std::size_t n, const Part &part) {
   return ends;
 }
 
-// Paints cells of about the given size. The middle of a cell lies on the surface, so its true distance is 0 and its computed
+// Paints cells of about the given size. The middle of a cell lies on the surface. Its true distance is 0, so its computed
 // distance is the error.
 struct Painter {
   const SmoothSurface &smooth;
@@ -47,7 +47,7 @@ struct Painter {
   double cell;
   Numbers &numbers;
 
-  // Several lines run along one parameter of a patch. Returns how many cells the longest line needs.
+  // Returns how many cells the longest of several lines needs. The lines run along one parameter of a patch.
   std::size_t n_cells(std::size_t image, const Part &u, const Part &v, bool along_u) const {
     constexpr std::size_t n = 16;
     const std::vector<Vec3> net = smooth.at_lines(image, ends_of_steps(n, u), ends_of_steps(n, v));
@@ -85,8 +85,8 @@ json paintings(const accuracy::Leaflet &leaflet, bool is_part, Numbers &numbers)
   json made = json::array();
   for (const Setting &setting : painted) {
     const MeasuredSurface surface(patches, setting.method, setting.tolerance);
-    // Minimisation is slow, and its errors change over larger distances than those of sampling. The cells of minimisation are
-    // therefore larger.
+    // Minimisation is slow, and its errors vary less from place to place than the errors of sampling. The cells of minimisation
+    // are therefore larger.
     const double cell = is_part ? 0.001 : setting.method == RIIS_MEASURE_MINIMIZATION ? 0.007 : 0.0035;
     const Painter painter{smooth, surface, cell, numbers};
     json images = json::array();

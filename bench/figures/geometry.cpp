@@ -43,8 +43,8 @@ json json_of(const PatchSet &set, const Side &side, const PatchImage &image) {
   return pieces;
 }
 
-// The lengths belong to the sides. "own_frame" has the sides before the image is turned and moved. "ends_of_lines" has points of
-// the sides v0 and v1 at equal shares of their lengths.
+// "lengths" has the length of each side. "own_frame" has the sides before the image is turned and moved. "ends_of_lines" has
+// points of the sides v0 and v1 at equal shares of their lengths.
 json json_of(const PatchSet &set, std::size_t patch_number, const PatchImage &image) {
   constexpr int n_lines = 32;
   const Patch &patch = set.patches[patch_number];

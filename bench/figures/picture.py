@@ -27,7 +27,7 @@ BLUE, ORANGE, GREEN, PURPLE, VERMILION, SKY_BLUE = PALETTE
 DARK, GREY, LIGHT_GREY = (45, 45, 45), (130, 130, 130), (205, 205, 205)
 LEAFLETS = (BLUE, ORANGE, GREEN)
 TITLE_HEIGHT = 36  # pixels
-# Without a graphics card, smooth edges take most of a picture's time. The tests draw without them.
+# Without a graphics card, smooth edges take most of a picture's time. The tests draw without smooth edges.
 N_SAMPLES = int(os.environ.get("RIIS_FIGURES_SAMPLES", "8"))
 
 

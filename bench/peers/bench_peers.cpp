@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// ./run bench peers: gives the library's nodes and triangles to other programs (CGAL, VTK, OpenVDB), on one thread. First the
-// marks of all programs are compared with the marks of a loop over all triangles. After the comparison of marks, the programs are
-// timed in turns. One group of bars is for queries without a limit: queries over leaves are compared with queries node by node,
-// with FCPW and with CGAL. Fails if the library or CGAL marks other nodes than the loop. Also fails if queries over leaves give
-// other bits than queries node by node.
+// ./run bench peers: gives the library's nodes and triangles to other programs (CGAL, VTK, OpenVDB), on one thread. The marks of
+// all programs are compared with the marks of a loop over all triangles. Then the programs are timed in turns. The bars for
+// queries without a limit compare queries over leaves with queries node by node, with FCPW and with CGAL. Fails if the library or
+// CGAL marks other nodes than the loop. Also fails if queries over leaves give other bits than queries node by node.
 //   argv[1]  a file for the results as JSON
 //   argv[2]  thousands of nodes; default 100
 //   argv[3]  a folder for nodes, triangles and distances as raw binary numbers, for peers.py
@@ -47,7 +46,7 @@ constexpr double fine = 0.0034;  // the tolerance of the fine triangles of ./run
 constexpr double wide = 40;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// In each row named "node by node", Embree gets one query for each point, without leaves and groups.
+// In the rows named "node by node", Embree answers one query for each point, without leaves and groups.
 constexpr RatioBar distance_bars[] = {
     {"every distance of a prepared mesh: node by node / leaves", "riis, every distance, node by node",
      "riis, every distance of a prepared mesh", Wanted::at_least, 8},
@@ -83,8 +82,8 @@ struct Fields {
   }
 };
 
-// Finds closest points in parts of `per_piece` points, on one thread. If the parts are short, the library queries their points
-// one by one.
+// Finds the closest points of `per_piece` points at a time, on one thread. If `per_piece` is small, the library queries the
+// points one by one.
 constexpr std::int64_t in_one_piece = std::numeric_limits<std::int64_t>::max(), node_by_node = 63;
 void find_closest(const riis_surface *surface, const std::vector<double> &xyz, std::int64_t per_piece, Fields &to) {
   riis_closest_options options;
@@ -106,8 +105,8 @@ void find_closest(const riis_surface *surface, const std::vector<double> &xyz, s
   }
 }
 
-// Adds two contenders that compute every field of the given points: over leaves, and node by node. Returns whether both ways give
-// the same bits.
+// Adds two contenders that compute every field of the given points: over leaves, and node by node. Returns whether the two
+// contenders give the same bits.
 bool add_closest(Contest &contest, const std::string &name, const riis_surface *surface,
                  const std::vector<double> &xyz) {
   const std::size_t n = xyz.size() / 3;
@@ -132,7 +131,7 @@ enum class Measures { triangles, approximately };
 
 // Compares a peer's distances with the truth. Counts, by reason, the nodes that are marked differently.
 json compared(const Truth &truth, const std::vector<double> &distance, Measures measures = Measures::triangles) {
-  // The errors in cm of coordinates of some centimetres: in double precision, and in single precision.
+  // The rounding errors, in cm, of coordinates of some centimetres in double and in single precision.
   constexpr double rounding = 1e-12, single = 2e-6;
   std::map<std::string, std::int64_t> reasons;
   std::int64_t n_marked = 0, n_different = 0;
@@ -292,8 +291,8 @@ bool compare(const char *kind, const Cylinder &cylinder, std::int64_t about_n_no
     is_right = is_right && is_equal(marks[name]) && marks[name]["largest_anywhere"] <= 1e-12;
   };
   add_right("riis, every distance", n_slow_turns, all_distances);
-  // Times a marking with a limit that includes every node. The marking runs over the clusters of a prepared mesh, and node by
-  // node with Embree.
+  // Measures the time of a marking with a limit that includes every node. The marking runs once over the clusters of a prepared
+  // mesh, and once node by node with Embree.
   const auto marking = [&](const riis_surface *of, std::int32_t search) {
     riis_mark_options options;
     check(riis_mark_options_init(&options, sizeof options));

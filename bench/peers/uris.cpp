@@ -43,8 +43,8 @@ constexpr Cylinder prosthesis_cylinder{1.6, -1.0, 1.6, 0};
 // Triangles in one state: their corners, (3, 3, n).
 using Corners = std::vector<double>;
 
-// The solver's input in one state: the leaflets' triangles, and all nodes. The nodes of the input include the face that enlarges
-// the solver's box.
+// The solver's input in one state: the leaflets' triangles, and all nodes. These nodes include the nodes of the face that
+// enlarges the solver's box.
 struct State {
   Corners leaflets, nodes;
 };
@@ -166,8 +166,7 @@ double longest_edge(const Corners &corners) {
   return longest;
 }
 
-// Tests whether a node is in the solver's box. On each side, this box extends beyond the bounding box of the faces' nodes by a
-// tenth.
+// Tests whether a node is in the solver's box. The solver widens the bounding box of the faces' nodes by a tenth on each side.
 class SolverBox {
  public:
   explicit SolverBox(const std::vector<double> &xyz) {

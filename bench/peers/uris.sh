@@ -63,8 +63,8 @@ drop_in_duct() { # arguments: path without ending, half thickness, shift along t
     printf '%s %s' "$(expected_drop "$1")" "$(sed -n 's/.*sum of delta is \([0-9.e+-]*\) of.*/\1/p' "$1.xml")"
 }
 
-# Writes a flat valve for the duct. With $2, the valve rises by $2 over half of the duct. Without $2 it lies straight across the
-# duct.
+# Writes a flat valve for the duct. With $2, the valve rises by $2 over half of the duct. Without $2, the valve lies straight
+# across the duct.
 flat_valve() { # arguments: name of the file, rise
   local low=-${2-0} high=${2-0}
   cat >"$build/uris/$1.json" <<END

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// ./run bench proof, its first part: the search over clusters marks the nodes that a loop over triangles marks. Search and loop
-// give the same triangles, and the same distances to the last bit. The proof covers a million nodes, both valves, three
-// positions, three half thicknesses, every instruction set of the processor, and 1 to 4 threads. The loop runs the scalar form of
-// the library's decision kernel on every triangle whose box is near the node. A separate grid finds the triangles near a node.
-// For a sample of nodes, the loop runs over every triangle. The program prints a table and fails on any difference.
+// ./run bench proof, its first part: shows that the search over clusters marks the same nodes as a loop over triangles. The
+// search and the loop also find the same triangles, and the same distances to the last bit. The proof covers a million nodes,
+// both valves, three positions, three half thicknesses, every instruction set of the processor, and 1 to 4 threads. The loop runs
+// the scalar form of the library's decision kernel on every triangle whose box is near the node. A separate grid finds the
+// triangles near a node. For a sample of nodes, the loop runs over every triangle. The program prints a table and fails on any
+// difference.
 //   argv[1]  the number of nodes in thousands, 1000 by default
 #include <algorithm>
 #include <cmath>
@@ -49,7 +50,7 @@ class NearTriangles {
   }
 
   // Returns the closest of the triangles whose boxes are within reach. If several are equally close, returns the lowest. Counts
-  // the pairs that it measures.
+  // the pairs of points and triangles that are measured.
   riis::ClosestTriangle closest(const double *p, std::int64_t &n_pairs) const {
     riis::ClosestTriangle best{INFINITY, -1};
     if (!has(whole_, p)) return best;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ./run bench proof, its second part: both valves open and close for 10,000 time steps, with 100,000 nodes and 2 threads. At the
-// end, the memory of the process must equal the memory at step 100 to within 1 MB. With one thread, a marking must no longer call
-// malloc after the valve has been in all positions. The program prints a table and fails if one of these claims does not hold.
+// end, the memory of the process must equal the memory at step 100 to within 1 MB. With one thread, no marking may call malloc
+// after the valve has been in all positions. The program prints a table and fails if one of these claims does not hold.
 //   argv[1]  the number of steps, a multiple of 100; 10,000 by default
 #include <algorithm>
 #include <atomic>
@@ -68,8 +68,8 @@ struct Case {
   const Cylinder &cylinder;
   int n_threads;
   int n_steps;
-  // The limit on allocations of all markings after the warm-up. Chance divides the work between threads. If a thread gets more
-  // work than ever before, its memory doubles. After some steps, the memory grows no further.
+  // The limit on allocations of all markings after the warm-up. Chance decides how the work is divided between threads. If a
+  // thread gets more work than ever before, its memory doubles. After some steps, the memory grows no further.
   std::int64_t most_allocations;
 };
 

@@ -120,9 +120,9 @@ class Marking {
   Result result_;
 };
 
-// The number of bytes that the markings may add to the memory of the process. A thread that first takes part during the
-// measurement adds its stack and its allocator's first pages. In the short form (300 markings) the allowed growth is 1 kB per
-// marking. TBB's arena of two threads takes 7 kB.
+// The number of bytes that the markings may add to the memory of the process. If a thread first takes part during the
+// measurement, its stack and the first pages of its allocator are added. In the short form with 300 markings, this number is 1 kB
+// per marking. TBB's arena of two threads takes 7 kB.
 constexpr double most_growth = 3e5;
 
 // Leaked memory grows in every round. Memory that is allocated only once does not grow.

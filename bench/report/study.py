@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""./run bench: runs the benchmark programs and leaves their JSON in out/bench. report.py makes the page from it.
+"""./run bench: runs the benchmark programs and leaves their JSON in out/bench. report.py makes the page from this JSON.
 
 out/bench/machine.json has the machine, the dates and the commands."""
 

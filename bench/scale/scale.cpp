@@ -125,7 +125,8 @@ class GridPieces : public MeshPieces {
     return MeshFile(mesh);
   }
 
-  // Counts the marks in the written file, and then deletes the file. Each node counts in the first piece that has it.
+  // Counts the marks in the written file, and then deletes the file. A node of several pieces counts only in the first of these
+  // pieces.
   void finished(std::int64_t piece) const override {
     const auto begin = Clock::now();
     const std::string digits = std::to_string(piece), zeros(4 - std::min<std::size_t>(4, digits.size()), '0');

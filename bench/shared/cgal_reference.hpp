@@ -25,8 +25,8 @@ class CgalQuery {
  public:
   explicit CgalQuery(const Triangles &triangles);
   ~CgalQuery();
-  // distance: (n_nodes). xyz: (3, n_nodes). If the limit is infinite, the search for a node starts with the node's distance from
-  // the triangle that the last search found.
+  // distance: (n_nodes). xyz: (3, n_nodes). If the limit is infinite, the search for a node starts from the distance to the
+  // triangle that the last search found.
   void distances(std::int64_t n_nodes, const double *xyz, double limit, int n_threads, double *distance) const;
 
  private:

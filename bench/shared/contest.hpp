@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Times several pieces of work in turns, so that other work on the machine slows them equally. Bars are required ratios of the
-// times of two contenders. The output is JSON, and tables in markdown.
+// Measures the times of several pieces of work in turns, so that other work on the machine slows them equally. Bars are required
+// ratios of the times of two contenders. The output is JSON, and tables in markdown.
 #pragma once
 
 #include <functional>
@@ -25,7 +25,7 @@ class Contest {
   void run();
 
   double least(const std::string &name) const;
-  // Computes the ratio of the two contenders' least times for each fifth of the run, and returns the median of these ratios.
+  // Returns the median of five ratios. Each is the ratio of the two contenders' least times in a fifth of the run.
   double ratio(const std::string &above, const std::string &below) const;
   // Returns the reason why a contender was left out, or "" if it took part.
   std::string why_left_out(const std::string &name) const;

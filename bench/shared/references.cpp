@@ -23,8 +23,8 @@ struct Point {
 Point operator-(Point a, Point b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 double dot(Point a, Point b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-// Returns the squared distance from a point to a triangle. The region of the triangle's plane into which the point projects gives
-// the formula (Christer Ericson, Real-Time Collision Detection, 5.1.5).
+// Returns the squared distance from a point to a triangle. The formula depends on the region of the triangle's plane into which
+// the point projects (Christer Ericson, Real-Time Collision Detection, 5.1.5).
 double distance_sq(Point p, const double *corners) {
   const Point a{corners[0], corners[1], corners[2]}, b{corners[3], corners[4], corners[5]},
       c{corners[6], corners[7], corners[8]};

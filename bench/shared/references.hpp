@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Declares plain competitors of the library's marking, compiled with its flags. The competitors are the paper's neighbour search,
-// with a choice of methods for distances, and a pass over the coordinates.
+// Declares plain competitors of the library's marking, compiled with the library's flags. The competitors are the paper's
+// neighbour search, with a choice of methods for distances, and a pass over the coordinates.
 #pragma once
 
 #include <riis/riis.h>

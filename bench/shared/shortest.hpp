@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Times a call by its shortest run, because other work on the machine only makes runs longer.
+// Measures the time of a call by its shortest run, because other work on the machine only makes runs longer.
 #pragma once
 
 #include <algorithm>

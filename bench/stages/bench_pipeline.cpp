@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Times the stages from parameters to a scene (paper, 3 and 4.1), on one thread. The valves are the aortic valve and the
-// half-open mitral valve, at the default tolerance. Every stage starts from the results of the stage before. riis_surface_create
-// runs all stages. Inside riis_surface_create, a stage is faster if it reuses the memory of the last surface.
+// Measures the times of the stages from parameters to a scene (paper, 3 and 4.1), on one thread. The valves are the aortic valve
+// and the half-open mitral valve, at the default tolerance. Every stage starts from the results of the stage before.
+// riis_surface_create runs all stages. Inside riis_surface_create, a stage is faster if it reuses the memory of the last surface.
 #include <benchmark/benchmark.h>
 
 #include "api/handles.hpp"
@@ -30,7 +30,7 @@ Surface surface_of(const riis_valve *valve) {
   return make_surface(valve, &options);
 }
 
-// Times the step from parameters to curves and patches.
+// Measures the time from parameters to curves and patches.
 void pipeline_patches(benchmark::State &state, const char *kind) {
   const Valve valve = moved_valve(kind);
   for (auto _ : state) benchmark::DoNotOptimize(valve->valve.make_patches());
@@ -75,7 +75,7 @@ void pipeline_scene(benchmark::State &state, const char *kind) {
   state.counters["triangles"] = n_triangles_of(surface.get());
 }
 
-// Makes the scene again after the triangles have moved.
+// Measures the time to make the scene again after the triangles have moved.
 void pipeline_scene_again(benchmark::State &state, const char *kind) {
   const Surface surface = surface_of(moved_valve(kind).get());
   riis::TriangleScene scene;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Times the searches on cylinders with room around the valves, as in the paper's tables (4.2.3). The valve moves between
-// markings. The arguments are the valve (0 aortic, 1 mitral), thousands of nodes, and threads. report.py makes tables of the
-// times.
+// Measures the times of the searches on cylinders with room around the valves, as in the paper's tables (4.2.3). The valve moves
+// between markings. The arguments are the valve (0 aortic, 1 mitral), thousands of nodes, and threads. report.py makes tables of
+// the times.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -30,7 +30,7 @@ const CylinderMesh &mesh_of(const benchmark::State &state) {
   return *mesh;
 }
 
-// A valve that moves back and forth by a hundredth of its motion between its states. The tolerance is 5 %, as in the paper.
+// A valve that moves back and forth by a hundredth of the way between its states. The tolerance is 5 %, as in the paper.
 class MovingValve {
  public:
   explicit MovingValve(std::int64_t kind) {
@@ -116,8 +116,8 @@ void search_exhaustive(benchmark::State &state) { mark_repeatedly(state, RIIS_SE
 void search_neighbor_warm(benchmark::State &state) { mark_repeatedly(state, RIIS_SEARCH_NEIGHBOR); }
 void search_paper(benchmark::State &state) { mark_repeatedly(state, RIIS_SEARCH_PAPER); }
 
-// Marks into a new result every time. The search therefore has no earlier marking as a start, and no memory to reuse. The mesh
-// already has its balls of nodes.
+// Marks into a new result every time. The search therefore cannot start from an earlier marking, and has no memory to reuse. The
+// mesh already has its balls of nodes.
 void search_neighbor_cold(benchmark::State &state) {
   const riis_mesh *mesh = mesh_of(state).mesh();
   MovingValve &valve = valve_of(state);
@@ -249,7 +249,7 @@ void search_groups(benchmark::State &state) {
   count_time_per(state, "time/node", static_cast<double>(mesh.n_nodes()));
 }
 
-// Times the library's construction of an adjacency, which a mesh needs once.
+// Measures the time in which the library makes an adjacency, which a mesh needs once.
 void search_adjacency_of_tetrahedra(benchmark::State &state) {
   const CylinderMesh &mesh = mesh_of(state);
   const std::vector<std::int32_t> tetrahedra = mesh.tetrahedra();
@@ -258,7 +258,8 @@ void search_adjacency_of_tetrahedra(benchmark::State &state) {
   count_time_per(state, "time/node", static_cast<double>(mesh.n_nodes()));
 }
 
-// Times an adjacency from faces. The nodes of the grid count as cells. Each face has an owner and a neighbour.
+// Measures the time in which the library makes an adjacency from faces. The nodes of the grid count as cells. Each face has an
+// owner and a neighbour.
 void search_adjacency_of_faces(benchmark::State &state) {
   const CylinderMesh &mesh = mesh_of(state);
   const std::int64_t n[3] = {mesh.n_across(), mesh.n_across(), mesh.n_along()};

@@ -56,8 +56,8 @@ Mesh box_mesh() {
   return Mesh(mesh);
 }
 
-// Times all stages from parameters to triangles and the scene, as in every time step of a moving valve. The argument is the
-// tolerance in tenths of a per cent.
+// Measures the time of all stages from parameters to triangles and the scene, as in every time step of a moving valve. The
+// argument is the tolerance in tenths of a per cent.
 void surface_update(benchmark::State &state) {
   const Valve valve = make_valve("aortic");
   const riis_surface_options options = with_tolerance(static_cast<double>(state.range(0)) * 1e-3);

@@ -42,7 +42,7 @@ constexpr int n_turns = 100;
 
 double nanoseconds(Clock::duration duration) { return std::chrono::duration<double, std::nano>(duration).count(); }
 
-// The sums that the timing kernels below collect. Only one thread calls them.
+// The sums that the timing kernels below collect. Only one thread calls these kernels.
 struct Measured {
   const riis::Kernels *kernels;
   Clock::time_point regions_end;  // when the last comparison of boxes ended
@@ -122,7 +122,7 @@ struct Counted {
 };
 Counted *counted = nullptr;
 
-// While this object exists, it adds the operations and pairs that the kernels count.
+// While an object of this type lives, it collects the operations and pairs that the kernels count.
 class CountsOf {
  public:
   explicit CountsOf(riis::Counts &to) : to_(to), before_(riis::counts_of_kernels) {}

@@ -111,7 +111,7 @@ bool is_same(const std::vector<double> &distance, const riis_mark_list &marked) 
 }
 #endif
 
-// Times steps and their competitors on one set of nodes. Returns false if a competitor marks other nodes.
+// Measures the times of steps and of their competitors on one set of nodes. Returns false if a competitor marks other nodes.
 bool compare_with_others(Contest &contest, Bars &bars, std::int64_t about_n_nodes, nlohmann::json &counts) {
   const CylinderMesh nodes(wide_cylinder, about_n_nodes);
   const std::int64_t n = nodes.n_nodes();
@@ -211,8 +211,8 @@ bool compare_with_others(Contest &contest, Bars &bars, std::int64_t about_n_node
               100.0 * static_cast<double>(marked.n_nodes) / static_cast<double>(n));
   std::fflush(stdout);
   contest.run();
-  // Contenders with more threads than processors come last. For such a contender, OpenMP starts and ends threads, which would
-  // slow other contenders on two threads.
+  // Contenders with more threads than processors come last. For these contenders OpenMP starts and ends threads, and this would
+  // slow the contenders on two threads.
   add(contest, "step, 4 threads", four);
   contest.run();
   const double ns_a_pair = 1e6 * contest.least("the paper's search, every triangle, 1 thread") /
@@ -238,7 +238,8 @@ bool compare_with_others(Contest &contest, Bars &bars, std::int64_t about_n_node
   return is_right;
 }
 
-// Times a tenth of the nodes, all nodes, and ten times as many nodes. The meshes only have coordinates.
+// Measures the times for a tenth of the nodes, for all nodes, and for ten times as many nodes. The meshes have coordinates, but
+// no adjacency.
 void compare_sizes(Contest &contest, std::int64_t about_n_nodes, nlohmann::json &counts) {
   struct Size {
     CylinderNodes nodes;
@@ -268,8 +269,8 @@ void compare_sizes(Contest &contest, std::int64_t about_n_nodes, nlohmann::json 
               static_cast<long long>(stats.n_marked));
 }
 
-// Times markings of a grid in two forms: by its axes, and as a prepared mesh of points. The nodes fill a box of 1.5 valves. The
-// half thickness is 1.5 steps of the axes. Returns whether both meshes get the same marks.
+// Measures the times of markings of a grid in two forms: by its axes, and as a prepared mesh of points. The nodes fill a box of
+// 1.5 valves. The half thickness is 1.5 steps of the axes. Returns whether both meshes get the same marks.
 bool compare_grid(Contest &contest, std::int64_t about_n_nodes, nlohmann::json &counts) {
   constexpr double box_of_valves = 1.5, cells_of_half = 1.5;
   const auto n = static_cast<std::int64_t>(std::lround(std::cbrt(static_cast<double>(about_n_nodes))));

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // ./run bench busy: measures time steps on two processors that two other processes keep busy, with 1 and with 2 threads. These
 // steps are also measured while the two processes are stopped, and after a loop on the caller's own OpenMP threads. The program
-// prints times and bars. While other processes are busy, the mean time counts, and a few waits of milliseconds decide this mean.
-// Blocks of calls with 1 and with 2 threads therefore take turns for a long time. The table gives the ratio of their mean times,
-// with its standard error.
+// prints times and bars. With busy processes, the measured time is the mean, which a few waits of milliseconds dominate. Blocks
+// of calls with 1 and with 2 threads therefore take turns for a long time. The table gives the ratio of the mean times with 1 and
+// with 2 threads, and its standard error.
 //   argv[1]  the number of nodes in thousands, 1000 by default
 #include <riis/riis.h>
 #include <sched.h>
@@ -35,7 +35,7 @@ using namespace bench;
 constexpr int most_turns = 400;
 constexpr std::chrono::seconds longest{5};       // for all turns of a subject
 constexpr std::chrono::seconds beside_busy{24};  // for all blocks of a subject while other processes are busy
-// A block of calls with 1 thread takes about this time. The system's slices take a tenth of this time.
+// A block of calls with 1 thread takes about this time. The system's slices of processor time are a tenth as long.
 constexpr double block_milliseconds = 40;
 
 [[noreturn]] void fail(const char *what) {

@@ -23,8 +23,7 @@
 namespace bench {
 namespace {
 
-// The earlier version of riis_adjacency_create_from_cells, which did not yet count into 32-bit entries. The benchmark compares
-// the earlier version with the present version.
+// The benchmark compares riis_adjacency_create_from_cells with this earlier version, which did not yet count into 32-bit entries.
 struct PlainRows {
   std::vector<std::int64_t> offsets;
   std::vector<std::int32_t> columns;

@@ -225,8 +225,8 @@ class OffsetStep {
   riis_mark_options marking_;
 };
 
-// Prints the processor time of a step with the offset 0.75, divided by that of a step without an offset. Both steps take turns,
-// so other work on the machine slows both.
+// Prints the ratio of two processor times: of a step with the offset 0.75, and of a step without an offset. The two steps take
+// turns, so other work on the machine slows them equally.
 void print_offset() {
   constexpr double half_thickness = 0.1, spacing = half_thickness / 2;
   const Cylinder &around = cylinders[0];
@@ -311,7 +311,7 @@ void get_orifice(const riis_surface *surface) {
   check(riis_surface_get_orifice(surface, nullptr, &orifice, sizeof orifice));
 }
 
-// A surface keeps the sizes of its leaflets after the first call.
+// The first call measures the sizes of the leaflets, and the surface keeps these sizes.
 void get_leaflets(const riis_surface *surface) {
   riis_leaflet sizes;
   check(riis_surface_get_leaflet(surface, 0, &sizes, sizeof sizes));

@@ -159,8 +159,7 @@ void print_leaks(const char *kind) {
   }
 }
 
-// Returns the fraction of a disc around the axis that no triangle covers, seen along the axis, by counting points of a square
-// grid.
+// Returns the fraction of a disc around the axis that no triangle covers, seen along the axis. Counts points of a square grid.
 double open_share(const Surface &surface, double radius, int n_per_radius) {
   const int side = 2 * n_per_radius + 1;
   const auto place = [&](int i) { return radius * (i - n_per_radius) / n_per_radius; };

@@ -69,8 +69,8 @@ struct KJump {
   double with_fixed;
 };
 
-// Makes n_steps steps of the opening by `step`, which start from evenly spaced openings. All values are fractions of the largest
-// K.
+// Makes n_steps steps, each from one of evenly spaced openings. A step changes the opening by `step`. All values are fractions of
+// the largest K.
 KJump measure_k_jump(riis_valve *valve, const CylinderNodes &nodes, double step, int n_steps) {
   constexpr double tolerance = 0.05, fine = 0.0005;
   ResistanceChange adapted(valve, nodes, tolerance, RIIS_TRIANGULATION_ADAPTED),
@@ -158,7 +158,7 @@ class MovingSteps {
     marking_.fields = fields;
     check(riis_mark_nodes(surface_.get(), mesh_.get(), &marking_, result_.get()));
   }
-  // Adds directions of the opening. Directions of other parameters would take the same time.
+  // Adds n directions in which the opening changes. Directions of other parameters would take the same time.
   void add_directions(int n) {
     riis_valve *const after = after_.get(), *const earlier = earlier_.get();
     check(riis_valve_set_scalar(after, "opening", opening_ + 1e-4));
@@ -199,7 +199,7 @@ class MovingSteps {
 // With this tolerance there are about ten times as many triangles as by default.
 constexpr double fine = 0.0034;
 
-// Times the valve's motion with fine triangulations, adapted and fixed, without a mesh.
+// Measures the time of the valve's motion with fine triangulations, adapted and fixed, without a mesh.
 class FineSteps {
  public:
   explicit FineSteps(const char *kind) : valve_(opening_valve(kind)) {
@@ -227,10 +227,10 @@ class FineSteps {
   int step_ = 0;
 };
 
-// Times a step of an annulus that moves by landmarks: new targets, a warped valve, and a moving update. The first contender has
-// the patches of the warped valve, which were read out before. The warped valve is asymmetric, and so is the first contender.
-// Arcs cannot be given as patches, so a mitral valve lacks the first contender. The second contender is the symmetric valve
-// without a warp, which opens.
+// Measures the time of a step of an annulus that moves by landmarks: new targets, a warped valve, and a moving update. The first
+// contender has the patches that were read out of the warped valve before. The warped valve is asymmetric, and so is the first
+// contender. Arcs cannot be given as patches, so a mitral valve lacks the first contender. The second contender is the symmetric
+// valve without a warp, which opens.
 class WarpedSteps {
  public:
   WarpedSteps(const char *kind, int n_landmarks)

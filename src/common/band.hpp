@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The band around a surface, with all rules for a band with an offset (docs/theory/marks.md, "Offset"). A node's distance and
-// height determine the half thickness that marks the node, and the node's distance from the middle of the band.
+// The band around a surface, with all rules for a band with an offset (docs/theory/marks.md, "Offset"). Two numbers follow from a
+// node's distance and height: the half thickness that marks the node, and the node's distance from the middle of the band.
 #pragma once
 
 #include <cmath>
@@ -19,19 +19,20 @@ struct Band {
   // Returns the same band with another half thickness.
   Band with(double other_half_thickness) const { return {other_half_thickness, offset}; }
 
-  // Returns the largest distance of the band's nodes. Numbers are rounded so that no node beyond this reach is ever taken for a
-  // marked node.
+  // Returns the largest distance that a node of the band can have. Rounding never lets a node beyond this distance count as
+  // marked.
   double reach() const { return reach_of(half_thickness); }
   // Returns a distance up to which all nodes are in the band.
   double sure_distance() const { return (1 - std::abs(offset)) * half_thickness; }
 
-  // Returns the least half thickness that marks a node. Off the rim, it is h / (1 + offset) for h >= 0, and -h / (1 - offset) for
-  // h < 0. At a rim, this half thickness is the root e of (1 - offset^2) e^2 + 2 offset h e - d^2 = 0, also for h = d and h = -d.
+  // Returns the least half thickness that marks a node. Off the rim, this half thickness is h / (1 + offset) for h >= 0, and -h /
+  // (1 - offset) for h < 0. At a rim, it is the root e of (1 - offset^2) e^2 + 2 offset h e - d^2 = 0, also for h = d and h = -d.
   double marking_thickness(double distance, double height) const {
     if (!steps_aside() || !(distance > 0)) return distance;
     const double cosine = height / distance, along = offset * cosine;
     const double root = std::sqrt(1 - offset * offset * ((1 - cosine) * (1 + cosine)));
-    // Neither formula of a root subtracts numbers of the same sign, so no digits are lost. For a node off the rim, the root is 1.
+    // Neither formula of the half thickness subtracts numbers of the same sign, so no digits are lost. For a node off the rim,
+    // `root` is 1.
     const double made =
         root == 1 || along >= 0 ? distance / (along + root) : distance * (root - along) / ((1 - offset) * (1 + offset));
     double least = distance / reach_of(1);
@@ -39,8 +40,8 @@ struct Band {
     return made < least ? least : made;
   }
   bool holds(double distance, double height) const {
-    // The sign of the equation at the half thickness decides without a root. Rounding could change this decision only near the
-    // edge of the band.
+    // The sign of marking_thickness's equation at the half thickness decides without a square root. Near the edge of the band,
+    // rounding could change this sign, so marking_thickness itself is computed there.
     constexpr double near_edge = 1e-6;
     const double e = half_thickness,
                  over = ((1 - offset) * (1 + offset) * e + 2 * offset * height) * e - distance * distance;

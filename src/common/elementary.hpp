@@ -4,9 +4,8 @@
 // roots, which IEEE 754 rounds in one way. Arguments are finite. Errors are in units of 2^-53 = 1.1e-16, and test_elementary
 // checks them.
 //
-// The polynomials are in the square of the argument. The polynomials interpolate the functions at Chebyshev points, except the
-// polynomial of sine_of_pi. The polynomial of sine_of_pi is a least-squares fit. The third coefficient of this fit is five units
-// lower in its last place, so that no value exceeds 1.
+// The polynomials in the square of the argument interpolate the functions at Chebyshev points. Only the polynomial of sine_of_pi
+// is a least-squares fit. Its third coefficient is five units lower in its last place, so that no value exceeds 1.
 #pragma once
 
 #include <cmath>
@@ -74,7 +73,8 @@ inline double cosine_of_pi(double t) { return sine_of_pi(0.5 - t); }
 // Returns sine and cosine of an angle in radians, with errors of 2 units. Beyond 1e6 the error grows with the angle.
 inline SineCosine sine_cosine(double radians) {
   using elementary::half_pi;
-  // pi/2 in three parts. If the number of quarters is below 2^20, its product with one of the first two parts is exact.
+  // pi/2 in three parts. The first two parts have few digits, so that their products with a number of quarters below 2^20 are
+  // exact.
   constexpr double first = 0x1.921fb544p+0, second = 0x1.0b4611a6p-34, third = 0x1.3198a2e037073p-69;
   const double near = std::abs(radians) <= 1e6 ? radians : std::remainder(radians, 2 * pi);
   const double quarters = std::floor(near / half_pi + 0.5);
@@ -91,8 +91,8 @@ inline SineCosine sine_cosine_degrees(double degrees) {
   return elementary::turned_by_quarters(elementary::of_small((turned - 90.0 * quarters) * (half_pi / 90.0)), quarters);
 }
 
-// Returns the angle of the point (x, y), from -pi to pi, with a relative error of 3 units. Zeros count as in std::atan2. The sum
-// |x| + |y| must not overflow.
+// Returns the angle of the point (x, y), from -pi to pi, with a relative error of 3 units. Zeros are treated as in std::atan2.
+// The sum |x| + |y| must not overflow.
 inline double arc_tangent(double y, double x) {
   using elementary::half_pi;
   constexpr double in_squares[] = {-0.3333333333333333,  0.19999999999995516,  -0.14285714284665682,
@@ -130,7 +130,7 @@ inline double exponential_minus_one(double x) {
 
 // Returns the base raised to a power between 0 and 1, with a relative error of 60 units. The base is positive.
 inline double power_to_share(double base, double share) {
-  // Each binary digit 1 of the share contributes one of the repeated square roots of the base as a factor.
+  // Each binary digit 1 of the share contributes a factor, which is one of the repeated square roots of the base.
   if (share >= 1) return base;
   double power = 1, root = base;
   for (int digit = 0; digit < 53 && share > 0; ++digit) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the opening at which a valve first has a passage. The library searches in its caller's mesh, and the program also
-// searches in the pieces of a mesh.
+// Finds the opening at which a valve first has a passage. The library uses this code for its caller's mesh, and the program also
+// uses it for the pieces of a mesh.
 #pragma once
 
 #include <riis/riis.h>

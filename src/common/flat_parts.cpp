@@ -13,7 +13,8 @@
 namespace riis::flat_parts {
 namespace {
 
-// Distances from the plane, as shares of the wall's size: within a flat part, and within a part that the user points at.
+// In a flat part, triangles stay within the first share of the wall's size from the plane. In a part that the user points at,
+// triangles stay within the second share.
 constexpr double flat_share = 5e-4, pointed_share = 5e-3;
 // The largest angle between a triangle of a flat part and the part's plane, in degrees. Triangles with little height may lean
 // more because of rounding.
@@ -27,8 +28,8 @@ constexpr std::size_t n_sectors = 12;
 // Two flat parts that touch are both unclear if their areas differ by a factor of less than `most_apart`. If the areas differ
 // more, only the smaller part is unclear.
 constexpr double most_apart = 10;
-// A small part is an end if its rim has at least `least_sides` sides, and if the wall is also steep in a wider band, up to
-// `wide_band_share` times the radius.
+// A small part is an end only if its rim has at least `least_sides` sides. In a wider band, up to `wide_band_share` times the
+// radius, the wall must also be steep.
 constexpr std::int64_t least_sides = 12;
 constexpr double wide_band_share = 1.5;
 
@@ -101,7 +102,7 @@ std::vector<Part> Finder::find(std::vector<Part> parts) {
   for (const std::int64_t seed : seeds) {
     if (view(is_known)[seed] != 0 || view(areas_)[seed] == 0) continue;
     Part part = grown(seed, flat_share * size_);
-    // A triangle of a part does not become the seed of another part, but may belong to another part.
+    // A triangle of this part may also belong to another part, but is no longer a seed.
     for (const std::int64_t i : part.triangles) view(is_known)[i] = 1;
     if (!is_large(part)) continue;
     measure(part);
@@ -133,8 +134,8 @@ bool Finder::is_large(const Part &part) const {
   return part.area >= least_share * total_ && static_cast<std::int64_t>(part.triangles.size()) >= least_triangles;
 }
 
-// The sum of the area vectors depends only on the rim, and is exact for a flat part. A least-squares plane would depend on the
-// corners.
+// The sum of the area vectors depends only on the rim, and is exact for a flat part. A least-squares plane would also depend on
+// the corners inside the part.
 void Finder::fit(Part &part) const {
   Vector3 area{}, centre{};
   part.area = 0;
@@ -153,7 +154,7 @@ bool Finder::is_in(const Plane &plane, std::int64_t triangle, double tolerance) 
   return dot(view(normals_)[triangle], plane.normal) >= least_cosine || is_thin(triangle);
 }
 
-// The normal of a triangle with so little height has no meaning.
+// Returns whether a triangle has so little height that its normal has no meaning.
 bool Finder::is_thin(std::int64_t triangle) const {
   double longest = 0;
   for (std::size_t k = 0; k < 3; ++k)
@@ -165,7 +166,7 @@ Part Finder::grown(std::int64_t seed, double tolerance) {
   Part part;
   part.triangles = {seed};
   fit(part);
-  // At first the plane moves with each triangle. The triangles are then collected anew in the plane, until the collection stays
+  // At first, each new triangle moves the plane. The triangles are then collected anew in the moved plane, until their set stays
   // the same.
   Vector3 area = part.area * part.plane.normal, centre = part.area * part.plane.point;
   double sum = part.area;
@@ -306,7 +307,7 @@ void Finder::mark_touching(std::vector<Part> &parts) const {
       const bool touches = std::any_of(vertices[i].begin(), vertices[i].end(),
                                        [&](std::int64_t id) { return vertices[j].count(id) > 0; });
       if (!touches) continue;
-      // A small part at the rim of an end is a facet of the wall there.
+      // Part i, the smaller one of the two parts, may be a facet of the wall at the rim of part j.
       parts[i].is_touching = true;
       if (parts[j].area <= most_apart * parts[i].area) parts[j].is_touching = true;
     }

@@ -18,7 +18,8 @@ inline constexpr double least_share = 3e-4;
 // The angle between a flat part and the wall beside it, in degrees. A tube that is cut has a mean angle of 90, even if the cut is
 // oblique. A part whose angle is between the limits for clear and unclear parts may be a cut, or a flat place of the wall.
 inline constexpr double clear_mean = 55, clear_least = 20, unclear_mean = 30;
-// Four pi times the area over the square of the perimeter: 1 for a disc, 0.6 for an ellipse three times as long as wide.
+// The roundness of a part is four pi times its area over the square of its perimeter. It is 1 for a disc, and 0.6 for an ellipse
+// that is three times as long as wide.
 inline constexpr double least_roundness = 0.25;
 // A flat part with less than `small_share` of the largest end's area may be a facet of a coarse wall, or the end of a coronary
 // artery.
@@ -61,7 +62,7 @@ class Finder {
 
   // Returns the flat parts that may be ends, the largest first. The result includes `parts`, which are already known.
   std::vector<Part> find(std::vector<Part> parts);
-  // Returns the part of these triangles, which closed a hole.
+  // Returns the flat part that these triangles form. The triangles closed a hole.
   Part closed_hole(std::vector<std::int64_t> triangles);
   // Returns the flat part at a triangle to which the user points.
   Part pointed_at(std::int64_t triangle);

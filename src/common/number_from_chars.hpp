@@ -24,7 +24,7 @@ class NumberText {
  public:
   NumberText(const char *first, const char *last) : at(first), last_(last) {}
 
-  // Digits with or without a point and an exponent.
+  // Finds digits, with or without a point and an exponent.
   bool has_digits() {
     const char *next = behind_digits(at);
     std::ptrdiff_t n_digits = next - at;
@@ -41,7 +41,7 @@ class NumberText {
     if (const char *const end = behind_digits(next); end != next) at = end;
     return true;
   }
-  // "inf", "infinity", "nan" or "nan(...)", in capital or small letters.
+  // Finds "inf", "infinity", "nan" or "nan(...)", in capital or small letters.
   bool is_no_number() {
     if (has("inf")) {
       has("inity");
@@ -73,8 +73,8 @@ class NumberText {
   const char *last_;
 };
 
-// Does the same as std::from_chars for a double, but by strtod. The function strtod gets no more than the text of the number,
-// because it would also accept blanks, a plus sign, and hexadecimal digits.
+// Does the same as std::from_chars for a double, but by strtod. strtod gets only the text of the number, because it would also
+// accept blanks, a plus sign, and hexadecimal digits.
 inline std::from_chars_result double_from_chars(const char *first, const char *last, double &number) {
   NumberText text(first != last && *first == '-' ? first + 1 : first, last);
   const bool has_digits = text.has_digits();

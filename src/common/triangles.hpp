@@ -87,7 +87,7 @@ inline std::vector<TriangleSide> sorted_sides(const std::vector<Triangles::Corne
   return sides;
 }
 
-// Calls `visit` with the first side and the number of sides of each edge.
+// Calls `visit` for each edge, with the edge's first side and the number of its sides.
 template <class Visit>
 void for_each_edge(const std::vector<TriangleSide> &sides, const Visit &visit) {
   for (std::size_t i = 0, end = 0; i < sides.size(); i = end) {
@@ -96,8 +96,8 @@ void for_each_edge(const std::vector<TriangleSide> &sides, const Visit &visit) {
   }
 }
 
-// Returns for each triangle the triangles beyond its three sides, or -1 where the edge has not exactly two triangles. Side k goes
-// from corner k to the next corner.
+// Returns for each triangle the neighbours beyond its three sides. A neighbour is -1 if the edge does not have exactly two
+// triangles. Side k goes from corner k to the next corner.
 inline std::vector<Triangles::Corners> neighbours_of(const Triangles &triangles) {
   std::vector<Triangles::Corners> beyond(triangles.corners.size(), {-1, -1, -1});
   for_each_edge(sorted_sides(triangles.corners), [&](const TriangleSide *side, std::size_t n_sides) {

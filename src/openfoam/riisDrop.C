@@ -44,8 +44,8 @@ labelList sidesOf(const fvMesh &mesh, const scalarField &K, const riis_mark_list
   labelList regionBeyond;
   syncTools::swapBoundaryCellList(mesh, region, regionBeyond);
 
-  // A face between the band and another region lies on one side of the middle of the band. With its area, the face votes for its
-  // side of the band.
+  // A face between the band and another region lies on one side of the middle of the band. The face votes for this side with its
+  // area.
   scalarField votes(region.nRegions(), 0), all(region.nRegions(), 0), volume(region.nRegions(), 0);
   labelList entry(mesh.nCells(), -1);
   for (int64_t i = 0; i < marked.n_nodes; ++i) {

@@ -142,7 +142,7 @@ def _setter(name):
 
 
 def _with_setters(names):
-    """For each property, adds a method Set..., which stores the property's value. The method keeps the property's value."""
+    """For each property, adds a method Set..., which stores the property's value."""
 
     def decorate(algorithm):
         for name in names:
@@ -167,7 +167,7 @@ class _Kept(VTKPythonAlgorithmBase):
             self.Modified()
 
     def length(self, name):
-        """Returns a length, or 0 if riis chooses it."""
+        """Returns a length, or 0 if riis chooses the length."""
         value = self.values[name]
         if not value >= 0.0:
             raise Refused(f"{name}: is {value}; it must be at least 0")
@@ -236,7 +236,7 @@ def _valve_properties():
 
 
 def _groups(kind):
-    """Puts the sizes of a kind below a heading, and its bumps below another one."""
+    """Puts the sizes of a kind below a heading, and its bumps below another heading."""
     groups = {"Sizes": [], "Bumps": []}
     for name, property_name in PARAMETERS[kind].items():
         groups["Bumps" if name.startswith("bump_") else "Sizes"].append(f'<Property name="{property_name}"/>')

@@ -35,7 +35,7 @@ struct CutVessels {
   Vector3 middle{};
 };
 
-// Returns the triangles of the surface on which a function of places is 0. The function is below 0 inside.
+// Returns the triangles of the surface on which a function of places is 0. The function is below 0 inside the surface.
 Triangles surface_of(const std::function<double(const Vector3 &)> &function, const Vector3 &lower, double side,
                      int n_cells);
 

@@ -22,7 +22,8 @@ extern expected_marks by_c;
 void mark_by_c(const riis_valve *valve, const riis_surface_options *surface_options, double distance_limit,
                double far_distance);
 
-/* Checks that out.vtu is in.vtu with points as doubles and with the expected marks. More than 20 nodes must be marked. */
+/* Checks that out.vtu has the mesh of in.vtu with points as doubles, and the expected marks. More than 20 nodes must be
+   marked. */
 void expect_marked_mesh(void);
 /* Checks that out.vtp is the expected surface. */
 void expect_surface_output(void);

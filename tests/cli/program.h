@@ -46,8 +46,8 @@ void expect_run_refused(int exit_code, const char *part_of_text, const char *fil
 double json_number(const char *json, const char *key);
 int json_has_text(const char *json, const char *key, const char *value);
 
-/* Fails the test if the text does not begin with this point's coordinates and continue with `follows`. The coordinates may be off
- * by a tenth of an edge. The coordinates must have no digits below a hundredth of an edge. */
+/* The text must begin with this point's coordinates and continue with `follows`. The coordinates may be off by a tenth of an
+ * edge, and must have no digits below a hundredth of an edge. */
 void expect_place(const char *text, const double point[3], double edge, const char *follows);
 
 /* A set-up of CMocka: writes in.vtu, a box around the valve with n_box nodes, into the scratch folder. */

@@ -258,9 +258,9 @@ typedef struct {
 } fluid;
 
 /* Computes a slow steady flow along z by the solver's equations. A flat plate at z = 0 fills the tube. The pressure is 1 at z =
- * -length and 0 at z = length, and there is no slip at the walls. Returns the flow times R / eps. In a tetrahedron and a wedge,
- * some coordinates run along a triangle. The solver counts the coordinates along a triangle from the triangle's last node, and
- * VTK from the first. */
+ * -length and 0 at z = length, and there is no slip at the walls. Returns the flow times R / eps. A tetrahedron and a wedge have
+ * coordinates along a triangle. The solver measures these coordinates from the triangle's last node, and VTK measures them from
+ * the first node. */
 static double flow_through_plate(const mesh *of, const double *distance, double width, double length, double eps,
                                  const fluid *by) {
   static int local[most_nodes];
@@ -561,7 +561,7 @@ static char *exported_with(const char *python, const char *folder) {
   return scratch_read(scratch_path(table), NULL);
 }
 
-/* Copies the lines of the block without the drop and the folder's name. */
+/* Copies the lines of the block, but leaves out the drop and the folder's name. */
 static void other_lines(char *to) {
   for (char *line = strtok(program_out, "\n"); line; line = strtok(NULL, "\n"))
     if (!strstr(line, "drop") && !strstr(line, "u is the flow") && !strstr(line, "_file_path") &&

@@ -30,7 +30,7 @@ TEST(test_notes) {
   RUN_FINE("mark", scratch_path("single.vtu"), "--half-thickness", "0.3", "--quiet", "--output", scratch_path("o.vtu"));
 }
 
-/* A mesh that went through .xdmf has unchanged marks. A child process reads the .xdmf. */
+/* A mesh keeps its marks when it is written to .xdmf and read again. A child process reads the .xdmf. */
 TEST(test_xdmf) {
   RUN_FINE("mark", scratch_path("in.vtu"), "--half-thickness", "0.3", "--resistance", "2", "--output",
            scratch_path("marked.xdmf"));
@@ -53,7 +53,7 @@ TEST(test_xdmf) {
   RUN_REFUSED(2, "o.doc must end in .vtu", "mark", scratch_path("in.vtu"), "--output", scratch_path("o.doc"));
 }
 
-/* The .h5 file of an .xdmf is an output. The .h5 file is also an input of each .xdmf that names it. */
+/* The .h5 file of an .xdmf output is also an output. It is also an input of each .xdmf that names it. */
 TEST(test_numbers_of_xdmf) {
   RUN_REFUSED(2, "o.h5 is also the file of --output", "mark", scratch_path("in.vtu"), "--half-thickness", "0.3",
               "--output", scratch_path("o.xdmf"), "--stats", scratch_path("o.h5"));

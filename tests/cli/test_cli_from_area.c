@@ -58,7 +58,7 @@ TEST(test_openings) {
   CHECK_NEAR(orifice_of("bileaflet", said("opening"), NULL, 0, 1).effective_area, 1.8, 1e-3);
 }
 
-/* Sizes are those of the open valve if no other opening is given. */
+/* If no opening is given, sizes are found for the open valve. */
 TEST(test_sizes) {
   RUN_FINE("from-area", "--area", "7", "--valve", "bileaflet", "--solve", "scale");
   expect_said("valve     bileaflet, at opening 1\n");
@@ -92,8 +92,8 @@ static double area_with(const char *kind, double opening, const char *const *set
   return orifice.area;
 }
 
-/* A disease has the wanted orifice, or the wanted gap of the closed valve. A parameter that is a share and has the value 0 needs
- * no --from and --to. */
+/* With the found parameter, a diseased valve has the wanted orifice, or the wanted gap when it is closed. --from and --to may be
+ * missing for a parameter that is a share and has the value 0. */
 TEST(test_diseases) {
   static const struct {
     const char *kind, *area, *solve, *opening, *settings[2], *range[4];

@@ -94,7 +94,7 @@ TEST(test_marks) {
   shim_grid grid = image_with(0.21);
   expect_same("grid.vti", &grid, "--search", "clusters");
   assert_string_equal(mark_leaks, "");
-  /* The edges are longer than two half thicknesses. */
+  /* The edges are longer than two half thicknesses, so they leak. */
   grid = image_with(0.45);
   expect_same("grid.vti", &grid, "--search", "clusters");
   assert_string_not_equal(mark_leaks, "");

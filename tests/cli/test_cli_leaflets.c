@@ -181,7 +181,7 @@ TEST(test_exported_motion) {
               scratch_path("squares.stl"), "--time-step", "0.02");
 }
 
-/* If the sides or areas of faces are not as expected, one line reports each fault. */
+/* Each fault in the sides or the areas of faces is reported in one line. */
 TEST(test_face_warnings) {
   static const struct {
     const char *faces, *line;
@@ -263,7 +263,7 @@ TEST(test_turned_leaflets) {
         snprintf(wanted, sizeof wanted, "the leaflet leaf_%d is turned over relative to the other leaflets", i);
         const int is_named = strstr(program_err, wanted) != NULL;
         n_named += is_named;
-        /* Of three leaflets, the single one differs. Of two leaflets, either may be named. */
+        /* Of three leaflets, the one that differs from the other two is named. Of two leaflets, either may be named. */
         if (n == 3 && is_named != (n_turned == 1 ? turned >> i & 1 : n_turned == 2 && !(turned >> i & 1)))
           fail_msg("%s, turned %d: %s", valves[v].kind, turned, program_err);
       }

@@ -14,7 +14,7 @@
 #include "scratch.h"
 #include "vtk_shim.h"
 
-/* Writes a box around the valve. The longest edges are the diagonals of cubes. These diagonals have the length `longest`. */
+/* Writes a box around the valve. The longest edges are the diagonals of cubes, and have the length `longest`. */
 static void write_mesh(const char *name, const riis_surface *surface, double longest) {
   riis_surface_info info;
   double lower[3], upper[3], extent = 0;
@@ -81,8 +81,8 @@ static void expect_advice(const char *name, const char *kind) {
            "riis: the surface leaks: %d edges cross it between two unmarked nodes, the longest (%.3g) at ",
            (int)leaks.n_edges, leaks.longest_length);
   assert_int_equal(strncmp(program_leaks, expected, strlen(expected)), 0);
-  /* In the coarsest meshes, the half thickness is far too small for the edges. The warning about the half thickness comes first.
-   * No other warning contains advice. */
+  /* In the coarsest meshes, the half thickness is far too small for the edges. The warning about the half thickness then comes
+   * first, and no other warning contains advice. */
   const char *const earlier = strstr(program_err, "the median edge of the mesh ");
   expect_place(program_leaks + strlen(expected), leaks.longest_middle, leaks.longest_length,
                earlier ? "\n" : "; --half-thickness ");
@@ -255,8 +255,8 @@ TEST(test_other_cells) {
   assert_non_null(strstr(program_out, "\nleaks     unknown: no node is marked\n"));
 }
 
-/* Tests the coordinates of a leak in a small mesh far from the origin, in two units. The coordinates have the digits that the
- * edge length needs, and the unit of the coordinates. */
+/* Tests the coordinates of a leak in a small mesh far from the origin, in two units. The coordinates are printed with the digits
+ * that the edge length needs, and with their unit. */
 TEST(test_places) {
   const struct {
     double origin, edge;
@@ -367,8 +367,8 @@ TEST(test_demanded_seal) {
   RUN_REFUSED(2, "--demand-sealed is not an option", "mark", scratch_path("fine.vtu"), "--demand-sealed");
 }
 
-/* The nodes of a quadratic cell divide the cell into linear cells, which have equal leaks. Each quadratic cell has one inner edge
- * that the linear cells lack. */
+/* The nodes of a quadratic cell divide it into linear cells, and a mesh of these linear cells has the same leaks. Each quadratic
+ * cell has one inner edge that its linear cells lack. */
 TEST(test_quadratic_cells) {
   plain_mesh hexahedra = box_of_mitral(9), quadratic = plain_quadratic_tetrahedra(&hexahedra),
              cut = plain_cut(&quadratic, 8), corners = plain_cut(&quadratic, 4);

@@ -93,7 +93,7 @@ TEST(test_surface_from_file) {
   options.half_thickness = 0.2;
   mark_by_c(valve, &options, 0.3, RIIS_FAR_DISTANCE);
   riis_valve_destroy(&valve);
-  /* The half thickness changes the triangles through the tolerance. */
+  /* The half thickness changes the triangles, because the tolerance depends on it. */
   RUN_FINE("surface", "--half-thickness", "0.2", "--output", scratch_path("out.vtp"));
   RUN_FINE("mark", scratch_path("in.vtu"), "--surface", scratch_path("out.vtp"), "--half-thickness", "0.2",
            "--distance-limit", "0.3", "--output", scratch_path("out.vtu"));

@@ -128,7 +128,7 @@ TEST(test_share_of_two_sheets) {
               "--half-thickness", "0.15", "--surface", scratch_path("out.obj"), NULL);
   assert_int_equal(program_exit_code, 4);
 
-  /* A part of up to 2 % is reported without a warning. */
+  /* If at most 2 % of the area is outside, the program reports the share without a warning. */
   write_sheet("out.obj", -2.21, 1);
   json = MARK_BOX("--half-thickness", "0.15", "--surface", scratch_path("out.obj"));
   assert_string_equal(program_outside, "");

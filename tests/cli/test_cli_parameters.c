@@ -270,7 +270,7 @@ TEST(test_table) {
   assert_non_null(strstr(program_out, " 0.5 "));
 }
 
-/* If parts equal the part before them, one line stands for these parts. */
+/* One line of the table stands for all parts that equal the part before them. */
 TEST(test_table_of_parts) {
   RUN_FINE("params", "--describe", "--valve", "quadricuspid");
   assert_non_null(strstr(program_out, "\ncommissure_0.fusion "));

@@ -366,9 +366,9 @@ static double closed_area_of_plates(int n, const double *heights, const char *ha
   return json_number(program_out, "closed_area");
 }
 
-/* A plate closes its own area of the mesh. Two plates in one place close the area of one. Farther away, the integral of K between
- * the plates gives the share that counts of the second plate. From a distance of two half thicknesses on, the second plate counts
- * fully. */
+/* A plate closes its own area of the mesh. Two plates in one place close the area of one. If the plates are farther apart, the
+ * integral of K between them gives the share of the second plate that counts. From a distance of two half thicknesses on, the
+ * second plate counts fully. */
 TEST(test_closed_area_of_plates) {
   const double one = 1.6 * 1.6, eps = 0.15, pi = acos(-1.0);
   for (int i = 0; i < 5; ++i) {

@@ -151,8 +151,8 @@ static void draw_by_c(const riis_surface_options *placement, const char *unit, i
   riis_valve_destroy(&valve);
 }
 
-/* Views by the valve's axes get these axes from --rotate. If --unit is missing, a usual factor from centimetres in the scale
- * shows the unit of the mesh. */
+/* Views by the valve's axes get these axes from --rotate. Without --unit, the scale shows the unit of the mesh if it is a usual
+ * factor from centimetres. */
 TEST(test_valve_views) {
   static const char *const names[5] = {"valve-side", "valve-top", "valve-oblique", "valve-three", "valve-long"};
   riis_surface_options placement;

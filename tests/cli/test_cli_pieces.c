@@ -507,9 +507,9 @@ static void write_piece_of_dolfinx(const char *name, const char *points, const c
   scratch_write_text(name, text);
 }
 
-/* In a function's files, dolfinx gives a node different last bits on each rank. The list is therefore refused, and the refusal
- * names the call that writes the mesh. A list that states the order of bytes comes from VTK. The ids in such a list may have
- * another meaning, so the list is accepted. */
+/* In files of a function, the coordinates of a node differ in their last bits between dolfinx's ranks. The list is therefore
+ * refused, and the refusal names the call that writes the mesh. A list that states the order of bytes comes from VTK. The ids in
+ * VTK's list may have another meaning, so this list is accepted. */
 TEST(functions_of_dolfinx_are_refused) {
   write_piece_of_dolfinx("u_p0_000000.vtu", "0 0 0 1 0 0 0 1 0 0 0 0.1", "0 1 2 3");
   write_piece_of_dolfinx("u_p1_000000.vtu", "1 1 1 1 1e-17 0 0 1 0 0 0 0.10000000000000002", "4 1 2 3");

@@ -229,7 +229,7 @@ TEST(closed_curve_is_an_annulus) {
   assert_string_equal(program_out, by_name);
 }
 
-/* The name of a single landmark may have a list of one point, but no longer list. */
+/* A list under the name of a single landmark may have only one point. */
 TEST(lists_of_one_point_are_points) {
   const char *one = json_of("a.json", "mm", 10, "LPS", 1, "\"valve\": \"trileaflet\", ");
   static char expected[longest_output], text[4096];
@@ -323,7 +323,7 @@ TEST(warps_meet_the_landmarks) {
   static const char *const kinds[] = {"trileaflet", "coapting"};
   char placed[256], surface[256], csv[256];
   snprintf(surface, sizeof surface, "%s", scratch_path("warped.vtp"));
-  /* The cusps of the paper's valve end beside each other at a commissure. One of them ends at the landmark. */
+  /* At a commissure of the paper's valve, two cusps end beside each other. One of these two ends is at the landmark. */
   snprintf(placed, sizeof placed, "%s", scratch_path("aortic.json"));
   RUN_FINE("place", patient_json("w.json"), "--valve", "aortic", "--warp", "exact", "--output", placed);
   RUN_FINE("surface", "--valve", placed, "--quiet", "--output", surface);
@@ -704,8 +704,8 @@ TEST(folds_are_refused) {
   RUN_FINE("place", json_of_points(6, labels, points), "--valve", "coapting", "--warp", "exact", "--quiet");
 }
 
-/* Landmarks in one place may have equal targets, like an annulus point at the anterior horn. Landmarks with different targets
- * contradict each other. */
+/* Two landmarks in one place may have equal targets, like an annulus point at the anterior horn. Two landmarks in one place
+ * contradict each other if their targets differ. */
 TEST(landmarks_in_one_place_are_met_or_refused) {
   enum { n = 18 };
   const char *labels[n] = {"anterior_horn"};

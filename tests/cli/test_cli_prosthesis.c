@@ -118,8 +118,8 @@ static double deepest_crossing(void) {
   return (double)deepest;
 }
 
-/* Returns the largest distance of a vertex outside its leaflet's third of the ring. Half planes through the axis and the
- * commissures bound a third. Thirds are convex, so a triangle is inside if its corners are. */
+/* Returns the largest distance of a vertex outside its leaflet's third of the ring. Half planes from the axis through the
+ * commissures bound each third. A third is convex, so a triangle is inside if its corners are. */
 static double farthest_outside(void) {
   static const double commissure[3][2] = {{0.60, -1.04}, {0.60, 1.04}, {-1.20, 0.00}};
   double farthest = 0;
@@ -134,7 +134,7 @@ static double farthest_outside(void) {
   return farthest;
 }
 
-/* Returns whether the vertical line through (x, y) meets a triangle, or passes near one within the tolerance. */
+/* Returns whether the vertical line through (x, y) meets a triangle, or passes a triangle within the tolerance. */
 static int is_covered(double x, double y, double tolerance) {
   for (int64_t i = 0; i < shown.n_triangles; ++i) {
     double(*c)[3] = shown.corner[i];

@@ -143,8 +143,8 @@ TEST(test_cells) {
   }
 }
 
-/* Compares a step's fields with those of the C interface. The velocity is the mean over the step before this time. No step
- * precedes the first time, so the velocity there is the mean over an added step of equal length. */
+/* Compares a step's fields with those of the C interface. The velocity is the mean over the step that ends at this time. No step
+ * ends at the first time, so the velocity there is the mean over an added step of equal length. */
 static void expect_fields(int step, const char *path) {
   static double xyz[3 * n_box], normal[3 * n_box], velocity[3 * n_box], momentum[3 * n_box], side[n_box], K[n_box];
   riis_valve *now = NULL, *before = NULL;

@@ -244,8 +244,8 @@ TEST(test_interruption) {
   }
 }
 
-/* A process is stopped at any place and then killed. Its list is complete at this place. The list may lack one file, if the
- * process stopped after it wrote a file and before it listed the file. */
+/* A process is stopped at any place and then killed. Its list then has all complete files. Only the last file may be missing, if
+ * the process stopped after it wrote this file and before it listed the file. */
 TEST(test_killed) {
   write_cycle("0,0\n1,1\n");
   const pid_t process = start_program("mark", scratch_path("in.vtu"), "--valve", "mitral", "--half-thickness", "0.3",

@@ -85,7 +85,8 @@ static double length_at(double distance, edges want) {
   return fmin(want.largest, want.band + want.growth * fmax(0, distance - want.half_thickness));
 }
 
-/* Compares random points of the grid, and all points on its sides. The edge lengths must be largest on the sides of the grid. */
+/* On the sides of the grid, the edge lengths must have their largest value. The edge lengths must be largest on the sides of the
+   grid. */
 static void check_grid(edges want) {
   random_source random = random_start("size_field");
   int n_in_band = 0, n_growing = 0;

@@ -175,7 +175,8 @@ TEST(test_mitral) {
     const measured found = measure(valve, 2.2, is_in_annulus);
     CHECK_NEAR(cell(i, "anterior_area"), found.area[0], 0.02);
     CHECK_NEAR(cell(i, "posterior_area"), found.area[1], 0.02);
-    /* The points are seen along z. Until the valve is open, the axis of the annulus leans by up to 5 degrees. */
+    /* The points are seen along z. Until the valve is open, the axis of the annulus leans by up to 5 degrees from z, so the two
+       orifices differ. */
     CHECK_NEAR(cell(i, "orifice_area"), found.orifice, i == 4 ? 0.03 : 0.06);
     CHECK_AT_MOST(cell(i, "effective_area"), cell(i, "orifice_area"));
     /* The band at the rim reaches at most two half thicknesses, 0.2. The closed orifice is 0 up to rounding. */
@@ -209,8 +210,8 @@ TEST(test_stdout) {
   free(text);
 }
 
-/* If the band covers the whole open area and the area has no perimeter, the numbers look wrong without an explanation. The slit
- * between the closed leaflets has a perimeter if it is wider than a fifth of the half thickness. */
+/* Between closed leaflets, a slit that is narrower than a fifth of the half thickness has an area but no perimeter. The program
+ * explains these numbers, because they look wrong. */
 TEST(test_slits) {
   static const struct {
     const char *gap, *half_thickness;

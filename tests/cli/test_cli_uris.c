@@ -274,8 +274,8 @@ static double longest_edge_of(const uris_face *face, const double *xyz) {
   return longest;
 }
 
-/* The leaflet's outline consists of the edges that belong to only one triangle. When the export halves edges, no edge inside the
- * leaflet may come to belong to only one triangle. */
+/* The leaflet's outline consists of the edges that belong to only one triangle. After the export has halved edges, each edge
+ * inside the leaflet must still belong to two triangles. */
 static double outline_of(const uris_face *face, const double *xyz) {
   double outline = 0;
   for (int i = 0; i < 3 * face->n_triangles; ++i) {
@@ -357,7 +357,7 @@ static rule_marks marks_of_closed(const char *kind) {
         found.delta += delta(closest.distance, eps);
         found.delta_lost += delta(closest.distance, eps) - delta(d, eps);
         if (closest.distance <= eps) found.largest_excess = fmax(found.largest_excess, d - closest.distance);
-        /* The middles of the triangles lie on the surface, so a middle is at least as far as the surface. */
+        /* The middles of the triangles lie on the surface, so no middle is nearer to a point than the surface. */
         assert_true(d >= closest.distance - 1e-12);
         if (closest.distance < 0.3 * eps || closest.distance > eps || closest.side == 0) continue;
         ++found.n_sides;
@@ -446,7 +446,7 @@ static ring_sums sums_with_ring(const riis_surface *whole, int is_closed) {
     double distance = 0;
     CHECK_OK(riis_closest_point(whole, p, &closest, sizeof closest));
     const double exact = delta(closest.distance, eps);
-    /* A middle of a triangle is at least as far as the surface. */
+    /* No middle of a triangle is nearer than the surface. */
     if (exact > 0) uris_nearest(&state, p, &distance);
     const double solver = exact > 0 ? delta(distance, eps) : 0;
     sums.of_whole += exact;
@@ -549,8 +549,8 @@ static double check_box_of_frame(int is_closing, int k) {
   }
   assert_true(at.n_marked > 10);
   const double outside = at.n_marked_outside / (double)at.n_marked;
-  /* If no node is in a band, the solver divides 0 by 0. A closed valve then never opens. An open valve never closes, because
-   * closing needs nodes upstream of the leaflets. */
+  /* If no node is in a band, the solver divides 0 by 0. A closed valve then never opens, and an open valve never closes. Closing
+   * needs nodes upstream of the leaflets. */
   assert_true(at.n_of_side[0] > 10 && (!is_closing || at.n_of_side[1] > 10));
   assert_int_equal(at.all.n - at.leaflets.n, 3);
   for (int i = at.leaflets.n; i < at.all.n; ++i) look_around(&at, at.all.middle + 3 * i);

@@ -343,7 +343,7 @@ class OpenfoamCase(unittest.TestCase):
             done = self.run_case(case, tools=tools)
             self.assertEqual(done.returncode, status, done.stdout + done.stderr)
         self.assertIn("system/controlDict changed", done.stderr)
-        # The other way out that the message names.
+        # Removing log.inputs is the other cure that the message names.
         (case / "log.inputs").unlink()
         self.assertEqual(self.run_case(case, tools=tools).returncode, 0)
         # A new mesh is converted again.

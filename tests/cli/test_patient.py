@@ -447,7 +447,7 @@ exec '{shutil.which("gmsh")}' "$@" $longer
         self.files(wall_factor=1e-3)
         done = self.refused(2, "--half-thickness: 1 m is not from .* write --half-thickness '1 mm'", "--half-thickness", "1")
         self.assertFalse((self.folder / "case").exists(), done.stderr)
-        # A number has another unit than the wall, and the message names the one in which it fits.
+        # If a number has another unit than the wall, the message names the unit in which the number fits.
         self.files()
         self.refused(2, "--half-thickness: 1e-3 mm is not from 0.1 to 4 mm; without a unit, the number has that of WALL: "
                      "write --half-thickness '1e-3 m' if metres are meant$", "--half-thickness", "1e-3")
@@ -483,7 +483,7 @@ exec '{shutil.which("gmsh")}' "$@" $longer
         (self.folder / "points.mrk.json").write_text(json.dumps(markups), encoding="utf-8")
         self.refused(1, 'points.mrk.json: its numbers are probably in mm, but it states cm: .*: write "coordinateUnits": "mm" in',
                      landmarks="points.mrk.json", output="none")
-        # What the message says cures the file.
+        # The change that the message names cures the file.
         text = (self.folder / "landmarks.json").read_text(encoding="utf-8")
         (self.folder / "landmarks.json").write_text(text.replace('"unit": "m"', '"unit": "cm"'), encoding="utf-8")
         self.refused(2, "--half-thickness: 9 mm is not from", "--half-thickness", "9 mm", output="none")

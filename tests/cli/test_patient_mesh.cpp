@@ -256,7 +256,7 @@ void failing_programs(random_source &random, const std::string &folder) {
   name_ends(wall, vessels.axes[0], -1 * vessels.axes[0]);
   const PatientMeshOptions options{folder, folder + "/sizes.dat", 1, [](const std::string &) {}, 0};
   const auto mesh = [&] { mesh_patient(wall, options); };
-  // The argument after -log is the log, and the argument after -o is the mesh.
+  // The argument after -log is the path of the log, and the argument after -o is the path of the mesh.
   const std::string words = "while [ $# -gt 0 ]; do case $1 in -log) log=$2;; -o) mesh=$2;; esac; shift; done; ";
   stand_for_gmsh(
       folder,
@@ -296,7 +296,7 @@ void failing_programs(random_source &random, const std::string &folder) {
     stand_for_gmsh(folder, "exit 0");
     mesh_patient(crossed, options);
   });
-  // A surface has a hole, like those that gmsh makes from overlapping triangles.
+  // This surface has a hole, as gmsh's surfaces of overlapping triangles have.
   stand_for_gmsh(folder,
                  words +
                      "printf '$MeshFormat\\n2.2 0 8\\n$EndMeshFormat\\n$Nodes\\n3\\n1 0 0 0\\n2 1 0 0\\n3 0 1 0\\n"

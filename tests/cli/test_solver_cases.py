@@ -525,7 +525,7 @@ class Cases(unittest.TestCase):
                      rf"leak of the closed valve at 80 mmHg +{-1e6 * leak:.4g} ml/s\n",
                      r"as a multiple of an ideal valve's leak +1.5\n"):
             self.assertRegex(said, line)
-        # Before a valve that never moves has a steady leak, the script judges nothing.
+        # As long as a valve that never moves has no steady leak, the script judges nothing.
         self.assertIn((folder / "report.txt").read_text(), said)
         said = report(20, status=2)
         self.assertIn("0.04 s of a beat of 0.8 s: what follows is preliminary\nthe valve has not moved yet\n", said)

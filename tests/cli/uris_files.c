@@ -164,8 +164,8 @@ static void add_to_box(uris_state *state, const double *xyz, int n_nodes) {
   }
 }
 
-/* The solver starts with 0, adds the corners in their order, and then divides. The test needs the solver's bits, because they
- * decide which of two middles is nearer. */
+/* To find the middle of a triangle, the solver adds the corners to 0 in their order, and then divides. The test needs the
+ * solver's bits, because they decide which of two middles is nearer. */
 static void add_triangles(uris_state *state, const uris_face *face, const double *xyz) {
   const size_t n = (size_t)(state->n + face->n_triangles);
   state->middle = realloc(state->middle, 3 * n * sizeof *state->middle);

@@ -3,7 +3,7 @@
 
 Links in Markdown documents lead to existing files and headings. Sources and documents name pages in the form docs/*.md, or
 docs/*.md, "Heading". A section's number is refused, because such numbers change. If documents name files of the repository, the
-files must exist. The files that Debian's tests name must exist too. A formula begins and ends on one line. A page of docs/theory
+files must exist. The files that Debian's tests name must also exist. A formula begins and ends on one line. A page of docs/theory
 or docs/design has at most 4000 words.
 """
 import functools

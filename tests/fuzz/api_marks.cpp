@@ -78,7 +78,7 @@ void check_dense(const riis_marks *result, std::int64_t n_nodes, const std::vect
     expected_distance[static_cast<std::size_t>(one.node)] = one.distance;
     expected_triangle[static_cast<std::size_t>(one.node)] = one.triangle_id;
   }
-  // The far distance is -1. Limits go up to 1e60, and a positive far distance within the limit would be refused.
+  // The far distance is -1. A positive far distance within the limit would be refused, and limits go up to 1e60.
   if (dense_of(result, n_nodes, -1, mark.data(), distance.data(), triangle.data(), nullptr) != RIIS_OK)
     EXPECT(false, "%s", riis_last_error());
   std::replace(expected_distance.begin(), expected_distance.end(), RIIS_FAR_DISTANCE, -1.0);
@@ -147,7 +147,7 @@ void check_marking(Input &in, const riis_surface *surface, const MeshSlot &mesh,
   std::vector<Found> expected_marked;
   for (const Found &one : expected)
     if (one.distance <= info.half_thickness) expected_marked.push_back(one);
-  // Clusters use copies of the coordinates, which may be out of date.
+  // Clusters use copies of the coordinates, which may be out of date, so the results may differ.
   if (!mesh.was_told && stats.search == RIIS_SEARCH_CLUSTERS) return;
   if (is_of_paper || !mesh.was_told) {
     expect_part(within, expected, "within the limit");

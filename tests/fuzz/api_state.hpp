@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Has the handles of a sequence of calls, the memory that the handles borrow, and the functions that make the calls. The
-// floating-point environment differs between calls. After each call, the harness checks the promises that hold for all calls.
+// This header has the handles of a sequence of calls, the memory that the handles borrow, and the functions that make the calls.
+// The floating-point environment differs between calls. After each call, the harness checks the promises that hold for all calls.
 #pragma once
 
 #include <riis/riis.h>

@@ -55,7 +55,7 @@ riis_surface_options options_of(Input &in) {
   return options;
 }
 
-// Makes a fine sampling of distances coarse, because it would take as long as fine triangles.
+// A fine sampling of distances would take as long as fine triangles, so this function makes the sampling coarse.
 void make_distance_coarse(double size, riis_surface_options &options) {
   if (options.measure == RIIS_MEASURE_TRIANGLES || options.measure_tolerance == RIIS_AUTO) return;
   const double half_thickness = options.half_thickness == RIIS_AUTO ? 0.1 * options.scale : options.half_thickness;

@@ -274,8 +274,8 @@ void set_open_state(Input &in, State &state) {
 
 namespace {
 
-// Makes a strip of patches between two rails. Rungs, which are curves across the strip, end each patch, so its boundary is
-// closed.
+// Makes a strip of patches between two rails. Rungs are curves across the strip, and a rung at each end of a patch closes the
+// patch's boundary.
 struct Strip {
   std::vector<std::int32_t> degree, curve_id, reversed, leaflet_id;
   std::vector<double> control;

@@ -56,7 +56,7 @@ void read_surface() {
   riis_vtk_surface_destroy(&read);
 }
 
-// Makes keyframes of a motion. A collection may name any file.
+// Makes keyframes of a motion. A collection may name any file, so a refusal must only contain `part`.
 void use_motion(riis_status status, riis_vtk_motion *read, const char *part) {
   if (status != RIIS_OK) {
     const char *text = riis_last_error();

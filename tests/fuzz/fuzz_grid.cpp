@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fuzzes meshes that are the axes of a grid. A grid is made, or refused with a reason. The grid gives the marks, leaks and open
-// regions that its nodes as points give. Some numbers of a grid belong to no node, and no result contains them.
+// Fuzzes meshes that are the axes of a grid. A grid is made, or refused with a reason. The grid and its nodes as points give the
+// same marks, leaks and open regions. Some numbers of a grid belong to no node, and no result contains them.
 #include <riis/riis.h>
 
 #include <array>
@@ -103,7 +103,7 @@ struct Points {
   riis_adjacency *edges = nullptr;
 };
 
-// Counts the numbers of the grid's nodes from its fields, and orders the nodes by their numbers.
+// Computes the number of each node from the grid's fields, and sorts the nodes by these numbers.
 Points points_of(const Case &of, std::int64_t n_numbers) {
   const riis_grid &grid = of.grid;
   const std::int64_t n[3] = {grid.ni, grid.nj, grid.nk};

@@ -113,7 +113,7 @@ T *mostly(Input &in, T *pointer) {
   return in.one_in(32) ? nullptr : pointer;
 }
 
-// An array of 32-bit or 64-bit integers. The array's buffer has exactly their size.
+// An array of 32-bit or 64-bit integers, whose buffer has exactly the size of these integers.
 class Integers {
  public:
   Integers(const std::vector<std::int64_t> &values, bool is_64_bits) : bytes_(values.size() * (is_64_bits ? 8 : 4)) {

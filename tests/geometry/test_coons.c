@@ -75,7 +75,7 @@ TEST(nearly_equal_parameters_share_a_line) {
   const double *const points[4] = {v0, v1, u0, u1};
   quad_grid apart = coons_grid(n, points, 1e-6), together = coons_grid(n, points, 1e-3);
   const int64_t n_apart = apart.n_u, n_together = together.n_u;
-  /* Both vertices of the side remain bit for bit, because a neighbour on this side also has them. */
+  /* The two vertices on the side keep their bits, because the neighbour on this side has the same vertices. */
   const int kept = memcmp(together.points + 3, v0 + 3, 3 * sizeof(double)) == 0 &&
                    memcmp(together.points + 3 * (n_together + 1), v1 + 3, 3 * sizeof(double)) == 0;
   quad_grid_free(&apart);

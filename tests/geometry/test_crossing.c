@@ -100,7 +100,8 @@ TEST(a_fan_has_no_hole) {
       corners[k][0] = cos(angle), corners[k][1] = sin(angle), corners[k][2] = random_between(&rng, -0.1, 0.1);
     }
     for (int i = 0; i < 3; ++i) centre[i] = random_between(&rng, -0.01, 0.01);
-    /* One end of the segment is above the fan's centre or a point of a spoke, and the other end is below, up to rounding. */
+    /* One end of the segment is above the fan's centre or above a point of a spoke. Up to rounding, the other end is below the
+       same point. */
     const int spoke = trial % n_sides;
     const double share = trial % 3 ? 0 : random_between(&rng, 0, 0.3), tilt = random_between(&rng, -0.1, 0.1);
     for (int i = 0; i < 3; ++i) {

@@ -94,8 +94,8 @@ TEST(parts_are_parts) {
   assert_int_equal(chain_between(n, control, first, 1, 0, part), n - 1);
 }
 
-/* At binary fractions of the length, the points lie on the curve, as for one span (test_bezier). At equal fractions, each point
- * of a chord is within the bound of the curve, even across joints. */
+/* At binary fractions of the length, the points lie on the curve, as for one span (test_bezier). Even across joints, each point
+ * of a chord is within the bound of the curve's point at the same fraction. */
 TEST(flattening_stays_within_its_bound) {
   double sum_of_ratios = 0;
   int64_t n_chords = 0;

@@ -212,9 +212,9 @@ static riis_surface *sphere(int n, double radius, double half_thickness) {
   return surface_from(&arrays, &options);
 }
 
-/* Every point of the surface is equally far from the sphere's middle, so the filter leaves far more pairs than its buffer can
- * hold. The test counts the pairs that the filter must leave. A pair must be left if its triangle's distance exceeds the smallest
- * distance by at most the error of single precision. */
+/* Every point of the surface is equally far from the sphere's middle, so the filter keeps far more pairs than its buffer can
+ * hold. The test counts the pairs that the filter must keep. The filter must keep a pair if its triangle's distance exceeds the
+ * smallest distance by at most the error of single precision. */
 TEST(more_pairs_than_room) {
   enum { n = 40, room = 4096 };
   riis_surface *surface = sphere(40, 0.9, 0.1);

@@ -285,7 +285,7 @@ static void nobody_is_warned(void *user_data, int32_t level, const char *message
   if (level == RIIS_LOG_WARNING) ++*(int *)user_data;
 }
 
-/* The box of a mesh without nodes has no size, so no warning compares it. */
+/* The box of a mesh without nodes has no size, so no warning compares this box with the valve. */
 TEST(no_warning_of_proportions) {
   int n_warnings = 0;
   riis_surface *surface = moving_surface();

@@ -127,7 +127,8 @@ static placed_valve random_valve(int kind, int fixed, double *shifts) {
       for (int64_t k = 0; k < parameter.n_values; ++k) values[k] *= between(0.96, 1.04);
       riis_valve_set(made.valve, parameter.name, parameter.n_values, values);
     }
-    /* Closed leaflets touch. At an end of its range, the opening has no central difference, so no direction changes it. */
+    /* A quarter of the valves are closed, so that their leaflets touch. At 0 the opening has no central difference, so no
+       direction changes it there. */
     CHECK_OK(riis_valve_set_scalar(made.valve, "opening", one_in(4) ? 0 : between(0.03, 0.97)));
     if (kind != 3 && kind != 5 && one_in(3)) CHECK_OK(riis_valve_set_scalar(made.valve, "skirt_length", 0.3));
     memcpy(shifts, no_shifts, sizeof no_shifts);
@@ -184,7 +185,7 @@ static riis_surface *surface_in(const placed_valve *state) {
   return riis_surface_create(state->valve, &state->options, &surface) == RIIS_OK ? own(surface) : NULL;
 }
 
-/* The differences of a point's distance over a step to either side. */
+/* The differences of a point's distance over a step forwards and over a step backwards. */
 typedef struct slopes {
   double left, right, middle;
 } slopes;
@@ -192,9 +193,9 @@ static slopes slopes_of(double before, double now, double after, double step) {
   return (slopes){(now - before) / step, (after - now) / step, (after - before) / (2 * step)};
 }
 
-/* Tells whether a derivative is right although it differs from the central difference. Both differ near a tie: within the step,
- * the closest point jumps from one place of the surface to another. The slope then falls at a kink, and the central difference is
- * off by up to half the kink. The derivative must be the slope on the side without the tie. */
+/* Tells whether a derivative is right although it differs from the central difference. The two differ near a tie, where the
+ * closest point jumps from one place of the surface to another within the step. The slope then falls at a kink, and the central
+ * difference is off by up to half the kink. The derivative must be the slope on the side without the tie. */
 static int is_beside_tie(slopes s, double gradient, double speed) {
   return s.right < s.left && fmin(fabs(gradient - s.left), fabs(gradient - s.right)) <= 1e-5 * speed;
 }
@@ -324,7 +325,7 @@ static void compare(const riis_surface *at, const placed_valve *state, const cha
 TEST(derivatives_are_central_differences) {
   static double xyz[3 * n_points], gradient[n_points], K_gradient[n_points];
   const int n_trials = is_long_test() ? 20 : 1;
-  /* On a single valve, a larger share of the points may be at kinks. */
+  /* A short test has few valves, so a larger share of its points may be at kinks. */
   const double most_off = is_long_test() ? 0.01 : 0.05;
   for (int kind = 0; kind < n_kinds; ++kind)
     for (int fixed = 0; fixed < 2; ++fixed) {
@@ -587,8 +588,7 @@ TEST(K_is_derived_from_the_distance_up_to_both_ends) {
 }
 
 /* Two squares, at z = 0 and z = 1. Only the upper square moves. A node at equal distances gets the derivative of the lower
- * square, which triangle_id names. The distance of a node at equal distances has a kink: the derivatives on both sides are 0 and
- * -1. */
+ * square, which triangle_id names. The distance of this node has a kink, with the derivatives 0 and -1 on the two sides. */
 TEST(ties_take_the_first_triangle) {
   shape two = unit_square();
   add_line(&two, 0, 0, 1, 1, 0, 1);

@@ -246,8 +246,9 @@ static int store(const framed *f, const double *p, float *stored, float *as_floa
   return 1;
 }
 
-/* Compares filtered distances with decided distances. The differences are fractions of the allowed error. Too small and too large
- * distances are checked separately, because the margin makes most distances too large. */
+/* Compares the distances of the filter, in single precision, with the distances of the decision kernel. The differences are
+ * fractions of the allowed error. Too small and too large distances are checked separately, because the margin makes most
+ * distances too large. */
 TEST(single_precision_is_right_to_its_error) {
   enum { n_lanes = 16 };
   for (int set = 0; set < n_kernel_sets; ++set) {

@@ -330,7 +330,7 @@ TEST(copies_and_single_precision_are_the_same_mesh) {
   assert_true(same_results(expected, marks_of(surface, mesh)));
 }
 
-/* Numbers in single precision give the bits that equal numbers in double precision give. The test covers points, vertices,
+/* Numbers in single precision give the same bits as equal numbers in double precision. The test covers points, vertices,
  * velocities and frames. */
 TEST(single_precision_is_double_precision) {
   make_exact(0);

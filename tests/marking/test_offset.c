@@ -96,7 +96,7 @@ static void check_marking(const char *kind) {
   const riis_triangles all = triangles_of(surface);
   assert_int_equal(stats_of(marks).n_marked, marked.n_nodes);
   assert_int_equal(stats_of(marks).n_within_limit, within.n_nodes);
-  /* An offset does not change distances, sides, points and triangles, which are those of the leaflet. */
+  /* An offset does not change distances, sides, closest points and triangles, which all belong to the leaflet. */
   riis_mark_options plain_options = asked;
   CHECK_OK(riis_mark_nodes(plain, mesh, &plain_options, other));
   const riis_mark_list of_plain = within_list(other);
@@ -477,7 +477,8 @@ static void check_gradients(const char *kind) {
     const int64_t node = list.node_id[i];
     const double near = (K[0][node] - K[1][node]) / 2e-5, wide = (K[2][node] - K[3][node]) / 4e-5;
     const double second = (K[0][node] + K[1][node] - 2 * list.K[i]) / 1e-5;
-    /* K has a kink at a node with a tie, or at a node whose closest triangle changes in between. */
+    /* K has a kink at a node with a tie, or if the node's closest triangle changes between the states, so such nodes are left
+       out. */
     if (fabs(near - wide) > 1e-5 * most || fabs(second) > 1e-3 * most) continue;
     ++n_derivatives, n_on_surface += list.distance[i] < 1e-12, n_at_rim += list.rim[i] && list.K[i] > 0;
     if (fabs(list.K_gradient[i] - near) > 1e-4 * most) {

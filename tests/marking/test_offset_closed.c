@@ -133,9 +133,9 @@ TEST(valves_with_a_skirt_do_not_leak) {
     }
 }
 
-/* Without a skirt, blood passes between the rim and a wall farther out, with every offset. With a round rim, a band with an
- * offset holds blood back no worse than a band without an offset. A cut rim lets blood pass, because its end moves along the
- * normals, and so away from the wall. */
+/* Without a skirt, blood passes between the rim and a wall farther out, with every offset. With a round rim, an offset does not
+ * make the band leak more. A cut rim lets blood pass, because an offset moves its end along the normals, and so away from the
+ * wall. */
 TEST(round_rims_without_a_skirt_leak_only_where_they_leak_without_an_offset) {
   closed_valve valves[] = {{"trileaflet", 0, 0.1, 0, -1.7, 0.5}, {"coapting", 0, 0.1, 0, -0.5, 2.2}};
   const int n_grids = trials_of(15);

@@ -148,7 +148,7 @@ TEST(orifices_reach_less_far_into_the_flow) {
         const double share = vanishing == 0 ? 1 : fmax(0, 1 - offsets[k] / vanishing);
         CHECK_NEAR(found.rim_reach, c * share, 1e-15);
         assert_true(found.half_thickness == eps);
-        /* A band without an offset leaves an equal area if the band reaches equally far. */
+        /* A band without an offset leaves the same area if it reaches equally far into the orifice. */
         const riis_resistance thinner = resistance_of(1, fmax(share * eps, 1e-9), rim);
         const riis_orifice as_far = orifice_of(without, &thinner);
         CHECK_NEAR(found.effective_area, as_far.effective_area, 1e-7 * found.outline_area);

@@ -23,7 +23,7 @@ static int by_node(const void *a, const void *b) {
 
 static int64_t below(int64_t n) { return (int64_t)(random_bits(&rng) % (uint64_t)n); }
 
-/* The nodes are spread over the mesh, or lie in a range with about twice as many numbers. */
+/* The numbers of the nodes are spread over the mesh, or lie in a range about twice as long as their count. */
 TEST(nodes_ascend) {
   enum { most = 20000 };
   static found_node sorted[most];

@@ -419,10 +419,10 @@ TEST(sums_are_those_of_plain_loops) {
 
 /* --- Symmetric valves ------------------------------------------------------------------------------------------------ */
 
-/* A symmetric valve stands in a flow along its axis. A turn about the axis maps the force on one leaflet to the force on the next
- * leaflet. The turn also maps the moments in this way. The axis is oblique to the rows of nodes. Two closed leaflets touch along
- * a line. A node that is nearest to this line belongs to the leaflet with the lower id. The choice between the two leaflets
- * changes the forces by up to 2.5 percent. */
+/* A symmetric valve stands in a flow along its axis. A turn about the axis maps the force and the moment on one leaflet to those
+ * on the next leaflet. The axis is oblique to the rows of nodes. Two closed leaflets touch along a line. A node that is nearest
+ * to this line belongs to the leaflet with the lower id. The choice between the two leaflets changes the forces by up to 2.5
+ * percent. */
 TEST(leaflets_of_symmetric_valves_share_alike) {
   const struct {
     const char *kind;

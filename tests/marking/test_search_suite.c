@@ -15,7 +15,7 @@
 /* --- Brute force ------------------------------------------------------------------------------------------------------ */
 
 /* Triangles are grouped into blocks with bounding boxes. A block or a triangle is skipped if its box is farther than the closest
- * triangle so far, by more than any rounding. The distance of every other triangle is computed in extended precision. */
+ * triangle so far by more than rounding could cause. The distance of every other triangle is computed in extended precision. */
 enum { per_block = 16 };
 typedef struct brute_force {
   int64_t n;

@@ -303,7 +303,8 @@ TEST(reaction_takes_the_means) {
 
 /* --- Nodes without ties ---------------------------------------------------------------------------------------------- */
 
-/* The same triangles from arrays form one leaflet, so they have no ties. Each node has the velocity of its closest triangle. */
+/* If the same triangles come from arrays, they form one leaflet, so no node has a tie. Each node has the velocity of its closest
+   triangle. */
 TEST(other_nodes_have_the_closest_triangle_s) {
   int64_t n_single = 0, n_other = 0;
   for (int trial = 0; trial < trials_of(6 * n_kinds); ++trial) {

@@ -120,7 +120,7 @@ TEST(works_inside_a_parallel_region) {
     if (riis_marks_create(&result) == RIIS_OK && riis_mark_nodes(surface, mesh, NULL, result) == RIIS_OK)
       counts[i] = marked_list(result).n_nodes;
     riis_marks_destroy(&result);
-    /* The first query with a side makes the data for sides, whatever its thread. */
+    /* The first query with a side makes the data for sides, on whichever thread the query runs. */
     riis_closest closest;
     if (riis_closest_point(surface, nodes + 3 * i, &closest, sizeof closest) != RIIS_OK) counts[i] = -2;
   }

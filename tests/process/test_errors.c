@@ -311,8 +311,8 @@ TEST(surface_arrays_are_refused_by_name) {
                 riis_surface_create_from_arrays(&arrays, &options, &surface));
 }
 
-/* Returns 1 if one of three components begins between two entries of another component, after its second entry. Also returns 1 if
- * two components share a number. */
+/* Returns 1 if a component begins between two entries of another component, after that component's second entry. Also returns 1
+ * if two components share a number. */
 static int begin_inside(const int *begins, int n, int stride) {
   for (int a = 0; a < 3; ++a)
     for (int b = 0; b < 3; ++b) {

@@ -27,7 +27,7 @@ TEST(each_block_runs_once) {
       for (int64_t n_blocks = 0; n_blocks < 40; n_blocks += 13) {
         const int n_expected = n_blocks > 1 ? n_threads[i] : 1;
         assert_int_equal(team_loop_once(n_blocks, n_threads[i]), n_expected);
-        /* OpenMP's threads wait for all others, which takes long on a busy machine. */
+        /* In OpenMP, every thread waits for all others, which takes long on a busy machine. */
         if (repeat < 2) assert_int_equal(loop_once(n_blocks, n_threads[i]), n_expected);
       }
 }
@@ -75,8 +75,8 @@ TEST(the_threads_leave_signals_to_the_caller) {
 
 /* This test would wait for ever if a loop waited for all of its threads, or for a lock that a delayed thread has. To test the
  * lock, the thread must be delayed at many points of its code. A delayed thread must not hold a sanitizer's lock. With a
- * sanitizer the thread is therefore delayed once, asleep. This test is first, because the team then has only one additional
- * thread. */
+ * sanitizer, the thread is therefore delayed only once, while it sleeps. This test is first, because the team then has only one
+ * additional thread. */
 TEST(a_long_wait_chooses_a_team) {
   if (is_bound())
     assert_false(wait_long_for_a_thread());

@@ -126,7 +126,7 @@ static int64_t try_one(const scenario *s, const reference *expected, int whose, 
   const live before = live_now();
   world w = {.scenario = s};
   s->make(&w);
-  /* A refused call sets another message first, so the failing call must write its message. */
+  /* A refused call sets another message first, so the test sees whether the failing call writes its own message. */
   assert_int_equal(riis_marks_create(NULL), RIIS_INVALID_ARGUMENT);
   memory_fail(whose, n, and_all_after);
   riis_status status = s->call(&w);

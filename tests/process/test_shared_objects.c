@@ -215,7 +215,7 @@ static void use_what_is_marked(const shared_objects *of) {
   CHECK_OK(riis_marks_create(&other));
   CHECK_OK(riis_mark_nodes(of->surface, of->mesh, NULL, other)); /* several marks of one surface and mesh */
   riis_marks_destroy(&other);
-  /* In a child the call of the parent's other thread never ends, and must not hold the objects. */
+  /* In a forked child, the call of the parent's other thread never ends, and must not keep the objects locked. */
   const pid_t child = fork();
   if (child == 0)
     _exit(riis_mesh_set_adjacency(of->mesh, NULL) == RIIS_OK &&
@@ -243,7 +243,7 @@ TEST(a_call_is_refused_while_another_thread_changes_its_objects) {
   assert_int_equal(status_of_call, RIIS_OK);
   while_held(mark, use_what_is_marked, &of);
   assert_int_equal(status_of_call, RIIS_OK);
-  /* Afterwards nothing is held. */
+  /* After the calls, no object is locked. */
   riis_mark_list list;
   CHECK_OK(riis_surface_update(of.surface, of.valve, NULL));
   CHECK_OK(riis_mark_nodes(of.surface, of.mesh, NULL, shared_marks));

@@ -4,8 +4,8 @@
 #ifndef RIIS_TEST_BAND_FLOODS_H
 #define RIIS_TEST_BAND_FLOODS_H
 
-/* The triangles of a surface with another half thickness. The triangles stay the same: without a copy, another half thickness
- * could change them. */
+/* Copies the triangles of a surface, and gives the copy another half thickness. A valve that is made anew with another half
+ * thickness could have other triangles. */
 static inline riis_surface *same_triangles(const riis_surface *surface, double half_thickness, double offset) {
   const riis_triangles all = triangles_of(surface);
   riis_surface_arrays arrays = triangle_arrays(all.n_vertices, all.xyz, all.n_triangles, NULL);

@@ -93,7 +93,7 @@ static inline double to_rim_sq(const bileaflet *of, double stretch, double x, do
 }
 
 /* Returns the distance from a point outside the leaflet to its outline, within the leaflet's plane. (x, y) is the point's
- * position on the closed leaflet, seen along the axis. The middle edge is a segment. The rim is an ellipse. A golden-section
+ * position on the closed leaflet, seen along the axis. The middle edge is a segment, and the rim is an ellipse. A golden-section
  * search between samples finds the rim's nearest point. */
 static inline double to_outline(const bileaflet *of, double x, double y) {
   const double stretch = 1 / cos(degree * of->closed_angle), x0 = of->gap / 2, R = of->radius;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Provides the reference with which tests and benchmarks compare every search: a loop over all triangles with the library's
-// decision kernel.
+// Tests and benchmarks compare every search with this loop over all triangles, which uses the library's decision kernel.
 #pragma once
 
 #include <cstddef>

@@ -27,8 +27,8 @@ static inline wide wide_dot(wide3 a, wide3 b) { return a.x[0] * b.x[0] + a.x[1] 
 static inline int oracle_meet_in_plane(const int64_t *a, const int64_t *b, const int64_t *abc, wide3 normal) {
   const int drop = normal.x[0] ? 0 : normal.x[1] ? 1 : 2, u = (drop + 1) % 3, v = (drop + 2) % 3;
   const int turn = normal.x[drop] > 0 ? 1 : -1;
-  /* The part of a segment, from t = low to t = high, that lies inside the tried sides of the triangle. Both ends are fractions
-   * with positive denominators. */
+  /* The part of the segment from t = low to t = high is inside the sides of the triangle that were tried so far. Both ends are
+   * fractions with positive denominators. */
   wide low = 0, low_of = 1, high = 1, high_of = 1;
   for (int i = 0; i < 3; ++i) {
     const int64_t *from = abc + 3 * i, *to = abc + 3 * ((i + 1) % 3);
@@ -42,8 +42,8 @@ static inline int oracle_meet_in_plane(const int64_t *a, const int64_t *b, const
   return low * high_of <= high * low_of;
 }
 
-/* Returns the answer for any segment and triangle. The magnitudes in a[3], b[3] and abc[9] are at most 2^38. The magnitudes are
- * at most 2^28 if all points lie in one plane. The triangle's area must be positive. */
+/* Returns the answer for any segment and triangle. The coordinates in a[3], b[3] and abc[9] are at most 2^38 in magnitude, or
+ * 2^28 if all points lie in one plane. The triangle's area must be positive. */
 static inline int oracle_segment_meets_triangle(const int64_t *a, const int64_t *b, const int64_t *abc) {
   const wide3 e1 = wide_difference(abc + 3, abc), e2 = wide_difference(abc + 6, abc), along = wide_difference(b, a);
   const wide3 normal = wide_cross(e1, e2), from_corner = wide_difference(a, abc), p = wide_cross(along, e2),

@@ -99,8 +99,8 @@ static inline double least_uprightness(const riis_surface *surface, const double
   return least;
 }
 
-/* Checks 101 openings. A free edge must keep its length at opening 0, to within the given fraction. The orifice must grow from
- * each opening to the next. Cusps must not cross or fold. Returns the orifice at opening 1. */
+/* Checks 101 openings. Each free edge must keep the length that it has at opening 0, to within the given fraction. The orifice
+ * must grow from each opening to the next. Cusps must not cross or fold. Returns the orifice at opening 1. */
 static inline double check_opening(riis_valve *valve, double radius, const double *turn, const double *half_angle,
                                    double share, const char *name) {
   double at_rest[3] = {0, 0, 0}, least[3] = {1, 1, 1}, most[3] = {1, 1, 1}, orifice = -1;
@@ -138,8 +138,8 @@ enum { n_across = 67, n_up = 76, n_nodes = n_across * n_across * n_up };
 /* Returns the coordinate of a grid node across the axis, from -radius to radius. */
 static inline double grid_place(int i, double radius) { return radius * (2.0 * i / (n_across - 1) - 1); }
 
-/* Marks the nodes near the surface in a grid of height 3, then fills the grid from below through all 26 neighbours. The nodes
- * above and below the places `is_wall` (n_across, n_across) are closed. Returns whether the fill reaches the top. */
+/* Marks the nodes near the surface in a grid of height 3, then fills the grid from below through all 26 neighbours. Where
+ * `is_wall` (n_across, n_across) is set, the whole column of nodes is closed. Returns whether the fill reaches the top. */
 static inline int leaks_between(const riis_surface *surface, const uint8_t *is_wall, double radius, double bottom) {
   double *nodes = own(malloc(3 * n_nodes * sizeof *nodes));
   uint8_t *is_closed = own(malloc(n_nodes * sizeof *is_closed));

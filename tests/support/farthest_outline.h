@@ -31,7 +31,7 @@ static inline void seen_from(const frame *of, const double *p, double *out) {
 }
 
 /* The outline of triangles seen along an axis: the farthest points of their edges from the middle, in many directions. Edges
- * inside a leaflet also count, which does no harm: the boundary is farther out, or triangles cover the area between. */
+ * inside a leaflet also count. They do no harm, because the boundary is farther out, or triangles cover the area up to it. */
 enum { n_directions = 1440 };
 typedef struct outline {
   double middle[2], distance[n_directions], reach;

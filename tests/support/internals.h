@@ -100,9 +100,9 @@ riis_status triangulate_deviating(const char *kind, double deviation, double max
 int64_t scene_differs_from_loop(int64_t n_triangles, const double *xyz, int64_t n_points, const double *points,
                                 double limit);
 
-/* Sorts found nodes on up to n_threads threads. List i of n_lists has the nodes from end[i - 1] to end[i] - 1, and each node is
- * less than n_nodes. Writes all nodes to within_*. If the limit is wider than the half thickness, writes the marked nodes to
- * marked_* and returns their number. Otherwise returns -1. Each call reuses the memory of the last call. */
+/* Sorts found nodes on up to n_threads threads. List i of n_lists has the nodes from end[i - 1] to end[i] - 1. Every node is less
+ * than n_nodes. Writes the nodes of all lists to within_*. If the limit is wider than the half thickness, writes the marked nodes
+ * to marked_* and returns their number. Otherwise returns -1. Each call reuses the memory of the last call. */
 int64_t order_found_nodes(const riis_surface *surface, int64_t n_nodes, int n_threads, int limit_is_wider, int n_lists,
                           const int64_t *end, const int64_t *node, const double *distance, const int64_t *triangle,
                           int64_t *within_node, double *within_distance, int64_t *within_triangle, int64_t *marked_node,
@@ -199,9 +199,9 @@ typedef struct kernel_filter {
   const float *nodes;
 } kernel_filter;
 /* Filters a cluster that has the nodes in two leaves. In the second leaf, the numbers of the nodes are larger by 32, the limit is
- * half, and the groups are in reverse order. Between both leaves stand a leaf without wanted nodes and a leaf without groups.
- * Returns all pairs that the filter keeps. The filter's buffer has room for `room` pairs. *n_calls gets the number of calls that
- * the filter needed. The caller frees the pairs. */
+ * half, and the groups are in reverse order. Between these two leaves stand a leaf without wanted nodes and a leaf without
+ * groups. Returns all pairs that the filter keeps. The filter's buffer has room for `room` pairs. *n_calls gets the number of
+ * calls that the filter needed. The caller frees the pairs. */
 int64_t kernels_filter(int set, const kernel_filter *filter, int32_t room, kernel_pair **pairs, int64_t *n_calls);
 /* Gives the squared lower bounds of the distances to groups, lower_sq(32, n_groups). */
 void kernels_lower_bounds(int set, const kernel_filter *filter, float *lower_sq);

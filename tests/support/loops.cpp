@@ -236,8 +236,8 @@ int wait_long_for_a_thread() {
 #if defined(RIIS_STD_THREADS)
   return next_loop_is_on_a_team();  // every loop runs on a team, so no wait chooses a team
 #endif
-  // On a busy machine, an earlier wait may have chosen a team for at most 2 seconds. A team's calling thread may run both blocks,
-  // so the loop is repeated.
+  // On a busy machine, an earlier wait may have put all loops on teams for up to 2 seconds. The calling thread of a team may run
+  // both blocks, so the loop is repeated until no team runs it.
   for (bool are_openmps = false; !are_openmps;) {
     std::atomic<int> n_come{0};
     parallel_for(2, 2, [&](std::int64_t, int thread) {

@@ -21,9 +21,11 @@ int64_t block_whose_exception_comes(int64_t n_blocks, int n_threads, int64_t n_f
                                     int on_a_team);
 /* Runs a loop on a team of two threads. The second thread's first block fails while the calling thread is in block 0. Later the
  * block `also_failing` fails, if it is not -1. Returns the block whose exception leaves the loop. *n_higher becomes the number of
- * higher blocks that ran. Returns -1 if a lower block did not run, or if the second thread began outside its own share. */
+ * blocks above this block that ran. Returns -1 if a lower block did not run, or if the second thread began outside its own
+ * share. */
 int64_t block_that_fails_first(int64_t n_blocks, int64_t also_failing, int64_t *n_higher);
-/* Records loops of OpenMP, with times in nanoseconds. Returns whether a loop that begins now runs on a team. */
+/* Records how long loops of OpenMP waited and when they ended, in nanoseconds. Returns whether a loop that begins at `now` runs
+   on a team. */
 int choice_after(int n_loops, const int64_t *waited, const int64_t *ended, int64_t now);
 /* Records the time that teams have lost, in nanoseconds. Returns how long the calling thread of the next loop runs alone. */
 int64_t time_alone_after(int n_loops, const int64_t *lost, const int64_t *ended, int64_t now);

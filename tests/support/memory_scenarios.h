@@ -55,7 +55,7 @@ static void set_nodes(int64_t n) {
   for (int64_t i = 0; i < nodes.n; ++i) mask[i] = i % 7 != 0;
 }
 
-/* Before a call that creates an object, the handle points to this object. The call may overwrite the handle only on success. */
+/* Before a call that creates an object, the handle points to no_object. Only a successful call may overwrite the handle. */
 static char no_object;
 #define MADE(type, handle, create)                                                                    \
   do {                                                                                                \
@@ -201,7 +201,7 @@ static riis_status update_from_triangles(world *w) {
   return riis_surface_update_from_arrays(w->surface, &arrays, &options);
 }
 
-/* Makes the first query of a surface that also asks for a side. */
+/* Makes the first query of a surface that also requests the side of the point. */
 static riis_status closest_point(world *w) {
   const double point[3] = {0.1, 0.2, 0.3};
   riis_closest closest, before;
@@ -321,7 +321,7 @@ static riis_status mark_masked_and_wide(world *w) {
   return riis_mark_nodes(w->surface, w->mesh, &options, w->result);
 }
 /* The following scenarios mark into a result that was used before. After one earlier marking, the result needs more memory. After
- * several, it has enough. */
+ * several markings, it has enough memory. */
 static void marked_before(world *w) {
   ready_to_mark(w);
   CHECK_OK(mark(w));

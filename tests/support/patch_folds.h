@@ -74,8 +74,8 @@ static inline void fold_normal(const fold_side *sides, double u, double v, doubl
   for (int c = 0; c < 3; ++c) normal[c] /= size;
 }
 
-/* Returns whether a patch that begins at the root folds: its normal turns over between neighbouring places. A patch that begins
- * at the root has an even id. The places are dense near the root. */
+/* Returns whether a patch that begins at the root folds. It folds if its normal turns over between neighbouring places. A patch
+ * that begins at the root has an even id. The places are dense near the root. */
 static inline int a_lower_patch_folds(riis_valve *valve) {
   riis_valve_patches patches;
   CHECK_OK(riis_valve_get_patches(valve, &patches, sizeof patches));

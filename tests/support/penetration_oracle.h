@@ -68,8 +68,8 @@ static inline int is_beside(const quad3 *points, const quad3 *triangle) {
   return n_above == 3 || n_below == 3;
 }
 
-/* Takes the plane through three points. If all points are on one side, lowers *depth to the plane's distance. *depth becomes 0 if
- * the origin is on the other side. */
+/* Takes the plane through three points. If all points are on one side of this plane, lowers *depth to the plane's distance from
+ * the origin. If the origin is on the other side, *depth becomes 0. */
 static inline void try_plane(const quad3 *p, int i, int j, int k, quad size, quad *depth) {
   const quad3 n = quad_cross(quad_difference(p[j], p[i]), quad_difference(p[k], p[i]));
   const quad of_n = quad_length(n), tiny = (quad)1e-24 * of_n * size;

@@ -22,8 +22,8 @@ double shim_uncovered_circle(double radius, const double centre[2], int64_t n_tr
 double shim_uncovered_inside(int64_t n_segments, const double *points, int64_t n_triangles, const double *corners,
                              int64_t n_lines);
 
-/* The triangles share vertices, and are enlarged by `reach`. Gives the area of the circle's part that they leave uncovered, and
- * the length of this part's edge.
+/* The triangles share vertices, and are enlarged by `reach`. Gives the area of the part of the circle that the enlarged triangles
+ * leave uncovered, and the length of this part's edge.
  *   xy         (2, n_vertices)
  *   vertex_id  (3, n_triangles) */
 double shim_area_beyond(double radius, const double centre[2], int64_t n_vertices, const double *xy,

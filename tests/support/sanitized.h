@@ -23,8 +23,8 @@ static inline int is_sanitized(void) {
 #endif
 }
 
-/* Returns whether tests shall be short, which they are with a sanitizer or with RIIS_TEST_SHORT=1. An emulator is slow, so its
- * runs set this variable. */
+/* Returns whether tests are short, as they are with a sanitizer or with RIIS_TEST_SHORT=1. Runs in an emulator set this variable,
+ * because an emulator is slow. */
 static inline int is_short_test(void) {
   const char *given = getenv("RIIS_TEST_SHORT");
   return is_sanitized() || (given && strcmp(given, "1") == 0);

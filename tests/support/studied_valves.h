@@ -61,8 +61,8 @@ static inline riis_surface *surface_at(riis_valve *valve, double opening, const 
 
 /* Changes every size by a random share of the size, at most `spread`. The sizes are changed in the order of the list. If a size
  * follows another size, the change starts from the value that the rule gives. A leaflet's size may follow the valve's size, which
- * has already changed. The leaflet's size therefore changes by a smaller share. meeting_shift, and edge_stretch if it is 0, get a
- * random share as their value. Every size stays within its range. Returns the first status that is not RIIS_OK. */
+ * has already changed. The leaflet's size therefore changes by a smaller share. meeting_shift gets a random share as its value,
+ * and so does edge_stretch if it is 0. Every size stays within its range. Returns the first status that is not RIIS_OK. */
 static inline riis_status vary_sizes(random_source *random, riis_valve *valve, double spread) {
   int64_t n;
   CHECK_OK(riis_valve_get_n_parameters(valve, &n));

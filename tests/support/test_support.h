@@ -85,7 +85,7 @@ static inline int trials(int n, int n_long) { return is_long_test() ? n_long : i
 static inline int trials_of(int n) { return trials((n + 4) / 5, n); }
 
 /* Returns the step of a loop over combinations, such as kinds of valves with triangulations. A short test tries every eleventh
- * combination. Few numbers of kinds are multiples of eleven, so the tried combinations include each kind. */
+ * combination. The number of kinds is seldom a multiple of eleven, so the tried combinations include each kind. */
 static inline int trial_step(void) { return is_short_test() ? 11 : 1; }
 
 /* Checks that the random trials have covered a condition. A short test makes too few trials to cover every condition. */

@@ -135,8 +135,8 @@ AlongCurve along(const CurvePart &at_now, const CurvePart &at_before, double wid
     const Both unknown{infinity, infinity};
     return {length, unknown, unknown, unknown, infinity, infinity, false};
   }
-  // At equal u, the parameters of the two states differ by at most `shift`. `shift` is the difference at the ends, plus the
-  // growth between the ends that the rates dt/du = length / |B'| allow.
+  // At equal u, the parameters of the two states differ by at most `shift`. `shift` is the difference at the ends of the range,
+  // plus the largest growth between the ends at the rates dt/du = length / |B'|.
   const Derivatives change = changes_on(*at_now.span, *at_before.span, from, to);
   const double at_ends = larger(std::abs(at_now.t[0] - at_before.t[0]), std::abs(at_now.t[1] - at_before.t[1]));
   const double half = 0.5 * width, rate_change = length.change / least + whole * change.first / (least * least);
@@ -163,8 +163,8 @@ AlongCurve along(const CurvePart &at_now, const CurvePart &at_before, double wid
           least >= tight_share * first && by_itself <= 1 - tight_share};
 }
 
-// Bounds both states separately, and combines the bounds. The result is for a range on which the states lie on different spans
-// and cannot be compared.
+// Bounds both states separately, and combines the bounds. The result serves a range on which the states lie on different spans,
+// so that they cannot be compared.
 AlongCurve either(const AlongCurve &now, const AlongCurve &before) {
   const auto of = [](Both a, Both b) { return Both{larger(a.size, b.size), a.size + b.size}; };
   return {of(now.length, before.length),
@@ -183,7 +183,7 @@ std::size_t more_at_start(const Curve &curve, const Curve &other) {
   return n == other.spans().size() + 1 && curve.length(0) < curve.length(n - 1) ? 1 : 0;
 }
 
-// A side of a patch in both states, at ascending shares of its length. The shares include the joints between spans.
+// A side of a patch in both states, divided at ascending shares of its length. The shares include the joints between spans.
 class SideInBoth {
  public:
   SideInBoth(const Curve &now, const Curve &before, const Vector<double> &shares)
@@ -246,8 +246,8 @@ class SideInBoth {
   const Curve &now_, &before_;
   const Vector<double> &shares_;
   CurvePoints at_now_, at_before_;
-  // Each number is 1 if its state has an additional span at the start, because a joint passed this end of the curve. Otherwise it
-  // is 0.
+  // Each number is 1 if its state has an additional span at the start, because a joint passed this end of the curve. Otherwise
+  // the number is 0.
   std::size_t more_now_, more_before_;
 };
 
@@ -273,8 +273,8 @@ class Shares {
     return static_cast<std::size_t>(found - all_.begin());
   }
 
-  // Halves the ranges for which is_tight(i) is false. Narrow ranges stay. Returns whether a range was halved. Returns false if
-  // there are too many ranges, which happens for a curve whose bounds never become tight.
+  // Halves the ranges for which is_tight(i) is false. Does not halve narrow ranges. Returns whether a range was halved. Also
+  // returns false if there are too many ranges, which happens for a curve whose bounds never become tight.
   template <class IsTight>
   bool halve(const IsTight &is_tight) {
     if (all_.size() > 2 * most_ranges) return false;
@@ -604,8 +604,8 @@ Vector<Vec3> offset_moves(const TwoStates &states, std::size_t patch, const TwoC
 }
 
 // A warp's map adds a part to the displacement inside a warped Coons patch. Bounds how far this part deviates from linear, on a
-// range of u or of v. On [0, 1], the sizes of the part's polynomials' second derivatives add up to at most 81. The sizes of the
-// polynomials' values add up to at most 1.3.
+// range of u or of v. The part is made of polynomials. On [0, 1], the sizes of their second derivatives add up to at most 81. The
+// sizes of their values add up to at most 1.3.
 double off_linear(const RestInside &rest, double width) {
   double size = 0;
   for (const double u : {1. / 3, 2. / 3})

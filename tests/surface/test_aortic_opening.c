@@ -69,7 +69,7 @@ static riis_valve *state_by_hand(const riis_valve *valve, double radius_ratio, d
   return open;
 }
 
-/* At any opening, the surface equals that of a valve whose open state was given with the same shape. */
+/* At any opening, the surface equals the surface of a valve that was given an open state of the same shape. */
 TEST(state_is_the_one_of_the_formulas) {
   random_source random = random_start("test_aortic_opening");
   for (int trial = 0; trial < trials_of(60); ++trial) {

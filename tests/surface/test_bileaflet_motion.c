@@ -31,7 +31,7 @@ static void moving_update(riis_surface *surface, riis_valve *valve, double now, 
   free_one_owned(earlier);
 }
 
-/* The leaflet's point that is now at p has moved over the step. Gives the mean velocity of this point. */
+/* Gives the mean velocity over the step of the leaflet's point that is now at p. */
 static void chord_velocity(const bileaflet *of, int32_t leaflet_id, const double *p, double now, double before,
                            double seconds, double *velocity) {
   double q[3];

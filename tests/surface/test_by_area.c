@@ -228,8 +228,8 @@ TEST(sizes_have_their_areas) {
   }
 }
 
-/* The area of an opening over time is measured at some times. The table from these areas has the openings, and the rates between
- * its keys. */
+/* The areas of a changing opening are measured at some times. The table that follows from these areas has the same openings, and
+ * the same rates between its keys. */
 TEST(a_cycle_is_recovered) {
   enum { most = 33 };
   const int n = is_short_test() ? 5 : most;
@@ -440,7 +440,7 @@ TEST(searches_are_refused) {
   CHECK_OK(riis_valve_set_scalar(valve, "leaflet_height", 20));
   REFUSED(RIIS_INVALID_PARAMETER, "at opening 0: leaflet_height is 20", valve, "opening", 1, &search);
   CHECK_OK(riis_valve_unset(valve, "leaflet_height"));
-  /* Options of the surface and of the resistance are refused as by other calls. */
+  /* Bad options of the surface and of the resistance are refused as other calls refuse them. */
   riis_surface_options options = surface_options();
   options.scale = 0;
   search.surface = &options;

@@ -148,8 +148,7 @@ static point cross_of(point p, point q) {
 }
 static double dot_of(point p, point q) { return p.x[0] * q.x[0] + p.x[1] * q.x[1] + p.x[2] * q.x[2]; }
 
-/* The crease at t of the coaptation line. The crease depends on the chord's point, the free edge's point, and the end
- * tangents. */
+/* The crease at t of the coaptation line depends on the chord's point, the free edge's point, and the end tangents. */
 typedef struct crease_at {
   double t;
   point chord, edge, tangents;
@@ -168,7 +167,7 @@ static double determinant(const point *q, const crease_at *at, double *divisor) 
   return dot_of(first, above);
 }
 
-/* Moves the inner control points of the coaptation line as the document says. The derivatives are differences. */
+/* Moves the inner control points of the coaptation line as the document says. Derivatives are computed as differences. */
 static void smooth_line(half *of, point of_symmetry, point of_attachment) {
   const double chord = length_of(sum(1, of->line.q[3], -1, of->line.q[0])), h = 1e-4 * chord;
   for (int step = 0; step < 2; ++step) {
@@ -689,8 +688,8 @@ TEST(path_is_smooth) {
       }
     }
     printf("the acceleration is at most %.2f, and differs by %.4f between steps\n", largest, worst);
-    /* The third derivative causes some difference. A kink of the velocity would instead double the second difference for half the
-     * step. */
+    /* The third derivative changes the second difference a little. A kink of the velocity would instead double the second
+     * difference for half the step. */
     assert_true(worst < 0.4 * largest);
     free_owned_after(owned_before);
   }

@@ -83,8 +83,8 @@ static void check_same_topology(const topology *a, const topology *b) {
   assert_memory_equal(a->patch_id, b->patch_id, n * sizeof *a->patch_id);
 }
 
-/* Checks 101 openings. Only some of the tested openings were used to choose the grid lines. The triangles stay the same and keep
- * the bound. The number of triangles is at most 1.5 times the largest number of adapted triangles. */
+/* Checks 101 openings. Only some of the tested openings were used to choose the grid lines. The triangles stay the same, and stay
+ * within the bound. The number of triangles is at most 1.5 times the largest number of adapted triangles. */
 static void check_triangles_stay(riis_valve *valve, const char *name) {
   const riis_surface_options options = fixed_options();
   set_opening(valve, 0.5);

@@ -22,7 +22,7 @@ static double normal(void) { return sqrt(-2 * log(1 - between(0, 1))) * cosine(3
 
 enum { most = 64, most_parameters = 128 };
 
-/* Landmarks in the valve's frame in centimetres, and later in the form that riis_place takes. */
+/* The landmarks are first in the valve's frame in centimetres, and later in the form that riis_place takes. */
 typedef struct patient {
   int n;
   double xyz[most][3];
@@ -501,7 +501,7 @@ TEST(test_noisy_sectors) {
   }
 }
 
-/* Held sectors and heights stay, and the other cusps share the rest. */
+/* Held sectors and heights keep their values, and the other cusps share the rest. */
 TEST(test_held_sectors) {
   const cusp_sizes c = {3, 1.25, 1.3, {130, 100, 130}, {1.9, 1.6, 1.75}};
   patient p = patient_of(&c, true);
@@ -529,7 +529,7 @@ TEST(test_held_sectors) {
   CHECK_OK(try_to_place(valve, &p, "commissure_1.height", &found));
   CHECK_NEAR(value(valve, "commissure_0.height"), 1.9, 1e-8);
   CHECK_NEAR(value(valve, "commissure_height"), 1.75, 1e-8);
-  /* The fit keeps the unequal cusps of a template that agree with the landmarks. */
+  /* If the unequal cusps of a template agree with the landmarks, the fit keeps them. */
   valve = new_valve("coapting");
   set_cusps(valve, &c);
   for (int k = 0; k < 3; ++k) CHECK_OK(riis_valve_set_scalar(valve, of("commissure", k, "height"), 2 * c.height[k]));
@@ -700,7 +700,7 @@ TEST(test_repeated_points_of_annuli) {
   }
 }
 
-/* If neither flow nor commissures are given, the horns of a saddle-shaped annulus show the atrium's side. */
+/* Without the flow and the commissures, the horns of a saddle-shaped annulus show the atrium's side. */
 TEST(test_saddle) {
   double sizes[n_sizes], ratio;
   patient p = mitral(16, true, sizes, &ratio);
@@ -1104,8 +1104,8 @@ TEST(test_refused_cusps) {
   REFUSED("aortic", "landmark 1 (commissure) says left and non_coronary|between right and left",
           (p.leaflet_id[0][0] = 0, p.leaflet_id[2][0] = 1, p.leaflet_id[4][0] = 2, p.leaflet_id[1][0] = 1,
            p.leaflet_id[1][1] = 2));
-  /* All names are given, and two have changed places. Landmark 2 k is the nadir of leaflet k, and 2 k + 1 the commissure after
-     it. */
+  /* All landmarks have names, and two of the names are exchanged. Landmark 2 k is the nadir of leaflet k, and 2 k + 1 the
+     commissure after it. */
   patient named = good;
   for (int k = 0; k < 3; ++k)
     named.leaflet_id[2 * k][0] = named.leaflet_id[2 * k + 1][0] = k, named.leaflet_id[2 * k + 1][1] = (k + 1) % 3;

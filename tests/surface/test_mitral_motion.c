@@ -208,7 +208,7 @@ static compared compare(const states *now, const states *before, double seconds,
   return made;
 }
 
-/* Some quads of the mitral valve are split. The velocity of a vertex from a split lies between the velocities of the quad's
+/* Some quads of the mitral valve are split. A vertex that a split has added has a velocity between those of the quad's
  * corners. */
 TEST(vertices_move_as_the_oracles) {
   double share = 0;

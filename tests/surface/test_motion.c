@@ -363,7 +363,7 @@ TEST(time_goes_back) {
   }
 }
 
-/* A vertex that is moved back by its velocity is a point of the earlier surface, on the same patch at the same u and v. */
+/* Moving a vertex back by its velocity gives a point of the earlier surface, on the same patch at the same u and v. */
 TEST(vertices_come_from_their_place_before) {
   double worst = 0, worst_uv = 0;
   for (int trial = 0; trial < trials_of(36); ++trial) {
@@ -409,7 +409,7 @@ TEST(vertices_come_from_their_place_before) {
   CHECK_AT_MOST(worst_uv, 0.1);
 }
 
-/* Steps of a thousandth give the speeds of steps of a fiftieth. The longer steps are hardly affected by rounding and jumps. */
+/* Steps of a thousandth give nearly the same speeds as steps of a fiftieth. Rounding and jumps hardly affect the longer steps. */
 TEST(no_vertex_of_the_aortic_valve_is_an_outlier) {
   riis_valve *valve = random_valve(0), *before = copy_of(valve);
   riis_surface *surface = new_surface(valve, NULL);

@@ -74,8 +74,8 @@ TEST(rounding_of_a_period_does_not_matter) {
   check_table(&table, 0.8 + 0.15, 0.5, 1 / 0.3);
 }
 
-/* Returns the distance of a time from a key n_periods later. The unit is the rounding of the largest of the time, the key and the
- * period. */
+/* Returns the distance of a time from a key's repetition n_periods later. The unit is the rounding error of the largest number
+ * among the time, the key and the period. */
 static double units_from_key(double time, double key, double period, int n_periods) {
   const long double distance = fabsl((long double)time - key - (long double)period * n_periods);
   return (double)(distance / (DBL_EPSILON * fmaxl(fmaxl(fabsl(time), fabsl(key)), period)));
@@ -417,8 +417,8 @@ TEST(closing_leaflets_do_not_open_the_valve_again) {
 /* Advances a law to a time, with pressures and flows that are functions of time. */
 typedef void driven_step(void *state, double time);
 
-/* Half way, the law's state is copied, and a law continues from the copy, as after a restart. The bits at the end do not depend
- * on the copy. */
+/* Half way, the law's state is copied, and a law continues from the copy, as after a restart. At the end, this law has the same
+ * bits as the law without a restart. */
 static void check_restart(driven_step *advance, void *state, void *kept, size_t size) {
   enum { n_steps = 600, half = n_steps / 2 };
   for (int i = 1; i <= n_steps; ++i) {

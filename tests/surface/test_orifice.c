@@ -132,8 +132,8 @@ static double meets(double ax, double ay, double bx, double by) {
   return (ay >= 0) == (by >= 0) ? NAN : ax + (bx - ax) * ay / (ay - by);
 }
 
-/* Returns the area of the orifice by lines at an angle to the axes. The parts of a line count that lie inside the outline and are
- * not covered by a triangle. If the radius is 0, the outline is the attachment. */
+/* Returns the area of the orifice by lines at an angle to the axes. On each line, only the parts inside the outline count that no
+ * triangle covers. If the radius is 0, the outline is the attachment. */
 static double area_by_turned_lines(const riis_surface *surface, double radius, const double *axis) {
   enum { n_lines = 1500 };
   const double c = cos(0.37), s = sin(0.37), reach = radius > 0 ? radius : 3, spacing = 2 * reach / n_lines;

@@ -183,7 +183,7 @@ TEST(bands_have_the_orifice_of_their_narrow_end) {
   CHECK_NEAR(none.area + none.outline_area + none.perimeter + none.effective_area, 0, 0);
 }
 
-/* Keyframes give the numbers that arrays with the same vertices give. */
+/* Keyframes give the same numbers as arrays with the same vertices. */
 TEST(keyframes_have_the_orifice_of_their_arrays) {
   riis_valve *valve = new_valve("mitral");
   riis_surface_options options = surface_options();
@@ -250,8 +250,8 @@ TEST(contacts_have_known_areas) {
                  2e-3 * s * s * reach * 4);
     const riis_coaptation none = coaptation_of(parallel, s * apart * 0.7 + 1e-9 * s, RIIS_ALL_LEAFLETS);
     CHECK_NEAR(none.area + none.edge, 0, 0);
-    /* A reach far below the plates' size costs no additional work. The plates overlap in a strip, because the whole overlap is
-     * divided into small parts. */
+    /* A reach far below the plates' size must cost no more work. The library divides an overlap into small parts, so the plates
+     * overlap only in a strip. */
     const double strip = 0.15;
     const riis_surface *nearby = plates(w, 0, w - strip, 2e-6, &options);
     CHECK_NEAR(coaptation_of(nearby, s * 1e-6, RIIS_ALL_LEAFLETS).area, 0, 0);

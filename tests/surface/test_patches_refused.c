@@ -131,7 +131,7 @@ TEST(sides_have_to_meet) {
                      "side v = 1 ends in (1, 1, 0), side u = 1 ends in (3, 1, 0)");
   CHANGED_IS_REFUSED(square.reversed[1] = 1, RIIS_INVALID_PARAMETER,
                      "side v = 1 begins in (1, 1, 0), side u = 0 ends in (0, 1, 0)");
-  /* A gap of up to 1e-9 of the valve's size counts as rounding by the caller. The size is sqrt(2) here. */
+  /* A gap of up to 1e-9 of the valve's size counts as the caller's rounding error. The size is sqrt(2) here. */
   CHANGED_IS_REFUSED(arrays.control[5] = 2e-9, RIIS_INVALID_PARAMETER, "patch 0 does not close");
   shape nearly = unit_square();
   nearly.control[0][1][2] = 1e-9;

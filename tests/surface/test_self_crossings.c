@@ -58,7 +58,8 @@ static void add_random(soup *s) {
   }
 }
 
-/* Triangles have small whole coordinates, so they share corners and sides, lie in common planes, and cross exactly there. */
+/* Triangles have small whole coordinates. They therefore share corners and sides, lie in common planes, and cross exactly at
+   corners and sides. */
 static void add_whole_numbers(soup *s) {
   const int64_t largest = random_integer(1, 4);
   const int in_plane = one_in(3);
@@ -86,7 +87,7 @@ static void add_touching(soup *s) {
     const double shift = one_in(2) ? 0 : ldexp(random_between(&rng, -1, 1), -(int)random_integer(2, 50));
     for (int i = 0; i < 3; ++i) {
       other[i] = point[i] + shift;
-      /* Mirrors the corner on some axes only. The triangles are then only near each other. */
+      /* Mirrors the corner on some axes only. The triangles then do not touch, but are near each other. */
       if (one_in(3) && k % 2) other[i] = 2 * point[i] - other[3 + i];
     }
     if (k % 4 == 0)

@@ -52,7 +52,7 @@ static riis_valve *copy_of(const riis_valve *valve) {
 
 enum { max_parameters = 128 };
 
-/* The values that were set. The expected values of a valve follow from the values that were set. */
+/* The values that were set, from which the expected values of a valve follow. */
 typedef struct model {
   const char *kind;
   int64_t n;
@@ -354,7 +354,7 @@ TEST(all_values_are_set_when_read_back) {
   CHECK_SAME(value_of(back, "bending_height"), value_of(valve, "bending_height"));
 }
 
-/* An open state keeps the values that its rules gave during the call, as if the caller had set all values. */
+/* An open state keeps the values that its rules gave when the state was set, as if the caller had set all values. */
 TEST(open_states_follow_their_own_rules) {
   riis_valve *valves[2], *open = new_valve("trileaflet"), *all_set = new_valve("trileaflet");
   CHECK_OK(riis_valve_set_scalar(open, "annulus", 2.6));

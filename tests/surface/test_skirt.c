@@ -863,8 +863,8 @@ TEST(skirts_of_warped_cusps_cross_nothing) {
   CHECK_MET(n_judged > 0.9 * n_states);
 }
 
-/* The ends of two cusps move past each other, and the line between them turns. A jump of the skirt would still be as large within
- * a 64th of the step. */
+/* The ends of two cusps move past each other, and the line between them turns. A jump of the skirt would stay as large in a 64th
+ * of the step. */
 TEST(skirts_move_continuously_with_a_warp) {
   const int n_trials = trials(4, 60);
   int n_turned = 0; /* by more than 45 degrees */

@@ -38,7 +38,7 @@ static double distance_between(const double *a, const double *b) {
 
 static double dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-/* The skirt leads away from this line: it passes through the centroid of the attached edges, along their vector area. */
+/* The skirt leads away from this line, which passes through the centroid of the attached edges along their vector area. */
 typedef struct line {
   double centre[3], direction[3];
 } line;
@@ -137,7 +137,7 @@ static void check_same_measures(const riis_surface *with, const riis_surface *ba
 }
 
 /* A valve from arrays has the axis of a valve from patches. For the built-in mitral valve the axis is vertical. For the built-in
- * aortic valve the axis is that of the root. The following limits allow for axes at an angle to these directions
+ * aortic valve the axis is that of the root. The following limits allow for an angle between the axes and these directions
  * (docs/theory/skirt.md). */
 static const double share_of_length[n_kinds] = {0.005, 0.005, 0.02, 0.1};
 

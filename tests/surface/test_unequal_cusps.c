@@ -321,7 +321,7 @@ TEST(attachments_are_on_the_cylinder) {
   }
 }
 
-/* Returns the length of half an open free edge without sag. The length is measured along chords, and the document gives the
+/* Returns the length of half an open free edge without sag. The length is measured along chords. docs/theory/coapting.md has the
  * formulas. */
 static double open_length(double ratio, double radius, double half_sector, double expansion) {
   const double s = sin(half_sector), c = cos(half_sector), w = 4 / 3.0 * tan(half_sector / 4) * radius;
@@ -361,7 +361,8 @@ TEST(wide_cusps_open_as_far_as_their_edge_allows) {
   }
 }
 
-/* Together, the free and the fused part are the healthy closed edge. The fused part follows the present commissure. */
+/* The free part and the fused part together form the closed edge of the healthy valve. The fused part follows the present
+   commissure. */
 TEST(fused_parts_stay_as_in_the_closed_valve) {
   for (int kind = 0; kind < 3; ++kind) {
     const int n = n_cusps_of(kind);
@@ -640,7 +641,7 @@ TEST(equal_cusps_become_unequal_in_motion) {
     }
     n_moving += fastest > 0.01;
     worst = fmax(worst, off);
-    /* In the reverse direction, the build of the earlier state changes the bits only by rounding. */
+    /* In the reverse direction, making the earlier state changes the bits only by rounding. */
     riis_surface *from_patches = new_surface(unequal, &options);
     CHECK_OK(riis_surface_update_moving(other, unequal, equal, 0.01, NULL, NULL));
     CHECK_OK(riis_surface_update_moving(from_patches, unequal, of_patches, 0.01, NULL, NULL));

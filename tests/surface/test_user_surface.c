@@ -126,8 +126,8 @@ TEST(winding_is_the_callers_unless_flipped) {
   assert_int_equal(closest_to(flipped, 0.9, 0.1, 1).side, -1);
 }
 
-/* Two triangles lie back to back. At the common edges, the sum of the triangles' normals is 0 up to rounding, so the side of a
- * point follows from the reported triangle alone. */
+/* Two triangles lie back to back. At the common edges, the triangles' normals add up to 0 except for rounding. The side of a
+ * point therefore follows from the reported triangle alone. */
 TEST(side_of_folded_faces_is_the_triangles_own) {
   const double points[9] = {0.1, 0.2, 0.3, 1.7, 0.4, 0.1, 0.3, 1.9, 0.7};
   const int32_t faces[6] = {0, 1, 2, 1, 0, 2};

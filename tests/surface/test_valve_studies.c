@@ -38,8 +38,8 @@ static int crosses(riis_valve *valve, riis_crossings *crossings) {
   return 0;
 }
 
-/* The bound on a number of sets is a share of n sets. For few sets, the bound is wider by three standard deviations, because
- * chance may exceed the share. */
+/* The bound on the number of bad sets is a share of all n sets. For few sets, the bound is wider by three standard deviations,
+ * because chance may exceed the share. */
 static double at_most(double share, int n) {
   return n * share + (is_long_test() ? 0 : 3 * sqrt(n * share * (1 - share)));
 }
@@ -153,7 +153,7 @@ TEST(fills_find_gaps) {
 /* --- Symmetry ---------------------------------------------------------------------------------------------------------- */
 
 /* Makes the same valve with its leaflets in another order: leaflet `shift` becomes leaflet 0. A mirror image also reverses the
- * order, and each free edge. */
+ * order of the leaflets and the direction of each free edge. */
 static riis_valve *reordered(const riis_valve *valve, int n_leaflets, int shift, int is_mirrored) {
   riis_valve *made = NULL;
   int64_t n;

@@ -441,7 +441,7 @@ TEST(warped_curves_are_near_mapped_curves) {
   CHECK_AT_MOST(worst_angle, 1e-3);
 }
 
-/* If the patches are Coons patches, a valve from the patches that are read out equals the first valve. */
+/* A valve of Coons patches equals the valve that is made from its own patches. */
 TEST(patches_make_the_same_valve) {
   for (int trial = 0; trial < trials_of(36); ++trial) {
     const int owned_before = n_owned(), is_warped = trial / 2 % 2;
@@ -880,8 +880,8 @@ TEST(folds_are_found_and_named) {
   assert_memory_equal(mapped[0], mapped[1], sizeof mapped[0]); /* a refusal changes nothing */
 }
 
-/* A warp may turn over a part of a patch, or fold at a patch but not at landmarks. A warp that turns over or folds a patch is
- * refused, and the message names the patch. */
+/* A warp is refused if it turns over a part of a patch, or if it folds at a patch but not at landmarks. The message names the
+ * patch. */
 TEST(folds_at_patches_are_named) {
   riis_valve *valve = new_valve("trileaflet");
   riis_surface *surface = new_surface(valve, NULL);

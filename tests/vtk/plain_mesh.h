@@ -19,7 +19,7 @@ typedef struct plain_mesh {
 plain_mesh plain_hexahedra(int n, const double lower[3], const double upper[3]);
 /* Cuts each hexahedron into six tetrahedra around one of its diagonals. Each side of a tetrahedron gets a node in its middle. */
 plain_mesh plain_quadratic_tetrahedra(const plain_mesh *hexahedra);
-/* Cuts each quadratic tetrahedron at its nodes into eight tetrahedra: one at each corner, and four around a line between the
+/* Cuts each quadratic tetrahedron at its nodes into eight tetrahedra. Four are at the corners, and four around a line between the
  * middles of two opposite sides. If n_parts is 4, makes only the tetrahedra at the corners. */
 plain_mesh plain_cut(const plain_mesh *quadratic, int n_parts);
 void plain_free(plain_mesh *mesh);

@@ -462,7 +462,7 @@ TEST(test_gmsh_sections) {
                  "has a second section $ParametricNodes, which differs from the first");
 }
 
-/* Version 2 writes the cells of two physical groups twice, with separate numbers. */
+/* Version 2 writes a cell of two physical groups twice, with separate numbers. */
 TEST(test_gmsh_groups) {
   char text[2048] =
       "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n5\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 1 1 1\n"

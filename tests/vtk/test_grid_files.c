@@ -271,7 +271,7 @@ TEST(test_descending_axes) {
   }
 }
 
-/* Arrays that are set on axes return from a .vti and a .vtr, whose axes have the same bits. */
+/* Arrays that are set on axes can be read again from a .vti and a .vtr, and the axes of these files have the same bits. */
 TEST(test_written_axes) {
   for (int trial = 0; trial < trials(10, 100); ++trial) {
     const int is_image = trial % 2;

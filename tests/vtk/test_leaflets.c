@@ -22,8 +22,8 @@ static int random_below(int n) {
 
 enum { most_faces = 60 };
 
-/* Random triangles on few points, so that some triangles touch. Each z is 0 or -0, which are equal positions. The expected pieces
- * come from a loop: the lowest face's number spreads to touching faces until nothing changes. */
+/* Random triangles on few points, so that some triangles touch. Each z is 0 or -0, which are equal positions. A loop gives the
+ * expected pieces: the number of the lowest face spreads to touching faces until nothing changes. */
 static int write_random_faces(const char *name, int n_faces, int n_lattice, int pieces[most_faces]) {
   static char text[most_faces * 200 + 100];
   int corners[most_faces][3];

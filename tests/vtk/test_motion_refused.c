@@ -295,7 +295,7 @@ static int is_read_or_refused(const char *name) {
   return read || (status == RIIS_FILE_ERROR && strstr(riis_last_error(), ": "));
 }
 
-/* A collection is cut off after each of its bytes. Other bytes also replace each byte. */
+/* A collection is cut off after each of its bytes. Each byte is also replaced by other bytes. */
 TEST(test_damaged_collections) {
   static const unsigned char others[] = {0, '<', '"', '&', 0xff};
   char text[] = "<?xml version=\"1.0\"?>\n" COLLECTION("\n" DATA_SET("0", "a.vtp") "\n" DATA_SET("0.5", "a.vtp"));

@@ -45,8 +45,8 @@ enum { n_around = 40, n_rings = 30, n_tube = n_around * n_rings + 2, n_sides = 2
 enum { n_tube_triangles = n_sides + 2 * n_around };
 
 /* Makes a tube of any size, place and direction. `noise` moves the vertices between the ends, and the rims in the planes of the
- * ends, as a share of the radius. The second end's plane has a separate angle. If `open` is not 0, this end has no cap. Returns
- * the number of triangles. */
+ * ends, as a share of the radius. The second end's plane has a separate angle. If `open` is not 0, the second end has no cap.
+ * Returns the number of triangles. */
 static int64_t make_tube(random_source *random, double noise, int open, double *xyz, int64_t *corners) {
   const double size = random_power_of_ten(random, -3, 3), tilt = random_between(random, 0, 0.6);
   double frame[3][3], shift[3];

@@ -28,8 +28,8 @@ int shim_write_box(const char *path, int encoding, int n, const double lower[3],
  * Returns 1 on success. */
 int shim_write_blocks(const char *path, int encoding, int compressor, int header_bits);
 
-/* Writes a legacy file of version 42 or 51 with 40 points and one tetrahedron. VTK's writer puts some data after arrays: ranges,
- * and the name of one component of "flow". The file has such data. The file's last array is the bit array "bits". Returns 1 on
+/* Writes a legacy file of version 42 or 51 with 40 points and one tetrahedron. The file has the data that VTK's writer puts after
+ * arrays: ranges, and the name of one component of "flow". The file's last array is the bit array "bits". Returns 1 on
  * success. */
 int shim_write_legacy(const char *path, int binary, int version);
 

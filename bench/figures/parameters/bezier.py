@@ -62,7 +62,7 @@ def at_share(pieces, share):
 
 def parameter(piece, where):
     """Returns the parameter of the span's point that is nearest to `where`. The search starts from the best of many samples, and
-    narrows the interval around it."""
+    narrows the interval around this sample."""
     n = 64
     best = min(range(n + 1), key=lambda i: math.dist(point(piece, i / n), where))
     low, high = max(0, best - 1) / n, min(n, best + 1) / n

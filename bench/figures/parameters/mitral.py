@@ -203,7 +203,7 @@ def hang(panel, arc, name, at, color, inwards):
 
 
 def draw_arc(sheet, valve):
-    """Draws the free edge in the frame in which its cubic is made. There the cubic approximates an arc of a circle."""
+    """Draws the free edge in the frame in which its cubic is made. In this frame, the cubic approximates an arc of a circle."""
     panel = sheet.panel((12.45, 4.1), (2.45, 3.45), "e   A free edge", (-1.35, -1.6), 1.1)
     (edge,) = valve.anterior
     chord = [b - a for a, b in zip(edge[0], edge[3])]

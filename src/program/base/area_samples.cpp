@@ -18,9 +18,9 @@ double area_of(const double *a, const double *b, const double *c) {
   return 0.5 * hypotenuse(p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]);
 }
 
-// Points that fill a triangle evenly, one after the other (Roberts's sequence). The corners of the triangle are (0, 0), (1, 0)
-// and (0, 1). With one fixed point in each part of the triangle, the points would form rows. A wall along a row would cut off too
-// many or too few points.
+// Yields points that fill a triangle evenly, in the order of Roberts's sequence. The corners of the triangle are (0, 0), (1, 0)
+// and (0, 1). If every part of the triangle had its point at a fixed place, the points would form rows. A wall along such a row
+// would then cut off too many or too few points.
 class Places {
  public:
   struct Place {

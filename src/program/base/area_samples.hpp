@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The input is a surface. The results are points on the surface that stand for nearly equal shares of its area.
+// The input is a surface. The results are points on this surface, and each point stands for nearly the same share of its area.
 #pragma once
 
 #include <riis/riis.h>
@@ -9,7 +9,7 @@
 
 namespace riis::program {
 
-// A run warns if a larger share of the leaflets' area than this is outside the mesh.
+// A run warns if more than this share of the leaflets' area is outside the mesh.
 inline constexpr double most_outside = 0.02;
 
 struct AreaSamples {

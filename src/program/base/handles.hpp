@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Adds handles of riis_vtk's objects to the handles of riis.hpp. Returns the content of handles as structs.
+// Wraps riis_vtk's objects in handles, as riis.hpp wraps the library's objects. Other functions copy the content of a handle into
+// a struct.
 #pragma once
 
 #include <riis/riis_vtk.h>
@@ -23,8 +24,8 @@ using Motion = Handle<riis_vtk_motion, riis_vtk_motion_destroy>;
 using Film = Handle<riis_vtk_film, riis_vtk_film_destroy>;
 using SurfaceFile = Handle<riis_vtk_surface, riis_vtk_surface_destroy>;
 
-// Calls a function of the library whose last argument receives a new object, and returns the object. Refusals begin with
-// `subject`, as in check.
+// Calls a library function whose last argument receives a new object, and returns this object. Refusals begin with `subject`,
+// like the refusals of the function check.
 template <class Object, class Call, class... Arguments>
 Object create_for(const std::string &subject, const Call &call, const Arguments &...arguments) {
   Object object;
@@ -64,7 +65,7 @@ inline std::vector<double> values_of(const riis_valve *valve, const riis_paramet
   check(riis_valve_get(valve, parameter.name, parameter.n_values, values.data()));
   return values;
 }
-// Returns whether all parameters of a valve have their default values. The parameters in `others` do not count.
+// Returns whether all parameters of a valve have their default values. The parameters in `others` may have any values.
 inline bool has_default_values(const riis_valve *valve, const std::set<std::string> &others) {
   const std::vector<riis_parameter> all = all_parameters(valve);
   return std::all_of(all.begin(), all.end(), [&](const riis_parameter &parameter) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The options of each command, as the user gave them. The program checks only the form of an option. The library checks its
+// The options of each command, as the user gave them. The program checks only the form of an option, and the library checks its
 // value.
 #pragma once
 
@@ -41,7 +41,8 @@ struct ValveOptions {
   std::optional<Unit> placed_unit;         // unit of the file of a placed valve
   bool takes_placed_unit = false;          // the user named no unit, so `unit` is that of the placed valve
   bool has_doubted_unit = false;  // the sizes contradict `unit`, so messages give the mesh's lengths without it
-  // True if the user gave the values as numbers. The reader of a case and the checks of the command line set these members.
+  // True if the user gave the scale, the half thickness or the tolerance as a number. The reader of a case and the checks of the
+  // command line set these members.
   bool has_scale = false, has_half_thickness = false, has_tolerance = false;
   std::int32_t n_threads = 0;  // 0: the library chooses by the amount of work
   bool quiet = false;
@@ -113,8 +114,8 @@ struct MarkOptions : ValveOptions {
   bool at_cells = false;   // whether the centres of cells are marked
   riis_mark_options mark_options = defaults<riis_mark_options>();
   double far_distance = RIIS_FAR_DISTANCE;
-  // The resistance R, from which the array of K follows, and the density by which OpenFOAM's K is divided. The drop is the
-  // pressure drop for the ideal leak.
+  // The array of K follows from the resistance R, and OpenFOAM's K is divided by the density. The drop is the pressure drop for
+  // the ideal leak.
   std::optional<Amount> given_resistance, given_drop, density;
   std::optional<std::string> chosen_K_unit;
   std::optional<double> resistance;           // R in the units of the mesh
@@ -172,8 +173,8 @@ struct TimeSpan {
   double start, stop;
 };
 
-// How riis export passes the ring of a bileaflet valve to the solver: as a face beside the leaflets, or not at all. The ring is
-// not passed as the solver's scaffold, because the solver adds a scaffold's K to that of the leaflets (docs/export.md).
+// How riis export passes the ring of a bileaflet valve to the solver: as a face beside the leaflets, or not at all. The ring does
+// not become the solver's scaffold, because the solver would add the scaffold's K to the leaflets' K (docs/export.md).
 enum UrisRing : std::int32_t { ring_face, no_ring };
 
 // The options of riis export.
@@ -181,7 +182,7 @@ struct ExportOptions : ValveOptions {
   std::string folder;
   std::string mesh;  // the mesh of the solver's run, for a forecast; "": none
   double time_step = 0;
-  // The forecast uses the density and the viscosity. By default, both have the values of blood.
+  // The forecast uses the density and the viscosity, which by default are those of blood.
   std::optional<Amount> given_resistance, given_density, given_viscosity;
   double resistance = 0, density = 0, viscosity = 0;  // in the solver's units, g, cm and s
   double to_solver = 1;  // the factor from the mesh's unit of length to the solver's, which is cm
@@ -195,7 +196,7 @@ struct ExportOptions : ValveOptions {
   std::int32_t ring = ring_face;                       // a UrisRing
 };
 
-// Whether riis place writes a warp to the landmarks. The landmarks' noise may smooth the warp.
+// Whether riis place writes a warp to the landmarks. The landmarks have noise, so a smoothed warp need not meet them exactly.
 enum LandmarkWarp : std::int32_t { no_warp, exact_warp, smoothed_warp };
 
 // The options of riis place.
@@ -247,7 +248,7 @@ void apply_amounts(MarkOptions &options);
 // Returns whether the user gave the valve's opening by --opening or --set.
 bool sets_opening(const ValveOptions &options);
 
-// Returns whether `name` may be the beginning of arrays' names.
+// Returns whether the names of arrays may begin with `name`.
 bool is_prefix(const std::string &name);
 
 }  // namespace riis::program

@@ -25,8 +25,8 @@ struct ProgramEnd {
   std::vector<std::string> messages{};  // all these lines
 };
 // Runs the program whose name is the first word, and waits until the program ends. A name without a slash is looked for in PATH.
-// The program reads the file `input` from its present position, or nothing if `input` is NULL. `read` gets each line of the
-// output.
+// The program reads the file `input` from its present position, or nothing if `input` is NULL. Passes each line of the output to
+// `read`.
 ProgramEnd run_program(
     const std::vector<std::string> &words, std::FILE *input = nullptr,
     const std::function<void(const std::string &)> &read = [](const std::string &) {});
@@ -37,8 +37,8 @@ std::string program_on_path(const std::string &name);
 // Returns the Python that the program starts: `python3`, or the value of the environment variable RIIS_PYTHON.
 std::string python_of_user();
 
-// Implements `riis view`: this process becomes `python3 -m riis view` with the words of the command line. The function only
-// returns by a Refusal, which says how to install a missing Python package riis.
+// Implements `riis view`: this process becomes `python3 -m riis view` with the words of the command line. The function never
+// returns. If the Python package riis is missing, a Refusal says how to install it.
 [[noreturn]] void run_view(int argc, char **argv);
 
 }  // namespace riis::program

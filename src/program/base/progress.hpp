@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The stages of a run. Each stage is timed. A stage that takes longer than a second prints a line on the terminal. In a log,
-// where each line stays, a stage prints nothing for half a minute.
+// where every line stays, a stage prints its line only after half a minute.
 #pragma once
 
 #include <chrono>
@@ -37,7 +37,7 @@ class Stage {
   std::thread watcher_;
 };
 
-// Counts the steps of a long stage. A terminal shows the count in one line, and a log gets a new line after each silence.
+// Counts the steps of a long stage. On a terminal, the count stays in one line, and a log gets a new line after each silence.
 class StepProgress {
  public:
   // Prints `what`, such as "writing", before "step 12 of 81". Prints nothing if `quiet`.

@@ -3,9 +3,9 @@
 // The input is a number as the user wrote it, perhaps with a unit. The result is the number in the units of a mesh, and the names
 // of units.
 //
-// The unit of mass is the kilogram for a mesh in metres, and the gram for a mesh in centimetres or millimetres. If the mesh's
-// unit of length is known, a number without a unit is in SI units. If the unit of the mesh is not known, the number is in the
-// mesh's units, and a number with a unit is refused.
+// The unit of mass is the kilogram for a mesh in metres, and the gram for a mesh in centimetres or millimetres. A number without
+// a unit is in SI units if the mesh's unit of length is known. Otherwise such a number is in the mesh's units, and a number with
+// a unit is refused.
 #pragma once
 
 #include <optional>

@@ -13,8 +13,8 @@ namespace {
 
 int own_rank = 0, number = 1;
 
-// An MPI type for an element of several bytes. A message has fewer elements than bytes, so the number of elements stays below
-// MPI's limit of 2^31.
+// An MPI type for an element of several bytes. MPI counts up to 2^31 elements, so a message of larger elements may have more than
+// 2^31 bytes.
 class ElementType {
  public:
   explicit ElementType(std::size_t size) {
@@ -114,7 +114,7 @@ void agree(const Refusal *failure) {
   if (failure) throw AgreedRefusal{*failure};
 }
 
-// These two functions are never called, because with a single rank gather and exchange return their argument.
+// Without MPI there is one rank, for which gather and exchange return their argument and never call these two functions.
 std::vector<std::byte> gather_bytes(const void *, std::size_t, std::size_t) { return {}; }
 std::vector<std::byte> exchange_bytes(const void *, const std::vector<std::size_t> &, std::size_t) { return {}; }
 

@@ -55,8 +55,8 @@ inline std::string with_option_named(const std::string &text) {
 }
 
 // Throws a Refusal with the library's message if the status is not RIIS_OK. Faults of files, arrays and parameters count as bad
-// data. A refused argument counts as wrong usage, because it comes from an option that is out of range. If the message does not
-// begin with `subject`, such as a file's name, then `subject` is put before it.
+// data. A refused argument counts as wrong usage, because it comes from an option that is out of range. Puts `subject`, such as a
+// file's name, before a message that does not begin with it.
 inline void check(riis_status status, const std::string &subject = "") {
   if (status == RIIS_OK) return;
   const bool data = status == RIIS_INVALID_SURFACE || status == RIIS_INVALID_MESH || status == RIIS_INVALID_PARAMETER ||

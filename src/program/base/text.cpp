@@ -208,7 +208,7 @@ double tidied(double time, double step) {
 std::vector<double> stepped(double start, double stop, double step, const std::string &subject) {
   if (!(step > 0)) refuse_usage(subject + ": the step " + shortest(step) + " is not above 0");
   if (stop < start) refuse_usage(subject + ": the stop " + shortest(stop) + " is before the start " + shortest(start));
-  // If the step divides the span, rounding could lose the last step without the small additions.
+  // Without the small additions, rounding could lose the last step of a span that the step divides.
   const double n = std::floor((stop - start) / step * (1 + 1e-12) + 1e-9) + 1;
   if (n > static_cast<double>(most_times)) refuse_count(subject, n);
   if (n < 2) refuse_usage(subject + ": the step " + shortest(step) + " is beyond the stop " + shortest(stop));

@@ -45,8 +45,8 @@ std::vector<std::string> split(const std::string &text, const char *marks);
 // joined_by puts a text between the parts. one_of returns a list for a sentence, such as "m, cm or mm".
 std::string joined_by(const std::vector<std::string> &parts, const char *between);
 std::string one_of(const std::vector<std::string> &names);
-// Returns ", did you mean NAME?" with the name nearest to a word, or "" if no name is near. The name stands between `before` and
-// `after`.
+// Returns ", did you mean NAME?" with the name nearest to a word, or "" if no name is near. `before` and `after` enclose the
+// name.
 std::string did_you_mean(const std::string &word, const std::vector<std::string> &names, const char *before = "",
                          const char *after = "");
 
@@ -66,7 +66,7 @@ std::string ending_of(const std::string &path);
 // Returns whether the path has this ending, in small letters or in capitals.
 bool has_ending(const std::string &path, const std::string &ending);
 
-// Refuses the file. The reason may quote parts of the file, however long they are.
+// Refuses the file. The reason may quote parts of the file of any length.
 [[noreturn]] void refuse_file(const std::string &path, const std::string &reason);
 
 // Refuses a file that cannot be read or is empty.

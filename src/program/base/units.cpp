@@ -67,29 +67,30 @@ std::optional<Unit> unit_of_valve(double largest_side) {
 
 namespace {
 
-// A unit fits if it makes the vessel neither narrower than the least width nor wider than the largest width. The least width
-// limits the mesh's middle side, because a valve is no wider than its vessel. The largest width limits the mesh's shortest side,
-// because a vessel is not much wider than its valve. Both widths are multiples of the valve's largest side. The two widths differ
-// by a factor of ten, so two units seldom fit.
+// A unit fits if it puts the vessel's width between the least and the largest width. The least width limits the mesh's middle
+// side, because a valve is no wider than its vessel. The largest width limits the mesh's shortest side, because a vessel is not
+// much wider than its valve. Both widths are multiples of the valve's largest side. The two widths differ by a factor of ten, so
+// two units seldom fit.
 constexpr double least_width = 0.4, largest_width = 4;
-// The longest edge of a mesh that can show the valve, as a share of the valve's largest side.
+// A mesh with longer edges cannot show the valve. The limit is a share of the valve's largest side.
 constexpr double longest_edge = 0.3;
-// The usual upper limit of edge lengths in a mesh that was made for the default half thickness, in half thicknesses.
+// In a mesh that was made for the default half thickness, edges are usually at most this number of half thicknesses long.
 constexpr double usual_edge = 3;
-// The usual lower limit of edge lengths near the valve, in half thicknesses.
+// Near the valve, edges are usually at least this number of half thicknesses long.
 constexpr double shortest_edge = 0.3;
-// Longer edges mean that the mesh was made for another valve. With the default half thickness, the limit is a number of half
-// thicknesses. Otherwise the limit is a share of the valve's largest side.
+// Edges above the limit show that the mesh was made for another valve. With the default half thickness, the limit is a number of
+// half thicknesses. Otherwise the limit is a share of the valve's largest side.
 constexpr double most_edge = 10, most_edge_of_valve = 0.4;
 // The least half thickness, as a share of the mesh's edge length. A thinner band fits between two layers of nodes, and contains
 // few nodes.
 constexpr double smallest_half_thickness = 0.3;
-// A unit is impossible if it makes the vessel much too narrow or much too wide. The larger ratio allows a valve in a wide basin.
+// A unit is impossible if it makes the vessel much too narrow or much too wide. The limit for wide vessels is larger than the
+// limit for narrow vessels, because a valve may stand in a wide basin.
 constexpr double most_too_narrow = 1.5, most_too_wide = 10;
-// The oddity of a unit measures how unlikely the unit is, as a product of ratios of at least 1. A unit is possible if its oddity
-// is at most a few times the oddity of the likeliest unit.
+// The oddity of a unit tells how unlikely the unit is. It is a product of ratios, each at least 1. A unit is possible if its
+// oddity is at most this number of times the oddity of the likeliest unit.
 constexpr double most_odd = 2.7;
-// In a wide basin, the present unit is right if every other unit is clearly odder.
+// In a wide basin, the present unit is right if the oddity of every other unit is larger by this factor.
 constexpr double surely_odder = 1.35;
 
 double excess(double ratio) { return std::max(ratio, 1.0); }
@@ -102,8 +103,8 @@ double wideness_at(double factor, const Sizes &s) {
   return excess(factor * s.mesh_sides[2] / (largest_width * s.surface.largest_side()));
 }
 
-// Returns the oddity of the sizes after the mesh's lengths are multiplied by the factor. A default half thickness has the valve's
-// unit, and the mesh's edges may be too long or too short for it.
+// Returns the oddity of the sizes after the mesh's lengths are multiplied by the factor. A default half thickness is in the
+// valve's unit, so the mesh's edges may be too long or too short for it.
 double oddity_at(double factor, const Sizes &s, double edge) {
   double oddity = narrowness_at(factor, s) * wideness_at(factor, s) *
                   excess(factor * edge / (longest_edge * s.surface.largest_side()));

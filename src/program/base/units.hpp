@@ -25,10 +25,10 @@ double factor_between(Unit from, Unit to);
 // Returns the paper's half thickness, which is 0.1 cm, in the given unit.
 double paper_half_thickness(Unit unit);
 
-// Returns the unit in which the number of a length is `factor` times its number in the unit `from`, or none.
+// Returns the unit into which `factor` converts lengths from the unit `from`, or none.
 std::optional<Unit> unit_reached(Unit from, double factor);
-// Returns the units of a surface and a mesh between which the factor converts. Returns none for the factor 1, and for a factor
-// that belongs to no two units.
+// Returns the units of a surface and a mesh between which this factor converts lengths. Returns nothing for the factor 1, and for
+// a factor that belongs to no pair of units.
 struct UnitPair {
   Unit surface, mesh;
 };
@@ -49,7 +49,7 @@ struct Box {
   }
   void grow(const double *point) { grow(point, point); }
   void grow(const Box &other) { grow(other.lower, other.upper); }
-  // Returns the box after each side was moved outwards.
+  // Returns the box with each side moved outwards by `by`.
   Box widened(double by) const {
     return {{lower[0] - by, lower[1] - by, lower[2] - by}, {upper[0] + by, upper[1] + by, upper[2] + by}};
   }
@@ -77,7 +77,7 @@ struct Moments {
   void add(const Moments &other);
 };
 
-// Returns the three sides of a mesh, the longest first. A side is at most as long as the side of the box, and at most the
+// Returns the three sides of a mesh, the longest first. A side is the shorter of two lengths: the side of the box, and the
 // diameter of a disc with the points' moment. Without points, the sides of the box are returned.
 std::array<double, 3> sides_of(const Box &box, const Moments &moments);
 
@@ -102,11 +102,11 @@ inline constexpr double usual_half_thickness = 0.04, largest_half_thickness = 0.
 // the band is so thin that it falls between the mesh's nodes.
 bool is_too_large(double half_thickness, const Sizes &sizes);
 bool is_too_small(double half_thickness, const Sizes &sizes);
-// Returns a half thickness that fits: the present half thickness times a power of ten. If no half thickness fits, returns the
-// mesh's edge length, or 0 if the edge length does not fit either.
+// Returns a half thickness that fits: the present one times a power of ten. If no power fits, returns the mesh's edge length. If
+// the edge length does not fit either, returns 0.
 double better_half_thickness(const Sizes &sizes);
 
-// The judgement of a mesh's unit. A factor stands for a unit. Multiplied by the factor, the mesh's lengths are in the surface's
+// The judgement of a mesh's unit. A factor stands for a unit of the mesh, because it converts the mesh's lengths to the surface's
 // unit.
 struct UnitJudgement {
   bool is_right;  // the sizes fit the present unit, so there is no advice
@@ -117,10 +117,10 @@ struct UnitJudgement {
 };
 
 // Judges the present unit, whose factor is 1, and the unit of each factor in `factors`. `factors` may leave out the factor 1. A
-// coarse basin in centimetres can have the same numbers as a vessel in millimetres. Without a named unit, the present unit
-// therefore stays possible even if another unit is likelier.
+// coarse basin in centimetres can have the same numbers as a vessel in millimetres. If the user named no unit, the present unit
+// therefore stays possible, even if another unit is likelier.
 UnitJudgement judge_units(const Sizes &sizes, const std::vector<double> &factors);
-// Returns whether the mesh is about as wide as the surface after its lengths are multiplied by the factor.
+// Returns whether the factor makes the mesh about as wide as the surface.
 bool is_as_wide(const Sizes &sizes, double factor);
 // All factors between two different units.
 const std::vector<double> &unit_factors();

@@ -48,7 +48,7 @@ void finish_units(ValveOptions &options) {
   apply_units(options);
 }
 
-// Refuses a motion without a time, and a time without a motion. Also refuses a period if there is neither a motion nor a cycle.
+// Refuses a motion without a time, and a time without a motion. Also refuses a period without a motion or a cycle.
 void check_motion(const Command &command, const MarkOptions &options) {
   check_surface_files(command, options);
   const bool moves = is_motion(options);
@@ -65,8 +65,8 @@ void check_open_state(const ValveOptions &options) {
     refuse_usage("--params-open has no effect with --valve " + options.valve + ": the open state is in that file");
 }
 
-// Refuses an open state if the user gave no opening. Most valves are closed by default, so the open state would have no effect,
-// and the user would not notice.
+// Refuses the parameters of an open state if the user gave no opening. Without an opening the valve stays closed, so these
+// parameters would have no effect, and the user would not notice.
 void check_open_state_is_met(const MarkOptions &options) {
   if (!options.params_open.empty() && !sets_opening(options) && options.series.cycle.empty())
     refuse_usage("--params-open needs --opening or --cycle: without them the valve stays closed");
@@ -104,7 +104,7 @@ void finish_valve(const Command &command, ValveOptions &options) {
   finish_units(options);
 }
 
-// Completes the options of a surface in a mesh. If the command lacks an option, the option has its default. `sweeps_openings`
+// Completes the options of a surface in a mesh. An option that the command does not have keeps its default. `sweeps_openings`
 // says whether the command itself opens the valve.
 void finish_surface_in_place(const Command &command, MarkOptions &options, bool sweeps_openings = false) {
   check_valve(command, options);
@@ -119,8 +119,8 @@ void check_distance(const Command &command, const MarkOptions &options) {
     refuse_usage("--distance-tolerance has no effect with --distance triangles, whose error --tolerance sets");
 }
 
-// Refuses options for the looks of pictures if there is neither a picture nor a movie. Also refuses options for looks that a
-// movie, or a picture without a mesh, cannot have.
+// Refuses options for the looks of pictures if there is neither a picture nor a movie. Also refuses options that do not fit a
+// movie, and options that need a mesh if there is none.
 void check_style(const Command &command, const MarkOptions &options) {
   const std::string &movie = options.series.movie;
   const PictureStyle &style = options.style;
@@ -163,8 +163,8 @@ void check_solver_scale(const ExportOptions &options) {
                " in place of --scale; riis export then converts the lengths");
 }
 
-// svMultiPhysics gets numbers in grams, centimetres and seconds. Without --unit, numbers are taken as they are, because they are
-// in the solver's units.
+// svMultiPhysics gets numbers in grams, centimetres and seconds. Without --unit, numbers count as numbers in the solver's units,
+// so nothing is converted.
 void finish_solver_units(ExportOptions &options) {
   check_solver_scale(options);
   const auto in_solver_units = [&](const std::optional<Amount> &given, const Quantity &quantity, double usual) {
@@ -180,8 +180,8 @@ void finish_solver_units(ExportOptions &options) {
   options.viscosity = in_solver_units(options.given_viscosity, a_viscosity, blood_viscosity);
 }
 
-// Converts the area into the mesh's unit. The parameters of a kind are in centimetres. Without --scale the mesh's unit is
-// therefore known.
+// Converts the area into the mesh's unit. The parameters of a kind are in centimetres. If such a valve is not scaled, its mesh is
+// in centimetres, too.
 void finish_areas(AreaOptions &options) {
   const bool is_in_centimetres = !options.has_scale && !is_valve_file(options.valve);
   const std::optional<Unit> unit = options.unit        ? options.unit

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The command line: from argc and argv to the command and its options, and the texts of help.
+// Turns argc and argv into a command with its options, and has the texts of help.
 #pragma once
 
 #include <cstdint>

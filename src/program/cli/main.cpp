@@ -64,7 +64,7 @@ int run_and_report(int argc, char **argv) {
 
 int main(int argc, char **argv) {
   occupy_closed_streams();
-  // Ignores SIGXFSZ. A write beyond the limit of file sizes then fails, but does not end the process.
+  // Ignores SIGXFSZ. A write beyond the limit of file sizes then fails without ending the process.
   std::signal(SIGXFSZ, SIG_IGN);
   const riis::program::ranks::Session session(&argc, &argv);
   return run_and_report(argc, argv);

@@ -33,7 +33,7 @@ ExitCode run_patient(const PatientOptions &options);
 // names the files.
 void export_uris(const ExportOptions &options);
 // The files of an export, after they are written. `named_folder` is the path of the folder as the solver will see it. In the
-// block, the paths of the files begin with `named_folder`.
+// printed block of the solver's input, the paths of the files begin with `named_folder`.
 struct UrisExport {
   std::string block;
   std::string failure;  // why the drop was not found; "" if it was found, or without a mesh
@@ -41,7 +41,8 @@ struct UrisExport {
 UrisExport write_uris(const ExportOptions &options, const std::string &named_folder);
 
 // riis size-field. The inputs are valves and their motion. The result is a grid of edge lengths that gmsh reads. The edges are
-// short near the valves. Each edge length follows from the least distance of the grid's point from the valves at any time.
+// short near the valves. The edge length at a point of the grid follows from the point's least distance from the valves over all
+// times.
 ExitCode run_size_field(const SizeFieldOptions &options);
 
 // The input is the user's request. The results are the files, and the report on stdout. Returns exit_none_marked if no node was

@@ -39,7 +39,7 @@ struct Solution {
 
 std::string words_of(const AreaOptions &options) { return options.is_effective ? "effective area" : "area"; }
 
-// Returns a number with nine digits. Nine digits suffice to get the area again from an opening or a size.
+// Returns a number with nine digits. With nine digits, the printed opening or size gives the same area again.
 std::string exact(double number) { return printed("%.9g", number); }
 
 std::string text_of_range(const AreaOptions &options, const riis_area_range &range) {
@@ -47,7 +47,7 @@ std::string text_of_range(const AreaOptions &options, const riis_area_range &ran
          " goes from " + exact(range.least) + " to " + exact(range.most);
 }
 
-// If the user chose no opening, a size is found for the open valve.
+// A search for a size opens the valve if the user gave no opening.
 Valve valve_of(const AreaOptions &options) {
   Valve valve = make_valve(options);
   if (options.solve == "opening" || sets_opening(options)) return valve;
@@ -68,8 +68,8 @@ class Search {
 
   const riis_valve *valve() const { return valve_; }
 
-  // After a search for a closed valve's size, warns if the band closes the valve's gap. Without a half thickness, the band is not
-  // known.
+  // After a search for a closed valve's size, warns if the band closes the valve's gap. Without a half thickness the band is
+  // unknown, so there is no warning.
   void judge_gap(const Solution &found) const {
     const bool is_size = options_.solve != "opening" && options_.solve != "scale";
     if (!is_size || !options_.has_half_thickness || opening_of(valve_) != 0) return;
@@ -119,7 +119,7 @@ class Search {
   riis_area_search search_ = defaults<riis_area_search>();
 };
 
-// Tells where the area stops growing or falling. If the area turns, several openings or sizes have the same area.
+// Tells where the area stops growing or falling. Beyond such a turn, another opening or size can have the same area again.
 void warn_of_turns(const AreaOptions &options, const riis_area_range &range) {
   if (range.n_turns == 0) return;
   std::vector<std::string> places;
@@ -132,8 +132,8 @@ void warn_of_turns(const AreaOptions &options, const riis_area_range &range) {
        "; if there are several solutions, the command finds " + taken + ", and --from and --to lead to the others");
 }
 
-// A run warns of a larger relative error. Where adapted triangles change, the area jumps by less than this, except for small
-// areas.
+// A run warns of a larger relative error. Where the adapted triangles change, the area jumps. The jump is smaller than this
+// error, except for small areas.
 constexpr double fair_error = 1e-4;
 
 void warn_of_jumps(const Areas &wanted, const Solution &found) {
@@ -163,7 +163,8 @@ std::string text_of_size(const AreaOptions &options, const riis_valve *valve, co
          summary_line("range", text_of_range(options, found.range)) + summary_line("cost", text_of_cost(found.range));
 }
 
-// The rate of a cubic is a parabola between two keys. The opening therefore changes fastest at a key or at the parabola's vertex.
+// Between two keys the opening is a cubic, so its rate is a parabola. The opening therefore changes fastest at a key or at the
+// parabola's vertex.
 std::string text_of_rate(const OpeningLaw &law, std::vector<double> times, double period) {
   if (period > 0) times.push_back(times.front() + period);
   double fastest = 0, at = times.front();

@@ -14,7 +14,8 @@
 namespace riis::program {
 namespace {
 
-// Returns advice about the band. No parameter of a valve sets the band.
+// Returns advice about the band for a valve of this kind. No parameter sets the band, so the table of parameters says nothing
+// about it.
 std::string advice_on_band(const std::string &kind) {
   if (kind == "bileaflet") return "band: leave --offset at 0, because the flow passes on both sides of the leaflets\n";
   std::string advice =
@@ -48,7 +49,7 @@ ExitCode run_command(const Request &request) {
   return exit_fine;
 }
 
-// Several ranks share the work only if the mesh has pieces. A case may name a mesh in pieces.
+// Several ranks share the work only if the mesh has pieces. The mesh of a case file may also have pieces.
 bool has_ranks(const Request &request) {
   const auto *options = std::get_if<MarkOptions>(&request);
   return options && (is_in_pieces(options->mesh) || !options->series.case_file.empty());

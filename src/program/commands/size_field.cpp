@@ -26,8 +26,8 @@ namespace {
 // The largest number of points of the grid.
 constexpr std::int64_t most_field_points = 20'000'000;
 
-// Returns the valves and their times. If neither times nor an opening are given, a valve of the command line moves through all
-// openings.
+// Returns the valves and their times. If the user gives neither times nor an opening, the valve of the command line moves through
+// all openings.
 Case case_of(const SizeFieldOptions &options) {
   const bool has_case = !options.series.case_file.empty();
   Case all = has_case ? read_case(options) : case_of_command_line(options);
@@ -61,9 +61,9 @@ std::vector<Edges> edges_of(const SizeFieldOptions &options, const std::vector<M
   for (const MovingValve &valve : valves) {
     const riis_surface_info info = info_of(valve.surface());
     const double half_thickness = info.half_thickness, o = info.offset, band = options.band_edge * half_thickness;
-    // Edges leak if they are longer than 2 half thicknesses. If the band has an offset o, edges beside rims already leak if they
-    // are longer than 2 sqrt(1 - o^2) half thicknesses (docs/theory/marks.md, "Offset"). Each leaking edge beside a rim has one
-    // end within `band_reach` of the rim.
+    // An edge longer than 2 half thicknesses can reach through the band, so it leaks. If the band has an offset o, an edge beside
+    // a rim already leaks if it is longer than 2 sqrt(1 - o^2) half thicknesses (docs/theory/marks.md, "Offset"). One end of such
+    // an edge is within `band_reach` of the rim.
     edges.push_back({half_thickness, o, (1 + std::abs(o)) * half_thickness, band, band * std::sqrt((1 - o) * (1 + o)),
                      options.growth, 0});
     thickest = std::max(thickest, info.half_thickness);
@@ -256,7 +256,7 @@ ExitCode run_size_field(const SizeFieldOptions &options) {
   double spacing = std::numeric_limits<double>::infinity();
   for (const Edges &one : edges) spacing = std::min(spacing, 0.5 * one.half_thickness);
   if (options.spacing) spacing = *options.spacing;
-  // The grid around the first states shows early whether the points are too many. Collecting all states may take minutes.
+  // Collecting all states may take minutes. A grid around only the first states tells earlier whether it has too many points.
   Box first = empty_box();
   for (std::size_t i = 0; i < valves.size(); ++i)
     first.grow(box_of(info_of(valves[i].surface())).widened(edges[i].reach()));

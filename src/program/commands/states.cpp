@@ -160,7 +160,7 @@ States measure_states(const StatesOptions &options) {
 
 // ---- State table ----
 
-// The summary mentions a change of a free edge's length only if it exceeds a certain share of the length.
+// The summary mentions a free edge if its length changes by more than this share.
 constexpr double fair_change = 0.1;
 // Lengths and areas count as equal if their difference can be due to rounding.
 constexpr double same = 1e-9;
@@ -271,8 +271,8 @@ std::string text_of_changes(const States &states) {
   return text.empty() ? "all " + range : "not " + range + ": " + text;
 }
 
-// Returns names of columns. Blanks and dashes in the names of leaflets become _. If a name has other special characters, as "x >
-// 0" has, all leaflets get numbers as names.
+// Returns names of columns. Blanks and dashes in the names of leaflets become _. If a name has other special characters, such as
+// those of "x > 0", all leaflets are named by numbers.
 std::vector<std::string> columns_of(const States &states) {
   std::vector<std::string> columns = states.names;
   bool are_words = true;
@@ -293,8 +293,8 @@ std::string cells_of(const riis_leaflet &now, const riis_leaflet &closed, bool h
   return text + "," + shortest(now.area) + "," + shortest(now.area / closed.area);
 }
 
-// The table has a column for the opening, then NAME_edge, NAME_edge_ratio, NAME_area and NAME_area_ratio of each leaflet, then
-// orifice_area, orifice_perimeter and effective_area. A ratio is the value divided by the value of the closed state.
+// The columns are the opening, then NAME_edge, NAME_edge_ratio, NAME_area and NAME_area_ratio of each leaflet, then orifice_area,
+// orifice_perimeter and effective_area. A ratio is the value divided by the value of the closed state.
 std::string csv_of(const States &states) {
   std::string text = states.is_of_file ? "time" : "opening";
   for (const std::string &name : columns_of(states)) {
@@ -351,8 +351,8 @@ std::string summary_of(const States &states, const StatesOptions &options) {
 
 riis_surface_options own_frame(const ValveOptions &options) {
   // The orifice of the triangles differs slightly from the orifice of the smooth valve. At the program's usual tolerance, the two
-  // orifices of the prosthesis differ by up to 0.3 %. At the tolerance chosen here, these two orifices differ by at most about
-  // 0.1 % for the prosthesis and for the aortic valve.
+  // orifices of the prosthesis differ by up to 0.3 %. The tolerance chosen here reduces the difference to at most about 0.1 % for
+  // the prosthesis and for the aortic valve.
   constexpr double fine_tolerance = 0.01;
   riis_surface_options own = options.surface_options;
   if (!options.has_tolerance) own.tolerance = fine_tolerance;

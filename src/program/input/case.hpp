@@ -32,9 +32,9 @@ struct Case {
   std::string surface_of(std::size_t valve) const;
 };
 
-// Returns the valve or the surface of the command line as a case. The case takes the opening and the time from the options, or in
-// a series the times and the cycle. A surface is read here only for a series. No output of a series may replace a frame of the
-// surface.
+// Returns the valve or the surface of the command line as a case. The case takes the opening and the time from the options, and
+// for a series the times and the cycle. For a series, the surface is read here, because no output of the series may replace one
+// of its frames.
 Case case_of_command_line(const MarkOptions &options);
 // Reads the valves' surfaces from files. A surface that was read before is not read again.
 void read_surfaces(Case &all);

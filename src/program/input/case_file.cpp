@@ -374,7 +374,7 @@ void read_valve(const MarkOptions &options, ValveSource &source) {
   }
   const SeriesOptions &series = options.series;
   source.law = OpeningLaw(read_cycle(series.cycle, options.period, series.interpolation), series.cycle);
-  // make_valve gets the largest opening, and refuses a file of patches that cannot open so far.
+  // make_valve gets the largest opening, so that it can refuse a file of patches that does not open so far.
   source.options.opening = largest_opening(source.law, options.series.times);
   source.valve = make_valve(source.options, OpeningCheck::yes, &source.warp);
 }

@@ -36,7 +36,8 @@ class Pieces {
     const std::int64_t as_it_is = sets_.root(face), turned = sets_.root(n_ + face);
     return {std::min(as_it_is, turned), turned < as_it_is};
   }
-  // Joins two faces. `turned` tells whether their orientations differ. Two faces in one piece stay as they are.
+  // Joins two faces. `turned` tells whether their orientations differ. Two faces that are already in one piece are not joined
+  // again.
   void join(std::int64_t one, std::int64_t other, bool turned) {
     if (find(one).piece == find(other).piece) return;
     sets_.unite(one, turned ? n_ + other : other);
@@ -130,8 +131,8 @@ std::vector<Triangles::Corners> joined_corners(const riis_triangles &triangles) 
 
 namespace {
 
-// Returns the leaflets that are turned over as a whole, if other leaflets are not. Along the axis of the valve, the normals of
-// all leaflets point to one side.
+// Returns the leaflets whose orientation as a whole differs from that of the other leaflets. In a correct file, the normals of
+// all leaflets point to the same side along the valve's axis.
 std::vector<std::int32_t> turned_leaflets(const riis_surface *surface, const riis_triangles &triangles) {
   constexpr double least_share = 0.05;  // of the leaflet's area, seen along the axis
   const std::int32_t skirt = info_of(surface).skirt_leaflet_id;
@@ -195,7 +196,7 @@ void warn_of_faces(const ValveOptions &options, const riis_surface *surface) {
          (faults.n_turned == 1 ? " is" : " are") +
          " turned over relative to the neighbours: normals and sides change there; ParaView's filter Surface Normals "
          "turns them back");
-  // Scattered triangles and closed pieces leave the side of a leaflet open.
+  // A leaflet with scattered turned triangles or with closed pieces has no definite side.
   if (faults.n_turned == 0 && faults.n_closed == 0)
     for (const std::int32_t leaflet : turned_leaflets(surface, triangles))
       warn(name + ": the leaflet " + name_of_leaflet(options, info_of(surface), leaflet, "") +

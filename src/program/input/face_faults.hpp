@@ -17,8 +17,8 @@ namespace riis::program {
 // Returns the corners of the triangles. Corners at equal positions are one vertex.
 std::vector<Triangles::Corners> joined_corners(const riis_triangles &triangles);
 
-// Warns of four faults: triangles whose orientation differs from their neighbours', whole leaflets that are turned over, equal
-// triangles, and closed pieces such as thick leaflets. The warnings begin with the names of --surface.
+// Warns of triangles turned against their neighbours, leaflets turned over as a whole, equal triangles, and closed pieces such as
+// thick leaflets. The warnings begin with the names of --surface.
 void warn_of_faces(const ValveOptions &options, const riis_surface *surface);
 
 // A line of open edges: the number of its edges, their total length, and the middle of the box around the line.

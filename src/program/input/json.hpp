@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The input is a JSON file, and the result is its value. The reader refuses deep nesting, repeated keys, and control characters
-// in keys, which the parser alone would accept.
+// The input is a JSON file, and the result is its value. The reader refuses three faults that the parser would accept: deep
+// nesting, repeated keys, and control characters in keys.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -18,7 +18,7 @@ namespace riis::program {
 
 using Json = nlohmann::ordered_json;
 
-// `content` names the content of the file, such as "parameters", in the refusal of a file that is nested too deeply.
+// If the file is nested too deeply, the refusal names the file's content by `content`, such as "parameters".
 Json parse_json_file(const std::string &path, const std::string &content);
 Json parse_json(const std::string &path, const std::string &text, const std::string &content);
 

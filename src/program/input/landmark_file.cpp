@@ -15,8 +15,8 @@
 namespace riis::program {
 namespace {
 
-// The words for leaflets: of a valve with three cusps, of a tricuspid valve, and of a valve with any number of cusps. In the
-// list, non_coronary stands before non, because the first fitting word counts.
+// The words for the leaflets of three groups of valves: with three cusps, tricuspid, and with any number of cusps. In the list,
+// non_coronary stands before non, because the first fitting word counts.
 struct LeafletWord {
   const char *word;
   std::int32_t leaflet_id;
@@ -252,7 +252,7 @@ void read_json(const Json &root, LandmarkFile &file) {
       to.add(name, point_of(file.path, quoted(name), value));
       continue;
     }
-    // If several landmarks may have a name, the points of a list get the name with a number. If only one landmark may have the
+    // If several landmarks may share a name, each point of the list gets the name and a number. If only one landmark may have the
     // name, the list must have one point.
     const std::optional<Place> place = place_of_name(name);
     for (std::size_t i = 0; i < value.size(); ++i) {
@@ -275,7 +275,7 @@ Unit slicer_unit(const std::string &path, const Json &list, const std::string &w
   return stated_unit(path, unit.get<std::string>());
 }
 
-// A file of 3D Slicer has many keys, and they differ between versions. Only the keys that are needed are read.
+// A file of 3D Slicer has many keys, which differ between the versions of 3D Slicer. Only the keys that are needed are read.
 void read_slicer(const Json &root, LandmarkFile &file) {
   const std::string &path = file.path;
   const Json &lists = root["markups"];
@@ -358,7 +358,7 @@ void read_fcsv(const std::string &text, LandmarkFile &file) {
       system = line.fact->second;
   }
   if (columns.empty()) {
-    // Versions 4 and 5 write the label as the twelfth of 14 cells. Version 3 writes it first.
+    // Versions 4 and 5 write the label as the twelfth of 14 cells. Version 3 writes the label as the first cell.
     const bool is_version_3 = rows.empty() || rows.front().cells.size() < 12;
     columns = is_version_3 ? std::vector<std::string>{"label", "x", "y", "z"}
                            : split("id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label", ",");
@@ -373,7 +373,7 @@ void read_fcsv(const std::string &text, LandmarkFile &file) {
   const std::size_t label = column("label");
   const std::array<std::size_t, 3> xyz = {column("x"), column("y"), column("z")};
   const std::size_t last = std::max({label, xyz[0], xyz[1], xyz[2]});
-  // Version 5 adds the status of a point after the 14 named cells: 2 for a placed point.
+  // After the 14 named cells, version 5 adds the status of the point, which is 2 for a placed point.
   constexpr std::size_t n_named = 14;
   Collector to(file);
   for (const CsvFile::Row &row : rows) {
@@ -503,7 +503,7 @@ void check_names_of_cusps(const LandmarkFile &landmarks, const std::string &kind
     else
       given.insert({role, a, b});
   }
-  // A landmark without a leaflet may be any of the missing landmarks.
+  // A landmark that names no leaflet may be any of the missing landmarks.
   if (n_without > 0 || given.empty()) return;
   std::vector<std::string> missing;
   for (const std::string &name : names_of_cusps(kind)) {

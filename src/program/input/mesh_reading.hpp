@@ -15,7 +15,7 @@ namespace riis::program {
 MeshFile read_mesh_file(const std::string &path, const std::string &cells_where);
 // Returns a sentence about the domains of the mesh if they touch. Returns "" if no cell array tells domains apart.
 std::string text_of_regions(const std::string &path, riis_vtk_mesh *mesh);
-// Returns the existing files from which an .xdmf file takes its numbers. Returns none for files of other formats.
+// Returns the existing files from which an .xdmf file takes its numbers. For files of other formats, returns an empty list.
 std::vector<std::string> data_files_of(const std::string &path);
 // Returns the notes since the last call, as lines for the beginning of the summary.
 std::string take_notes();

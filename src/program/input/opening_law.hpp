@@ -33,14 +33,14 @@ class OpeningLaw {
   bool is_constant() const { return std::holds_alternative<double>(law_); }
 
  private:
-  // Evaluates the law once. The library therefore refuses a bad law before the program does any other work.
+  // Evaluates the law once, so that the library refuses a bad law before the program does any other work.
   void rehearse() const;
 
   std::variant<double, OpeningTable, riis_opening_times> law_;
   std::string subject_;
 };
 
-// Returns the largest opening at these times. Without times, the law must be constant, and the function returns its opening.
+// Returns the largest opening at these times. Without times, returns the opening of the law, which must be constant.
 double largest_opening(const OpeningLaw &law, const std::vector<double> &times);
 
 // Returns the names of the constants RIIS_INTERPOLATION_*. A name's position in the list is the value of its constant.

@@ -47,7 +47,7 @@ std::string held_names(std::vector<std::string> given, const LandmarkFile &landm
   return joined_by(held, " ");
 }
 
-// Returns the library's message, in which the names of landmarks and fields are those of the file.
+// Returns the library's message with the names that landmarks and fields have in the file.
 std::string in_words_of_file(std::string text, const LandmarkFile &landmarks) {
   static const std::regex numbered("landmark ([0-9]+)( \\([^)]*\\))?");
   std::string named;
@@ -98,8 +98,8 @@ std::vector<double> distances_from(const riis_valve *valve, riis_surface_options
   return distances_to(create<Surface>(riis_surface_create, closed, &where), xyz, closest);
 }
 
-// Returns the landmarks' places from which an exact warp starts. A commissure of the paper's valve lies between the ends of two
-// cusps, and only a warp that starts at one of the ends takes the valve to the landmark.
+// Returns the places on the valve that an exact warp takes to the landmarks. A commissure of the paper's valve lies between the
+// ends of two cusps. Only a warp that starts at one of these ends takes the valve to the landmark.
 std::vector<double> places_on_valve(const Placed &placed, const riis_valve *valve) {
   if (placed.kind != "aortic") return placed.places;
   std::vector<double> closest;
@@ -110,7 +110,7 @@ std::vector<double> places_on_valve(const Placed &placed, const riis_valve *valv
   return closest;
 }
 
-// Finds the pairs of landmarks for the warp. Refuses two landmarks if no warp can take both to their places.
+// Finds the pairs of landmarks for the warp. Refuses a pair of landmarks that no warp can take to their places at once.
 void pair_landmarks(Placed &placed, const riis_valve *valve, bool is_exact) {
   const LandmarkFile &landmarks = placed.landmarks;
   const auto apart = [](const std::vector<double> &xyz, std::size_t i, std::size_t k) {
@@ -163,8 +163,8 @@ Warp unfolded_warp(const Placed &placed, riis_valve *valve, double noise, Reader
   return warp;
 }
 
-// Returns advice for a warp that meets the landmarks but folds. For the advice, tries a warp that is smoothed according to the
-// landmarks' noise.
+// Returns advice for a warp that meets the landmarks but folds the valve. To give the advice, tries a warp that the landmarks'
+// noise smooths.
 std::string cure_of_folds(const Placed &placed, const riis_valve *valve, Reader reader) {
   const std::string smoothed = option_text(reader, "warp", "smoothed"), look = "look for a landmark in the wrong place";
   if (!(placed.noise > 0))
@@ -317,8 +317,8 @@ double distance_from_nodes(const LandmarkFile &landmarks, int64_t n_nodes, const
 
 void check_at_nodes(const LandmarkFile &landmarks, std::int64_t n_nodes, const double *nodes, const std::string &of,
                     Reader reader) {
-  // Landmarks lie on the wall, so nodes of the mesh must be near them. Landmarks that are a centimetre away from the nodes
-  // therefore belong to another place.
+  // Landmarks lie on the wall, so nodes of the mesh must be near them. Landmarks that are a centimetre away from all nodes
+  // therefore do not fit the mesh.
   const double near = factor_between(Unit::centimetre, landmarks.unit);
   const double apart = distance_from_nodes(landmarks, n_nodes, nodes, 1, 1);
   if (apart <= near) return;

@@ -62,7 +62,7 @@ LandmarkFile landmarks_of_json(const std::string &subject, const Json &root);
 // and like unit='mm' for Python.
 enum class Reader { program, python };
 
-// The user's statements about the landmarks, in addition to the file's.
+// The user's statements about the landmarks, in addition to the statements of the file.
 struct PlaceRequest {
   Reader reader = Reader::program;
   std::optional<Unit> unit;     // to which lengths are converted
@@ -73,7 +73,7 @@ struct PlaceRequest {
 // Changes the landmarks' unit and axes as the user requests.
 void adapt(LandmarkFile &landmarks, const PlaceRequest &request);
 // Returns the kind of valve that the user named. If the user named no kind, returns the kind of the landmarks' file, or "".
-// Refuses the two kinds if they differ.
+// Refuses a file whose kind differs from the user's kind.
 std::string kind_of(const LandmarkFile &landmarks, const std::string &given, Reader reader);
 
 // A size of the valve.
@@ -104,8 +104,8 @@ struct Placed {
   std::vector<double> still_off;  // distances of the landmarks from the warped closed valve, exact to a micrometre
 };
 
-// Finds the sizes and the placement of the valve from the landmarks. The parameters in `held` and the parameters that the
-// landmarks' file states keep the values that the caller has set.
+// Finds the sizes and the placement of the valve from the landmarks. The parameters in `held` keep the values that the caller has
+// set. So do the parameters that the landmarks' file states.
 Placed place_by_landmarks(const LandmarkFile &of_file, riis_valve *valve, const std::string &kind,
                           const std::vector<std::string> &held, Reader reader);
 

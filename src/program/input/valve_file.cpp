@@ -40,7 +40,7 @@ class CurveFileReader {
  public:
   explicit CurveFileReader(const std::string &path) : path_(path) {}
 
-  // In refusals, `where` comes before the names. It is "" or "open: ".
+  // In refusals, `where` comes before the names of curves. It is "" or "open: ".
   Curves curves_of(const Json &root, const std::string &where) const {
     const Json &list = member(root, "curves", where);
     if (!list.is_object())
@@ -157,7 +157,7 @@ class CurveFileReader {
 
   std::int32_t leaflet_of(const Json &value, const std::string &subject) const {
     constexpr std::int32_t most = std::numeric_limits<std::int32_t>::max();
-    // The comparison also refuses a negative number, because it is too large after conversion to an unsigned number.
+    // As an unsigned number, a negative number is very large, so the comparison also refuses it.
     if (!value.is_number_integer() || value.get<std::uint64_t>() > static_cast<std::uint64_t>(most)) {
       refuse(subject + ": leaflet is " + value.dump() + "; it must be a whole number from 0 to " +
              std::to_string(most));
@@ -230,7 +230,8 @@ ValveFile::ValveFile(const std::string &path) {
 
 namespace {
 
-// Returns whether the file is a JSON file that names a kind of valve. If a file cannot be read, its own reader refuses it later.
+// Returns whether the file is a JSON file that names a kind of valve. If a file cannot be read, the reader of its format refuses
+// it later.
 bool names_kind(const std::string &path) {
   std::ifstream file(path);
   const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};

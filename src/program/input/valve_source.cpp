@@ -334,7 +334,7 @@ const std::set<std::string> faces_of_meshio = {".xdmf", ".xmf", ".inp", ".e", ".
 const std::set<std::string> surfaces_of_paraview = {".vtkhdf", ".pvtp", ".vtm"};
 const std::set<std::string> surfaces_only = {".stl", ".vtp", ".ply", ".ply2", ".obj", ".off"};
 
-// Returns the path in a form that a shell reads as one word and no program takes for an option.
+// Returns the path so that a shell reads it as one word, and no program takes it for an option.
 std::string path_in_shell(const std::string &path) { return shell_word(path[0] == '-' ? "./" + path : path); }
 
 std::string with_ending(const std::string &path, const char *ending) {
@@ -389,8 +389,8 @@ std::string first_file_of_list(const std::string &path) {
   return ", such as " + path_in_shell((fs::path(path).parent_path() / name).string());
 }
 
-// A .msh file may be from another version of gmsh, or from Ansys Fluent. A damaged .msh file cannot be converted. SimVascular
-// also uses the ending .msh, for an XML file that describes a mesh.
+// A .msh file may be from another version of gmsh, or from Ansys Fluent. For a damaged .msh file there is no hint, because no
+// program can convert the file. SimVascular also uses the ending .msh, for an XML file that describes a mesh.
 std::string hint_for_msh(const std::string &path, const std::string &refusal) {
   if (has_text(refusal, "is of gmsh's type")) return at_order_2(path);
   if (has_text(refusal, "of gmsh's format;")) return by_gmsh(path, "vtk");
@@ -406,8 +406,8 @@ std::string hint_for_msh(const std::string &path, const std::string &refusal) {
 
 std::string conversion_hint(const std::string &path, Content wanted, const std::string &refusal) {
   const std::string ending = ending_of(path);
-  // In a refusal, question marks replace control characters. If a path has control characters, there is no hint, because the
-  // printed command would not work.
+  // A refusal shows control characters as question marks. A path with control characters therefore gets no hint: the printed
+  // command would name another file.
   if (std::any_of(path.begin(), path.end(), is_control) || has_text(refusal, "Git LFS")) return "";
   if (wanted == Content::mesh) {
     if (ending == ".msh") return hint_for_msh(path, refusal);
@@ -430,7 +430,8 @@ std::string conversion_hint(const std::string &path, Content wanted, const std::
     const bool is_surface = surfaces_only.count(ending) != 0 || refusal.find("holds polydata") != std::string::npos;
     return is_surface ? "; --surface takes a surface" : "";
   }
-  // A .vtk file by gmsh has points and lines beside faces, and gmsh can convert it. A damaged .vtk file cannot be converted.
+  // A .vtk file by gmsh has points and lines beside faces, and gmsh can convert it. For other .vtk files there is no hint,
+  // because a damaged file cannot be converted.
   if (ending == ".vtk") return refusal.find("; a surface has") != std::string::npos ? by_gmsh(path, "stl") : "";
   if (surfaces_of_gmsh.count(ending) != 0) return by_gmsh(path, "stl");
   if (faces_of_meshio.count(ending) != 0) return by_meshio(path, "vtu");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The input is the description of a valve, from the command line or from a case. The results are the valve, or the file that has
-// its surface, and the surface itself.
+// The input is the description of a valve, from the command line or from a case. The results are the valve or the file of its
+// surface, and the surface.
 #pragma once
 
 #include <string>
@@ -32,7 +32,7 @@ class NewValve {
   // `valve` is a kind, or a file of patches. `subject` begins the refusal of an unknown kind.
   NewValve(const std::string &valve, const std::string &subject);
   operator riis_valve *() const { return valve_; }
-  // Hands over the valve. Refuses an opening if the valve's file has no open state. Otherwise the library would refuse it, and
+  // Hands over the valve. Refuses an opening if the valve's file has no open state. The library would also refuse it, but would
   // advise another valve.
   Valve take();
   Valve take_unchecked() { return std::move(valve_); }

@@ -22,13 +22,13 @@ namespace {
 
 // The number of openings at which the wall must be near enough.
 constexpr std::int32_t n_openings = 11;
-// The gap may be longer than the skirt by a small share, because the two are measured at different points.
+// The gap and the skirt are measured at different points, so the gap may exceed the skirt by this share.
 constexpr double most_beyond = 0.01;
 // The largest length of a hole in the wall, as a share of the attachment's length. A longer open line is the end of a vessel.
 constexpr double longest_hole = 0.3;
 
-// A wall that differs from its file. Its lengths are multiplied by a factor, or it is turned by half a turn about z, as between
-// the axes LPS and RAS.
+// A change that is tried on the wall of a file. The wall's lengths are multiplied by a factor, or the wall is turned half a turn
+// about z, as from the axes LPS to RAS.
 struct Change {
   const char *factor;
   bool is_turned;
@@ -174,7 +174,7 @@ void set_skirt(const ValveOptions &options, riis_valve *valve, const std::string
   if (!options.skirt) return;
   if (options.wall.empty()) {
     check(riis_valve_set_scalar(valve, "skirt_length", *options.skirt / options.surface_options.scale), subject);
-    // The library's refusal gives the skirt's length only in the valve's own unit, so the program's refusal also gives the user's
+    // The library's refusal gives the skirt's length only in the valve's own unit. The program's refusal also gives the user's
     // length. The library tests the skirt's length before it makes the triangles.
     riis_surface_options how = options.surface_options;
     how.triangulation = RIIS_TRIANGULATION_ADAPTED;

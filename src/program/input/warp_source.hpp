@@ -60,7 +60,7 @@ class WarpSource {
   double noise_ = 0;
 };
 
-// Reads the warp of --warp or of a placed valve. Refuses two warps.
+// Reads the warp of --warp or of a placed valve. Refuses --warp for a placed valve that has a warp.
 WarpSource read_warp(const ValveOptions &options);
 
 }  // namespace riis::program

@@ -56,7 +56,7 @@ class Lines:
         self.rows.append(text)
 
     def add(self, text, value, unit="", bound=None, shown=None, note=""):
-        """Adds a row. A bound is whether it holds, and its words."""
+        """Adds a row. A bound is a pair: whether it holds, and its words."""
         if bound is not None and self.is_judged:
             self.is_fine = self.is_fine and bound[0]
             note = f"{'met' if bound[0] else 'MISSED'}: {bound[1]}"
@@ -67,7 +67,8 @@ class Lines:
         self.advice += sentences
 
     def add_speed(self, text, steps, name, most):
-        """Adds the fastest speed of the steps that have one, and returns them. A bound judges it if all of them have one."""
+        """Adds the fastest speed of the steps that have one, and returns them. If all steps have a speed, a bound judges the
+        fastest one."""
         known = [step for step in steps if step.get(name) is not None]
         if known:
             speed, is_whole = max(step[name] for step in known), len(known) == len(steps)
@@ -92,7 +93,7 @@ def read_orifice():
 
 
 def add_orifice(lines, opened, motions, orifice):
-    """Adds the areas of the open valve. The blood does not see the orifice, but the part of it that the band leaves open."""
+    """Adds the areas of the open valve. Blood passes only through the part of the orifice that the band leaves open."""
     still = [step for step in opened if step["opening"] > 0.999 and not is_moving(step, motions)]
     areas = [(step["orifice"], step.get("free")) for step in opened if step.get("orifice") is not None]
     if not areas and still and orifice:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The common parts of the writers of cases: checks of a SolverCase, the solver's folder, and the replacement of names such as
-// @NAME@ in texts. Also the physiological defaults of one beat.
+// The writers of cases share these parts: checks of a SolverCase, the solver's folder, and the replacement of names such as
+// @NAME@ in texts. The file also has the physiological defaults of one beat.
 #pragma once
 
 #include <cmath>
@@ -18,8 +18,7 @@ struct Ends {
   std::vector<Boundary> outlets;
   double outlet_area = 0;
 };
-// Refuses a case that does not have exactly one inlet, one wall and at least one outlet. Also refuses a case whose lengths have
-// another unit.
+// A case must have one inlet, one wall, at least one outlet, and lengths in this unit. Refuses other cases.
 Ends ends_of(const SolverCase &solver, Unit unit);
 
 // Makes the solver's folder. Refuses a folder that already contains a case.
@@ -34,7 +33,7 @@ void write_scripts(const SolverCase &solver, const std::string &of, const std::s
 // Writes orifice.json, from which beat_table.py takes the areas of the open valve.
 void write_orifice(const SolverCase &solver);
 
-// A solver's time step, and its measured processor time per cell and step: docs/patient_openfoam.md,
+// A solver's time step, and its processor time per cell and step. The times were measured: docs/patient_openfoam.md,
 // docs/patient_svmultiphysics.md, "What it costs", and docs/patient_fenicsx.md, "What was run".
 struct SolverCost {
   const char *program;
@@ -59,7 +58,7 @@ const std::map<std::string, std::string> &case_texts();
 
 inline constexpr double mmHg = 133.322;      // Pa
 inline constexpr double usual_period = 0.8;  // s
-// The time between two files, of which the duration of a beat is a multiple. Otherwise the end of a run would have no file.
+// The time between two files. The duration of a beat is a multiple of this time, so that the end of a run has a file.
 inline constexpr double seconds_between_files = 0.02;
 inline constexpr double motion_seconds = 0.04;  // in which a valve opens, and in which it closes
 // The dwell time of the law of opening. Closing leaflets push blood back, and the pressure of this blood must not open the valve
@@ -67,25 +66,25 @@ inline constexpr double motion_seconds = 0.04;  // in which a valve opens, and i
 inline constexpr double dwell_seconds = motion_seconds;
 // Pa. The opening pressure is larger than the rounding error of the difference between two equal pressures.
 inline constexpr double opening_pressure = 50;
-// m3/s. A mitral valve closes when the flow falls below a small value, so that less blood returns.
+// m3/s. A mitral valve closes when the flow falls below this value, so that less blood returns.
 inline constexpr double closing_flow_of_mitral = 1e-4;
 
-// The systole at another heart rate than usual, as a share of the usual systole. At N beats a minute, the time from the Q wave to
-// the second heart sound is 546 ms - 2.1 ms N (A. M. Weissler et al., Circulation 37, 1968, 149-159, for men).
+// The length of the systole in a beat of this period, as a share of its usual length. At N beats a minute, the time from the Q
+// wave to the second heart sound is 546 ms - 2.1 ms N (A. M. Weissler et al., Circulation 37, 1968, 149-159, for men).
 inline double systole_at(double period) {
   const auto seconds = [](double duration) { return 0.546 - 2.1e-3 * 60 / duration; };
   return seconds(period) / seconds(usual_period);
 }
 
-// A pressure as a function of time, which is linear between its keys. The function repeats with its last time.
+// A pressure as a function of time, which is linear between its keys. The function repeats, and its last time is its period.
 struct PressureCurve {
   struct Key {
     double time, pressure;  // s, mmHg
   };
   std::vector<Key> keys;
 
-  // Returns the curve of a beat of another duration. The beat consists of a systole and a diastole, and `middle` is the time
-  // between them. The systole changes by systole_at, and the diastole has the rest of the beat.
+  // Returns the curve of a beat of another duration. The beat consists of a systole and a diastole, which meet at the time
+  // `middle`. systole_at changes the length of the systole, and the diastole takes the rest of the beat.
   PressureCurve lasting(double period, double middle, bool is_systole_first) const {
     if (period == usual_period) return *this;
     const double rest = usual_period - middle, factor = systole_at(period);
@@ -107,7 +106,7 @@ struct PressureCurve {
   }
 };
 
-// The pressure of the ventricle in a beat that begins at the end of diastole. It drives an aortic valve.
+// The pressure of the ventricle in a beat that begins at the end of diastole. This pressure drives an aortic valve.
 inline PressureCurve pressure_of_left_ventricle(double period) {
   const PressureCurve curve{
       {{0, 8}, {0.04, 8}, {0.09, 78}, {0.14, 108}, {0.2, 120}, {0.27, 112}, {0.32, 95}, {0.38, 8}, {0.8, 8}}};

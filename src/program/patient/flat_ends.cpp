@@ -92,7 +92,8 @@ class EndChoice {
     return std::any_of(b.triangles.begin(), b.triangles.end(), [&](std::int64_t i) { return of_a.count(i) > 0; });
   }
 
-  // Tells the user which flat part would be the next end. The parts are sorted by area.
+  // Remarks on the largest flat part that counts as wall but may be an end. The parts are sorted by area, so this part is the
+  // first that find_if meets.
   void remark_unclear(PatientWall &wall) const {
     const auto is_unclear = [&](const FlatPart &part) {
       return part.is_large && part.is_disc() && !part.is_facet &&
@@ -105,7 +106,7 @@ class EndChoice {
                            " is taken as wall; if it is an end, name all ends by --inlet=X,Y,Z --outlet=X,Y,Z");
   }
 
-  // Takes the flat parts that are clearly ends and that no point of the user chose.
+  // Takes the flat parts that are clearly ends, except for the parts that the user chose by points.
   void take_clear_ends(const std::string &name) {
     for (const FlatPart &part : parts_)
       if (part.is_clear() && !is_chosen(part)) chosen_.push_back({name, part});
@@ -213,7 +214,7 @@ void scale_wall(PatientWall &wall, double factor) {
 
 namespace {
 
-// Returns whether a point is inside the wall. From a point inside, the triangles cover all directions.
+// Returns whether a point is inside the wall. Seen from a point inside, the triangles cover all directions.
 bool is_in_wall(const Triangles &triangles, const Vector3 &point) {
   double angle = 0;
   for (std::int64_t i = 0; i < triangles.n(); ++i) {
@@ -329,7 +330,7 @@ namespace {
 
 // The largest mean distance of landmarks from their wall, in millimetres. Cusps and annuli are about 25 mm wide.
 constexpr double at_wall = 5;
-// Another unit or other axes are excluded if they would put the landmarks clearly farther from the wall.
+// Another unit or other axes are excluded if the landmarks would then be farther from the wall by this factor.
 constexpr double clearly_farther = 2;
 
 // The mean distance of a usual valve's landmarks from their middle, in centimetres. The range is narrower than a factor of ten,
@@ -401,7 +402,7 @@ double size_of(const LandmarkFile &landmarks) {
 
 bool is_usual(double size) { return size >= least_size && size <= largest_size; }
 
-// Returns the change of a file of landmarks that states another unit for the same numbers.
+// Returns how to change a file of landmarks so that it states another unit for the same numbers.
 std::string cure_of_unit(const LandmarkFile &landmarks, Unit other) {
   const std::string &path = landmarks.path, name = name_of(other);
   if (has_ending(path, ".fcsv"))
@@ -412,8 +413,8 @@ std::string cure_of_unit(const LandmarkFile &landmarks, Unit other) {
   return "write " + quoted(key) + ": " + quoted(name) + " in it";
 }
 
-// Refuses landmarks that have the size of a valve and lie at the wall only if their numbers have another unit than the file
-// states.
+// Refuses landmarks whose file probably states a wrong unit. In another unit, these landmarks would have the size of a valve and
+// would lie at the wall.
 void check_stated_unit(const riis_surface *wall, const LandmarkFile &landmarks) {
   for (const Unit other : {Unit::millimetre, Unit::centimetre, Unit::metre}) {
     LandmarkFile relabelled = landmarks;

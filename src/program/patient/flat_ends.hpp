@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The input is the file of a patient's wall. The results are a closed surface whose triangles face outwards, the flat ends at
-// which the vessels were cut, and the unit and the axes of the file.
+// The input is the file of a patient's wall. The results are a closed surface, the flat ends at which the vessels were cut, and
+// the unit and the axes of the file. The triangles of the surface face outwards.
 #pragma once
 
 #include <array>
@@ -50,9 +50,9 @@ PatientWall read_patient_wall(const std::string &path, const EndPoints &points =
 // Multiplies all lengths by a factor, such as 0.001 from millimetres to metres.
 void scale_wall(PatientWall &wall, double factor);
 
-// Names the ends that have no name yet. The inlet is the first end along the wall, from the place upstream of the valve. All
-// other ends are called outlet, outlet_2 and so on, beginning with the largest. `centre` is the middle of the valve's annulus,
-// and `flow` is the direction of the blood through the open valve. Refuses a centre that is outside the wall.
+// Names the ends that have no name yet. The inlet is the end that a path along the wall reaches first from the place upstream of
+// the valve. All other ends are called outlet, outlet_2 and so on, beginning with the largest. `centre` is the middle of the
+// valve's annulus, and `flow` is the direction of the blood through the open valve. Refuses a centre that is outside the wall.
 void name_ends(PatientWall &wall, const std::array<double, 3> &centre, const std::array<double, 3> &flow);
 
 // Writes all triangles as a binary .stl file.
@@ -92,7 +92,7 @@ struct ClosedSurface {
 // and says how to repair the file.
 ClosedSurface read_closed_surface(const std::string &path);
 
-// Returns a point in the form X,Y,Z, as the user writes it after an option, with digits down to a thousandth of the size.
+// Returns a point in the form X,Y,Z that options accept, with digits down to a thousandth of `size`.
 std::string point_text(const Vector3 &point, double size);
 
 }  // namespace riis::program

@@ -138,7 +138,7 @@ void write_openfoam_case(const SolverCase &the) {
   const Pressures pressures = pressures_of(the, ends);
   const std::string placed = (fs::path(the.folder) / "placed.json").string();
   const std::string valve = foam_valve_of(placed, parse_json_file(placed, "a placed valve"), the.skirt);
-  // The law of a valve that is held finds no pressure that opens the valve.
+  // No pressure reaches 1e9, so the law never opens a valve that is held.
   const std::string never = "1e9; // never\n        closed ";
   // In a rigid ventricle, much blood flows back through a mitral valve. A mitral valve therefore begins to close before the flow
   // reverses.
@@ -214,8 +214,7 @@ std::string foam_valve_of(const std::string &path, const Json &root, double long
     const std::string name = parameter.name;
     if (name == "skirt_length" && values[0] == 0 && longest > 0)
       skirt = "skirt\n{\n    patch           wall;\n    longest         " + shortest(longest) + ";\n}\n";
-    // A parameter need not be written if it follows from another parameter. Any other parameter need not be written if it has its
-    // default.
+    // A parameter is left out if it follows from another parameter, or if it has its default.
     std::int32_t is_set = 0;
     check(riis_valve_is_set(valve, parameter.name, &is_set));
     if (is_set == 0 || name == "opening" || std::any_of(parameters.begin(), parameters.end(), is_its_rule)) continue;

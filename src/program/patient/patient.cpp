@@ -39,7 +39,7 @@ Words joined(std::initializer_list<Words> lists) {
 constexpr double aortic_half_thickness = 1, mitral_half_thickness = 1.5, usual_skirt = 6, usual_noise = 0.3;
 // Limits of the half thickness. A value beyond these limits has a wrong unit, or would close the open valve.
 constexpr double least_half_thickness_mm = 0.1, most_half_thickness_mm = 4, most_skirt_mm = 30;
-// The largest usual average distance of landmarks from the wall, for landmarks that a person sets. Above the second distance, the
+// Landmarks that a person sets are usually, on average, within the first distance from the wall. Beyond the second distance, the
 // landmarks are probably wrong.
 constexpr double usual_distance_mm = 1, doubtful_distance_mm = 2;
 constexpr double usual_band_edge = 0.95, usual_largest_edge = 3;
@@ -51,13 +51,14 @@ constexpr double usual_resistance = 1e4;  // kg/(m s)
 constexpr double shorter_by = 0.9;
 // The largest usual number of nodes for a flow solver on one computer.
 constexpr std::int64_t many_nodes = 40000;
-// The number of nodes grows with a power of 1 / (edge length in the band). The power was found by meshes of a root and a
+// The number of nodes grows with a power of 1 / (edge length in the band). The power was measured on meshes of a root and a
 // ventricle.
 constexpr double power_of_nodes = 2.5;
-// The same power of 1 / (half thickness), with which all edge lengths change. The power was found by a root.
+// The number of nodes also grows with a power of 1 / (half thickness), because all edge lengths change with the half thickness.
+// This power was measured on meshes of a root.
 constexpr double power_of_thinner = 2.4;
-// The least share of the open valve that the band should leave open. A narrower valve has other flows: the gradient grows with
-// the square of 1 / area. beat_table.py judges the same share.
+// The least share of the open valve that the band should leave open. In a narrower valve the flow differs: the gradient grows
+// with the square of 1 / area. beat_table.py has the same limit.
 constexpr double least_open_share = 0.8;
 constexpr int n_marked_openings = 11;
 
@@ -93,7 +94,7 @@ void check_kind(const std::string &kind) {
 // Returns the numbers that a step has written to its report.
 Json stats_of(const std::string &name) { return parse_json_file("logs/" + name + ".json", "stats"); }
 
-// Returns whether the file exists. Pictures and movies may be missing.
+// Returns whether the file exists, because pictures and movies may be missing.
 bool exists(const char *path) {
   std::error_code error;
   return fs::exists(path, error);
@@ -189,7 +190,7 @@ class PatientRun {
   // Returns the length that an option gives, in the unit of the folder. Without a unit, a number has the unit of the wall.
   // `least` and `most` are in millimetres.
   double length_of(const std::optional<Amount> &given, double usual_mm, double least_mm, double most_mm) const {
-    // Rounding errors of the conversion would show in the commands.
+    // Twelve digits leave out the conversion's rounding errors, which would show in the commands.
     const auto in_unit = [&](double mm) { return *number_in(printed("%.12g", mm * millimetre_)); };
     if (!given) return in_unit(usual_mm);
     const double mm = given->number * (given->has_unit ? 1000 : factor_between(frame_.unit, Unit::millimetre));
@@ -209,7 +210,7 @@ class PatientRun {
   }
 
   std::string in_mm(double length) const { return printed("%.3g", length / millimetre_) + " mm"; }
-  // These functions return a length in millimetres, rounded upwards, and the length as an option's value.
+  // rounded_mm returns a length in millimetres, rounded upwards, and option_mm returns this length as an option's value.
   double rounded_mm(double length) const { return std::ceil(100 * length / millimetre_ - 1e-6) / 100; }
   std::string option_mm(double length) const { return "'" + shortest(rounded_mm(length)) + " mm'"; }
 
@@ -250,7 +251,7 @@ class PatientRun {
     StepEnd end = steps_.run(
         "place",
         place_words(joined({{"--warp", names[options_.warp_choice]}, noise_words, {"--output", "placed.json"}})));
-    // The step reads a copy of the landmarks, and a message should name the file of the user.
+    // The step reads a copy of the landmarks, but a message should name the user's file.
     for (std::string &message : end.messages)
       if (message.rfind(landmarks_name_ + ":", 0) == 0) message.replace(0, landmarks_name_.size(), options_.landmarks);
     if (!end.is_fine()) steps_.refuse("place", end, cure_of_folds(end));
@@ -288,7 +289,7 @@ class PatientRun {
   }
 
   // Refuses a direction of flow that contradicts the landmarks. Without --flow, the horns of a mitral annulus show the side of
-  // the atrium, if their height exceeds its error enough. Other landmarks and --flow are compared by riis place.
+  // the atrium if their height clearly exceeds its error. riis place compares --flow with the other landmarks.
   void check_flow() {
     if (!the_.is_mitral || !options_.flow) return;
     const char *const trial = "logs/flow_trial.json";
@@ -519,7 +520,7 @@ class PatientRun {
           ", because the band closes the gap of " + options_.disease + ", which a smaller --half-thickness leaves open";
     text += ", and the open valve lets the blood pass";
     if (open.contains("orifice")) {
-      // The captions of the pictures have the orifice, which is larger.
+      // The line also has the whole orifice, because the captions of the pictures show this larger area.
       const double orifice = square_cm * open["orifice"]["area"].get<double>();
       const double effective = square_cm * open["orifice"]["effective_area"].get<double>();
       text += ": the band leaves " + printed("%.3g", effective) + " of " + printed("%.3g", orifice) + " cm2";
@@ -548,7 +549,7 @@ class PatientRun {
                               (least < 0 ? "; the open valve reaches up to " + in_mm(-least) + " into the wall" : ""));
   }
 
-  // Warns if the band takes much of a small orifice. Along the orifice's edge, the band takes the reach of the rim, in half
+  // Warns if the band takes much of a small orifice. rim_reach is the width that the band takes along the orifice's edge, in half
   // thicknesses.
   void check_open_share(const Json &orifice) {
     const double area = orifice["area"], free = orifice["effective_area"], perimeter = orifice["perimeter"];
@@ -572,7 +573,7 @@ class PatientRun {
          the_.open_area->cure);
   }
 
-  // Refuses ends that lie on the wrong side of the closed valve. If the user chose one of them, the message names the option.
+  // Refuses ends that lie on the wrong side of the closed valve. If the user chose such an end, the message names the option.
   void check_ends(const ValveSides &sides) const {
     if (!sides.are_apart) return;
     std::vector<std::pair<std::string, bool>> wrong;  // ends, and whether they are before the valve

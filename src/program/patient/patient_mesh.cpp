@@ -39,10 +39,10 @@ constexpr double end_edge_share = 0.35;
 constexpr double least_seconds = 120, seconds_per_triangle = 0.01;
 // If gmsh may have to run twice, the first run gets this share of the time.
 constexpr double first_share = 0.25;
-// In the second try, nodes are moved by at most a tiny share of the wall's size. The movement is as small as the rounding errors
-// of files in single precision.
+// In the second try, nodes are moved by at most this share of the wall's size. The movement is as small as the rounding errors of
+// files in single precision.
 constexpr double moved_share = 1e-7;
-// Triangles that overlap by more than a tiny share of the wall's size count as a self-intersection.
+// An overlap of triangles counts as a self-intersection if it is longer than this share of the wall's size.
 constexpr double least_crossing_share = 1e-5;
 // The number of triangles of each new patch that are compared with the wall.
 constexpr std::size_t n_compared = 9;
@@ -125,7 +125,7 @@ class GmshReader {
   const char *next_;
 };
 
-// Writes a mesh in gmsh's format 2.2. Each element has a physical group, and a surface or volume of the same number.
+// Writes a mesh in gmsh's format 2.2. Each element has a physical group, and belongs to the surface or volume of the same number.
 class GmshText {
  public:
   explicit GmshText(const std::vector<Vector3> &points) {
@@ -224,7 +224,7 @@ std::vector<BoundaryGroup> boundary_groups(const PatientWall &wall) {
   std::vector<BoundaryGroup> groups;
   for (std::size_t i = 0; i < wall.ends.size(); ++i)
     groups.push_back({wall.ends[i].name, static_cast<std::int32_t>(i)});
-  // The inlet is the first boundary. After the inlet follow outlet, outlet_2 and so on.
+  // The inlet is the first boundary. It is followed by outlet, outlet_2 and so on.
   std::sort(groups.begin(), groups.end(), [](const BoundaryGroup &a, const BoundaryGroup &b) {
     return std::make_pair(a.name.size(), a.name) < std::make_pair(b.name.size(), b.name);
   });

@@ -24,8 +24,8 @@ namespace fs = std::filesystem;
 
 const char *const marker_file = "UNFINISHED.txt", *const report_file = "patient.json";
 
-// The names of the files that riis patient writes into its folder. If riis patient uses a folder again, other files in the folder
-// stay.
+// The names of the files that riis patient writes into its folder. When riis patient uses a folder again, it keeps all other
+// files.
 const char *const own_names[] = {report_file,     "wall.stl",       "placed.json",        "params.json",
                                  "valve.dat",     "gmsh",           "mesh.msh",           "mesh.vtu",
                                  "faces",         "closed.vtu",     "open.vtu",           "closed.png",
@@ -96,8 +96,8 @@ class RunLocks {
   std::vector<int> files_;
 };
 
-// Removes what an earlier run wrote. All checks come before this. The report is removed first, so that a folder that has lost
-// some of its files never looks finished.
+// Removes what an earlier run wrote. All checks are done before the removal. The report is removed first, so that a folder that
+// has lost some of its files never looks finished.
 void remove_own_files(const fs::path &folder, const std::string &path) {
   const RunLocks locks(folder, path);
   for (const char *const name : own_names) {
@@ -107,7 +107,7 @@ void remove_own_files(const fs::path &folder, const std::string &path) {
   }
 }
 
-// Checks the folder, or makes it.
+// Checks the folder if it exists, and makes it otherwise.
 std::string taken_folder(const std::string &path, bool replace, const std::vector<std::string> &inputs,
                          std::string &removed) {
   std::error_code error;
@@ -157,7 +157,7 @@ void PatientFolder::finish() {
 
 std::string cure_of_full_disc(const std::string &reason) {
   const auto says = [&](int error) { return reason.find(system_text(error)) != std::string::npos; };
-  // gmsh does not say why it leaves out a part of a file.
+  // On a disc that is nearly full, gmsh may leave out a part of a file without saying why.
   constexpr std::uintmax_t hardly_any = 1 << 20;
   std::error_code error;
   const fs::space_info space = fs::space(".", error);

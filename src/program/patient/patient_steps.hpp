@@ -59,7 +59,7 @@ class PatientSteps {
   void say(const std::string &label, const std::string &text, double seconds = -1);
   // Writes a command to the file of commands before it runs.
   void announce(const std::string &command);
-  // Writes a command that does not run, below a comment, to the end of the file of commands.
+  // Appends a command to the file of commands, below a comment. The command does not run.
   void note(const std::string &comment, const std::string &command);
   // Runs riis with the words. `name` is the name of the log.
   StepEnd run(const std::string &name, const std::vector<std::string> &words);

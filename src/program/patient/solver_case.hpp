@@ -64,13 +64,14 @@ struct SolverCase {
 // and the ventricle. Refuses a unit that is not metres, and a valve that starts open.
 void write_openfoam_case(const SolverCase &the);
 
-// Writes a folder in which svMultiPhysics runs one beat as it is (docs/patient_svmultiphysics.md): the mesh with its faces, the
-// valve's motion, pressures, solver.xml and Allrun. Reads mesh.vtu, faces/NAME.vtp, placed.json and wall.stl from the case's
-// folder, with lengths in centimetres. Prints the command of the export, and how long the run of a beat takes.
+// Writes a folder in which svMultiPhysics runs one beat as it is (docs/patient_svmultiphysics.md). The folder has the mesh with
+// its faces, the valve's motion, pressures, solver.xml and Allrun. Reads mesh.vtu, faces/NAME.vtp, placed.json and wall.stl from
+// the case's folder, with lengths in centimetres. Prints the command of the export, and how long the run of a beat takes.
 void write_svmultiphysics_case(const SolverCase &solver);
 
-// Writes a folder in which dolfinx runs one beat as it is (docs/patient_fenicsx.md): run.py, its numbers in case.json, and copies
-// of mesh.msh, placed.json and wall.stl. Lengths of the case's folder must be in metres. Prints how long the run of a beat takes.
+// Writes a folder in which dolfinx runs one beat as it is (docs/patient_fenicsx.md). The folder has run.py, its numbers in
+// case.json, and copies of mesh.msh, placed.json and wall.stl. Lengths of the case's folder must be in metres. Prints how long
+// the run of a beat takes.
 void write_fenicsx_case(const SolverCase &solver);
 
 // The longest skirt that OpenFOAM accepts by default, in metres. Gaps in patients are below 3 mm, and the walls of other chambers

@@ -17,8 +17,8 @@ namespace {
 constexpr double solver_step = svmultiphysics_cost.step;  // s
 constexpr int steps_between_files = 10;                   // seconds_between_files
 // The largest edge of the leaflets' triangles, in half thicknesses. With such triangles, the K that the solver computes is
-// correct to 5 %, and the K that riis computes in the solver is exact (docs/export.md, "How fine the triangles must be"). With
-// finer triangles, the solver would need hours.
+// correct to 5 %. The K that riis computes in the solver is exact (docs/export.md, "How fine the triangles must be"). With finer
+// triangles, the solver would need hours.
 constexpr double largest_edge = 0.5;
 constexpr int n_modes = 128;  // of a curve of pressure, which differs from its polygon by less than 0.5 mmHg
 
@@ -86,7 +86,7 @@ ExportOptions export_of(std::vector<std::string> words) {
   return std::get<ExportOptions>(request.value());
 }
 
-// Returns the words of the command riis export. The files of the case's folder are in `folder`. The block of the export names the
+// Returns the words of the command riis export. `folder` is the path of the case's folder. The block of the export names the
 // valve's files by paths from the solver's folder.
 std::vector<std::string> export_words(const SolverCase &solver, const std::string &folder) {
   std::vector<std::string> words = {"riis", "export", "valve", folder + "/mesh.vtu"};

@@ -95,14 +95,14 @@ ValveSides sides_of_valve(const std::string &mesh, const MarkOptions &marking, c
       if (squared(i) < squared(nearest)) nearest = i;
     return nearest;
   };
-  // On each side of the valve, the first place with enough room becomes the middle of the ball. A ball farther away than the
-  // valve extends is outside the valve's jet. If the vessel is short, there may be room only beside the leaflets.
+  // On each side of the valve, the first place with enough room becomes the middle of the ball. A ball beyond the extent of the
+  // valve is outside the valve's jet. If the vessel is short, there may be room only beside the leaflets.
   ValveSides sides;
   std::int64_t before = -1, after = -1;  // the nodes at the middles
   const auto find = [&](double sign, double radius, double beyond, std::array<double, 3> &middle) {
     for (std::size_t i = 0; i < room.size(); ++i) {
       if (view(room)[i] < radius || sign * along_flow(place(i)) <= beyond) continue;
-      // A place is in the blood if a node is nearer to it than the wall, because the wall is closed.
+      // The wall is closed, so a place is in the blood if a node is nearer to it than the wall.
       const std::int64_t node = nearest_node(place(i));
       if (norm(at(node) - place(i)) >= radius || view(region)[node] < 0) continue;
       middle = place(i);

@@ -16,16 +16,16 @@
 namespace riis::program {
 namespace {
 
-// Two vertices of open sides are joined if their distance is below a tiny share of the wall's size. In single precision, the
+// Two vertices of open sides are joined if their distance is below this share of the wall's size. In single precision, the
 // rounding errors of a root that is a metre away from the origin are a sixth of this share.
 constexpr double joined_share = 1e-5;
-// A piece is an island of the segmentation if its area is below a small share of the largest piece's area.
+// A piece is an island of the segmentation if its area is below this share of the largest piece's area.
 constexpr double island_share = 0.01;
-// A hole is flat if all points of its rim are close to a plane, compared with the rim's width.
+// A hole is flat if no point of its rim is farther from a plane than this share of the rim's width.
 constexpr double flat_hole_share = 0.02;
 
-// A triangle is thin if its height is below a tiny share of the wall's size. With thin triangles, gmsh would run for hours. A
-// side of a thin triangle is short if it is shorter than a few times the height.
+// A triangle is thin if its height is below the share `thin_share` of the wall's size. With thin triangles, gmsh would run for
+// hours. A side of a thin triangle is short if it is shorter than `short_in_heights` heights.
 constexpr double thin_share = 2e-6, short_in_heights = 10;
 constexpr int most_thin_rounds = 20;
 
@@ -270,7 +270,7 @@ class WallRepair {
     return longest > 0 ? norm(cross(b - a, c - a)) / longest : 0;
   }
 
-  // Repairs thin triangles. Either the ends of a short side are joined, or the longest side is replaced by the other diagonal.
+  // Repairs thin triangles. A repair joins the ends of a short side, or replaces the longest side by the other diagonal.
   void repair_thin() {
     least_height_ = thin_share * made_.triangles.size();
     std::int64_t n_repaired = 0;

@@ -71,7 +71,8 @@ Value hexahedron_shape(std::size_t n_nodes, const Coordinates &node, const Coord
     for (std::size_t k = 0; k < 3; ++k) v = product(v, quadratic(node[k], at[k], k));
     return v;
   }
-  // In a hexahedron with 20 nodes, a middle node has the factor (1 - x^2) along its edge, and a corner has one more factor.
+  // In a hexahedron with 20 nodes, the shape function of a middle node has the factor (1 - x^2) along the node's edge. The shape
+  // function of a corner has one more factor than the other functions.
   bool is_middle = false;
   for (std::size_t k = 0; k < 3; ++k) {
     if (node[k] != 0) {
@@ -180,8 +181,8 @@ std::vector<ReferencePoint> hexahedron_gauss(int n_along) {
   return points;
 }
 
-// Returns points of integration in a cube, or in a tetrahedron or a wedge. For a tetrahedron or a wedge, sides of the cube are
-// collapsed.
+// Returns points of integration in a cube, a tetrahedron or a wedge. The points of a tetrahedron or a wedge are those of a cube
+// whose sides are collapsed.
 std::vector<ReferencePoint> fine_points(Shape shape) {
   std::vector<ReferencePoint> points = hexahedron_gauss(4);
   if (shape == Shape::hexahedron) return points;

@@ -37,7 +37,7 @@ class Arrays {
       n *= static_cast<std::size_t>(length);
     }
     std::string head = std::string("{'descr': '=") + type + "', 'fortran_order': False, 'shape': (" + text + "), }";
-    // In the file, the numbers of an array begin at a multiple of 64 bytes, counting the ten bytes before the array's head.
+    // In this format, an array's numbers begin at a multiple of 64 bytes. Ten bytes stand before the array's head.
     head.append(63 - (10 + head.size()) % 64, ' ');
     head += '\n';
     const char start[] = {'\x93', 'N', 'U', 'M', 'P', 'Y', 1, 0, static_cast<char>(head.size()), 0};

@@ -236,7 +236,7 @@ class Forecaster {
   }
 
   // Returns the shorter edge length that has the same effect as multiplying the half thickness by `factor`. The drop depends on
-  // the ratio of edge and half thickness. All elements are assumed to become shorter by the same length. Two size fields with
+  // the ratio of edge and half thickness. All edges are assumed to become shorter by the same length, because size fields with
   // different edges in the band differ in this way.
   std::string text_of_finer_mesh(const std::vector<double> &near, double factor) const {
     std::vector<double> lengths, volumes;
@@ -281,7 +281,7 @@ class Forecaster {
     return shown(length / options_.to_solver) + (options_.unit ? std::string(" ") + name_of(*options_.unit) : "");
   }
 
-  // Warns of resistance far from the valve, which negative interpolated distances cause.
+  // Warns if negative interpolated distances cause resistance far from the valve.
   void warn_of_negative_shapes(const SolverDistances &distances) {
     const SolverElement &element = *mesh_.element;
     if (element.n_nodes == element.n_corners) return;

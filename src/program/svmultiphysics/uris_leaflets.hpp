@@ -74,11 +74,11 @@ class FinerTriangles {
 };
 
 // svMultiPhysics searches a mesh only in the box of the valve's nodes, widened by a tenth. The box of a flat valve is too thin.
-// The flat box leaves out nodes that should be marked, and parts of the bands in which the solver measures pressures.
-// The inputs are the triangles. The results are three additional triangles, which enlarge the box.
+// Such a box leaves out nodes that should be marked, and parts of the bands in which the solver measures pressures. The inputs
+// are the triangles. The results are three additional triangles, which enlarge the box.
 
-// Returns a power of two, to whose multiples coordinates are rounded. `largest` is the largest coordinate. The sum of three
-// rounded coordinates is then exact, even in a box that is about ten times as large.
+// Returns a power of two. Coordinates are rounded to multiples of this power. `largest` is the largest coordinate. The sum of
+// three rounded coordinates is then exact, even in a box that is about ten times as large.
 double uris_grid(double largest);
 
 // Three triangles, one along each axis. The middle of each added triangle is also the middle of a triangle of the valve. In the
@@ -103,7 +103,7 @@ class UrisBox {
 };
 
 // The openings of the frames. The solver plays the first list from the start of opening, and the second list from the start of
-// closing. The solver plays one frame in each time step.
+// closing, one frame in each time step.
 struct UrisMotion {
   std::vector<double> opening, closing;
   bool starts_closed = true;

@@ -112,7 +112,7 @@ double determinant(const double m[3][3]) {
 }
 
 // If a tetrahedron or a wedge is inside out, the solver swaps its nodes 0 and 1. In a tetrahedron, the swap changes the sign of
-// the determinant, but no points and no weights.
+// the determinant, but leaves the points and weights of integration as they are.
 void turn_elements(SolverMesh &mesh, const std::string &path) {
   const SolverElement &element = *mesh.element;
   for (std::int64_t e = 0; e < mesh.n_elements(); ++e) {
@@ -218,7 +218,7 @@ SolverDistances solver_distances(const SolverMesh &mesh, const UrisLeaflets &lea
 
 double delta_of(double distance, double half_thickness) {
   if (!(distance < half_thickness)) return 0;
-  // As in the solver, delta is periodic, so its value at an interpolated distance below -eps belongs to another period.
+  // In the solver, delta is periodic, so an interpolated distance below -eps belongs to another period.
   return (1 + sine_cosine(pi * distance / half_thickness).cosine) / (2 * half_thickness * half_thickness);
 }
 
@@ -311,8 +311,8 @@ double exact_area(const SolverMesh &mesh, const riis_surface *surface, const std
   const SolverElement &element = *mesh.element;
   const std::vector<ReferencePoint> &points = at_solver_points ? element.gauss : element.fine;
   const std::vector<ShapeFunctions> &functions = at_solver_points ? element.at_gauss : element.at_fine;
-  // Most points of the elements near the band are outside the band. A point's distance is at least a node's distance minus the
-  // way from the node to the point.
+  // Most points of the elements near the band are outside the band, and the next bound finds them quickly. A point's distance
+  // from the leaflets is at least a node's distance minus the way from the node to the point.
   const double reach = (1 + 1e-6) * half_thickness + error;  // rounding changes less
   const auto excludes = [&](std::int64_t node, const Vector3 &point) {
     const Vector3 off = point - mesh.point(node);

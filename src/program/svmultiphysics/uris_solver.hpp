@@ -80,14 +80,15 @@ struct SolverDistances {
   std::vector<double> to_leaflets;    // (n_nodes), signed: far nodes have the solver's large number
   std::vector<std::int64_t> nearest;  // (n_nodes): the triangle with the nearest middle, or -1 outside the box
 };
-// `xyz` has all vertices of the frame. For a closing valve, the sign also depends on the direction of forward flow. On each side,
-// `margin` widens the box beyond the box of the solver.
+// `xyz` has all vertices of the frame. For a closing valve, the sign also depends on the direction of forward flow. `margin`
+// widens the solver's box on each side.
 SolverDistances solver_distances(const SolverMesh &mesh, const UrisLeaflets &leaflets, const std::vector<double> &xyz,
                                  bool is_closing, double half_thickness, double margin = 0);
 
 // Returns the solver's distance at a point of element e, interpolated between the absolute distances at the element's nodes.
-// Quadratic shape functions have negative values at some points. At the border of the box, some nodes have the solver's large
-// number, and some interpolated distances become negative. In the solver, points with negative distances are in the band.
+// Quadratic shape functions have negative values at some points. At the border of the box, where some nodes have the solver's
+// large number, an interpolated distance can therefore be negative. In the solver, a point with a negative distance is in the
+// band.
 double interpolated_distance(const SolverMesh &mesh, std::int64_t e, const ShapeFunctions &at,
                              const std::vector<double> &distances);
 // Returns the solver's delta at a point of element e: K / R.
@@ -119,8 +120,8 @@ SolverSpeeds solver_speeds(const SolverMesh &mesh, const UrisLeaflets &leaflets,
 // Returns the leaflets' area in the solver's equations: the half thickness times the integral of delta.
 double solver_area(const SolverMesh &mesh, const SolverDistances &distances, double half_thickness);
 // Returns the area of the leaflets by the library's exact distances, at many points in each element. `near` has a distance for
-// each node. An element does not count if all its nodes are farther away than the half thickness plus the element's size.
-// Distances may be too large by up to `error`.
+// each node. An element is left out if all its nodes are farther from the leaflets than the half thickness plus the element's
+// size. Distances may be too large by up to `error`.
 double exact_area(const SolverMesh &mesh, const riis_surface *surface, const std::vector<double> &near,
                   double half_thickness, std::int32_t n_threads, bool at_solver_points, double error = 0);
 

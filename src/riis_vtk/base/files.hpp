@@ -68,8 +68,8 @@ bool read_number(std::string_view text, Number &number) {
   return error == std::errc() && end == text.data() + text.size();
 }
 
-// Functions that visit an XML file element by element (xml_elements.cpp). No tree of elements is built, because the destruction
-// of a deeply nested tree would overflow the stack. A hostile file could contain a deeply nested tree.
+// Functions that visit an XML file element by element (xml_elements.cpp). No tree of elements is built. A hostile file could nest
+// its elements so deeply that the destruction of a tree would overflow the stack.
 
 // In the list, names and values alternate, and NULL ends the list.
 using XmlAttributes = const char **;

@@ -71,8 +71,8 @@ auto naming(const std::string &path, const Work &work) {
 }
 // Throws an exception if `status` is an error of the core. The exception has the core's message.
 void check_core(riis_status status);
-// Fails if the size of a struct is not a multiple of 8, or not between first_size and size_here. The limits are the sizes of the
-// struct in its first release and in this release.
+// Accepts the size of a struct only if it is a multiple of 8 from first_size to size_here. The limits are the sizes of the struct
+// in its first release and in this release.
 void check_struct_size(std::int64_t size, std::int64_t first_size, std::int64_t size_here, const char *name);
 
 template <class T>
@@ -89,9 +89,9 @@ void destroy(Object **object) {
   *object = nullptr;
 }
 
-// As long as an object of this type exists, it replaces VTK's output window of the whole process. The object also silences VTK's
-// log on stderr, which would repeat every error. VTK cannot tell the level of this log, only the highest level of all its logs.
-// The destructor therefore sets the log on stderr to this highest level.
+// While an object of this type lives, it takes the place of VTK's output window in the whole process. The object also silences
+// VTK's log on stderr, which would repeat every error. VTK does not tell the level of this log, but only the highest level of all
+// its logs. The destructor therefore sets the log on stderr to this highest level.
 class CaughtOutput {
  public:
   CaughtOutput();

@@ -73,8 +73,8 @@ Vector3 center_of_cell(vtkCell *cell) {
 }
 
 // A face, which is given by its nodes, and a cell to which the face belongs. Two different faces may have three nodes in common
-// if these three nodes lie on one edge. Therefore faces are compared by more than three nodes: by the number of the other nodes
-// and a hash of them.
+// if these three nodes lie on one edge. Faces are therefore also compared by the number of their other nodes, and by a hash of
+// these nodes.
 struct FaceOfCell {
   std::array<vtkIdType, 3> smallest;
   std::uint64_t others;

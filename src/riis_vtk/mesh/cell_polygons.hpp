@@ -20,8 +20,8 @@ namespace riis::vtk {
 
 using Corners = std::vector<vtkIdType>;
 
-// The faces of a grid's cells as polygons of corners. If the faces of a type differ between its cells, VTK lists the faces of
-// each cell.
+// The faces of a grid's cells as polygons of corners. For a type whose cells have different faces, VTK lists the faces of each
+// cell.
 class CellPolygons {
  public:
   explicit CellPolygons(vtkUnstructuredGrid *grid) : grid_(grid) {}
@@ -70,7 +70,7 @@ class CellPolygons {
     return generic_;
   }
 
-  // Appends the corners of a polygon. The corners of the polygon are its first points. The polygon has as many corners as edges.
+  // Appends the corners of a polygon, which are its first points. A polygon has as many corners as edges.
   void add_corners(vtkCell *polygon) {
     for (int i = 0; i < polygon->GetNumberOfEdges(); ++i) corners_.push_back(polygon->GetPointIds()->GetId(i));
   }

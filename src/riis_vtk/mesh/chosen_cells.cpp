@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Domains of a mesh, such as the fluid and the wall. A domain consists of the cells with one value in a cell array. The caller
-// keeps the cells of certain domains, or learns which domains touch each other.
+// Domains of a mesh, such as the fluid and the wall. A domain consists of the cells with one value in a cell array. A caller
+// keeps only the cells of certain domains, or finds the domains that touch each other.
 #include <riis/riis_vtk.h>
 
 #include <algorithm>
@@ -143,9 +143,9 @@ bool may_tell_domains(const std::string &array_name) {
 
 constexpr std::size_t most_regions = 16;
 
-// Returns the values of volume cells if they are few whole numbers, and if cells with different values touch. Cells touch if they
-// have one type and a common node. Otherwise returns no values. Touching cells of different types do not count, because a domain
-// often has a block for each of its types, as Exodus needs.
+// Returns the values of volume cells. There must be few values, all whole numbers, and cells with different values must touch.
+// Two cells touch if they have the same type and a common node. If one of these conditions does not hold, returns no values. The
+// types are compared because Exodus needs a block for each type, so the blocks of one domain may have different values.
 std::vector<double> touching_values(vtkUnstructuredGrid *grid, vtkDataArray *array) {
   std::set<double> values;
   // For each node, the value and the type of its first cell.

@@ -33,7 +33,7 @@ bool ends_with(const std::string &text, const std::string &end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
-// OpenFOAM compares the dimensions of fields. OpenFOAM solves an incompressible fluid's momentum equation divided by the density,
+// OpenFOAM compares the dimensions of fields. For an incompressible fluid, OpenFOAM divides the momentum equation by the density,
 // so K is also divided by the density.
 const char *dimensions_of(const std::string &array) {
   if (ends_with(array, "K")) return "[0 0 -1 0 0 0 0]";
@@ -42,7 +42,7 @@ const char *dimensions_of(const std::string &array) {
   return ends_with(array, "_velocity") ? "[0 1 -1 0 0 0 0]" : "[0 0 0 0 0 0 0]";
 }
 
-// The types of patches on which a field must have the type of the patch.
+// On a patch of one of these types, a field must have the patch's own type.
 bool is_constraint(const std::string &type) {
   const char *const types[] = {"empty",
                                "wedge",

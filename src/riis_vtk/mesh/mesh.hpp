@@ -34,7 +34,7 @@ struct RegionName {
   std::string name;
 };
 
-// The values of a cell array that tells apart the domains of a mesh. There may be none.
+// The values of a cell array that tells apart the domains of a mesh. A mesh may have no such array.
 struct Regions {
   std::string array = {};
   std::vector<double> values = {};
@@ -50,7 +50,7 @@ struct riis_vtk_mesh {
   std::string notes = {};      // the notes that riis_vtk_mesh_get_notes gives
   std::string foam_case = {};  // the folder of the case that the mesh was read from, or ""
   std::string foam_time = {};  // the folder of the time that the path of the mesh names, or ""
-  // If the mesh has centres of cells, the centres are its nodes, and the data of nodes is data of cells.
+  // A mesh of cell centres has the centres as its nodes, so the data of its nodes is data of cells.
   std::unique_ptr<const riis::vtk::CellCenters> centers = {};
   std::vector<riis::vtk::RegionName> region_names = {};  // names of gmsh's physical groups of volumes
   riis::vtk::Regions regions = {};                       // as riis_vtk_mesh_find_regions found them
@@ -72,7 +72,7 @@ namespace riis::vtk {
 double median_edge_of(const GridAxes &axes);
 // Returns the adjacency of the grid's nodes.
 riis_adjacency *adjacency_of(const GridAxes &axes, std::int32_t n_threads);
-// Sets is_outside to 0 for each point whose distance from the box of the axes is at most the given distance.
+// Sets is_outside to 0 for each point within the given distance of the axes' box.
 void find_outside(const GridAxes &axes, std::int64_t n_points, const double *xyz, double distance,
                   std::uint8_t *is_outside);
 // Writes the arrays to a .vtr file with axes. For an image, writes them to a .vti file.

@@ -72,8 +72,8 @@ void check_adjacency(riis_status status, const std::string &structure) {
   fail(status, text.rfind(structure, 0) == 0 ? text.substr(structure.size()) : text);
 }
 
-// Makes an adjacency of nodes from edges. The core has a call for cells and the faces between cells. The nodes are passed as
-// cells, and the edges as faces.
+// Makes an adjacency of nodes from edges. The core makes the adjacency of cells from the faces between cells. Here the nodes are
+// passed as cells, and the edges as faces.
 riis_adjacency *adjacency_of_edges(std::int64_t n_nodes, const std::vector<std::int64_t> &edges,
                                    std::int32_t n_threads) {
   riis_mesh_faces faces;

@@ -84,8 +84,7 @@ Declared declared_array(XmlAttributes attributes) {
   Declared array{value_of(attributes, "Name").value_or(""), value_of(attributes, "type").value_or("")};
   if (const auto n = value_of(attributes, "NumberOfComponents"); n && !read_number(*n, array.n_components))
     array.n_components = -1;
-  // dolfinx 0.5 writes no number of components for scalars. For VTK, an array has one component if a .vtu file states no number
-  // of components.
+  // dolfinx 0.5 writes no number of components for scalars. VTK then gives the array one component.
   if (array.n_components == 0) array.n_components = 1;
   return array;
 }
@@ -119,9 +118,10 @@ std::unique_ptr<riis_vtk_pieces> read_pieces(const std::string &path, const Caug
   });
   check_declared(path, made->point_arrays);
   check_declared(path, made->cell_arrays);
-  // dolfinx writes an array that gives each node a number, which is valid on all ranks. A file of functions is refused, because
-  // the last bits of a shared node's coordinates differ between ranks. A file that states the order of bytes was written by VTK.
-  // Its numbers are not used, because VTK's filters number the nodes of each piece separately.
+  // In files of a function, dolfinx writes an array with a number of each node, which is valid on all ranks. These files are
+  // refused, because the last bits of a shared node's coordinates differ between ranks. A file that states the order of bytes was
+  // written by VTK. Such a file is accepted, because VTK's filters number the nodes of each piece separately, so that the numbers
+  // have another meaning.
   made->has_ids_of_dolfinx = !has_byte_order && std::any_of(made->point_arrays.begin(), made->point_arrays.end(),
                                                             [](const Declared &a) { return a.name == ids_of_dolfinx; });
   made->path = path;

@@ -47,7 +47,8 @@ struct CellBounds {
   }
 };
 
-// Sorts points into the boxes of a regular grid. Points in neighbouring boxes along z follow each other in the list.
+// Sorts points into the boxes of a regular grid. Boxes that are neighbours along z follow each other in the list, and so do their
+// points.
 class PointGrid {
  public:
   explicit PointGrid(std::vector<Vector3> points) : points_(std::move(points)) {
@@ -99,7 +100,8 @@ class PointGrid {
 };
 
 // Cuts the volume cells of a mesh into tetrahedra, and their faces into triangles. A cell is cut around its middle. A face with
-// more than three corners is cut around the middle of the face. Two neighbouring cells thus cut their common face in one way.
+// more than three corners is cut around the middle of the face. Two neighbouring cells therefore cut their common face in the
+// same way.
 class SolidCells {
  public:
   explicit SolidCells(vtkUnstructuredGrid *grid)

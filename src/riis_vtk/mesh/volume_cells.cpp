@@ -182,8 +182,7 @@ std::vector<Edge> lattice_edges(int type, const Orders &orders) {
 }
 
 // Finds the orders of a cell from its number of nodes, n_nodes. The cell has the orders in the file (`given`), or equal orders
-// along all axes. Returns false if n_nodes fits neither the given orders nor equal orders, because the nodes then form no
-// lattice.
+// along all axes. If n_nodes fits neither of these orders, the nodes form no lattice, and the function returns false.
 bool find_orders(int type, vtkIdType n_nodes, const double *given, Orders &orders) {
   orders[3] = static_cast<int>(n_nodes);
   const auto fit = [&] {
@@ -203,7 +202,7 @@ bool find_orders(int type, vtkIdType n_nodes, const double *given, Orders &order
 }
 
 // The edges of cells of all types. A cell with straight sides has its sides as edges. The nodes of a cell of higher order divide
-// it into linear cells, and the edges are those of the linear cells. If a face has no node in its middle, edges join the middles
+// it into linear cells, whose edges count as the edges of the cell. If a face has no node in its middle, edges join the middles
 // of neighbouring sides.
 class CellEdges {
  public:

@@ -80,7 +80,7 @@ vtkSmartPointer<vtkActor> plain_actor(const Colour &colour) {
   return actor;
 }
 
-// Returns a strip of the given width along each line, in the plane of the view. Plain lines would not do, because OpenGL limits
+// Returns a strip of the given width along each line, in the plane of the view. Plain lines are not used, because OpenGL limits
 // their width.
 vtkSmartPointer<vtkPolyData> strips(vtkPolyData *lines, const View &view, double width) {
   vtkNew<vtkPoints> points;
@@ -115,7 +115,7 @@ vtkSmartPointer<vtkPolyData> strips(vtkPolyData *lines, const View &view, double
   return made;
 }
 
-// An area, and the sum of its parts' centres, each multiplied by the part's area.
+// An area, and its first moment: the sum of the parts' centres times the parts' areas.
 struct AreaMoment {
   Vector sum = {0, 0, 0};
   double area = 0;
@@ -151,7 +151,7 @@ Vector middle_of(const std::map<int, AreaMoment> &leaflets) {
   return whole.centre();
 }
 
-// Returns the lines of which both ends are inside the grid. A leaflet that reaches into the wall meets no flow there.
+// Returns the lines whose two ends are inside the grid. A leaflet that reaches into the wall meets no flow there.
 vtkSmartPointer<vtkPolyData> lines_inside(vtkPolyData *lines, vtkUnstructuredGrid *grid) {
   vtkNew<vtkProbeFilter> probe;
   probe->SetInputData(lines);

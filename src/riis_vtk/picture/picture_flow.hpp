@@ -27,14 +27,14 @@ struct Flow {
 
 // Finds the velocity by the name of a point array or cell array with three components. If the mesh was read from a time of
 // OpenFOAM, the velocity may also be a field of this time. Values of cells are averaged at the nodes. Fails if the mesh has no
-// such array.
+// velocity of this name.
 Flow flow_of(const riis_vtk_mesh &mesh, const std::string &name);
 
 // Returns the colour of a speed. `share` is the speed divided by the speed at the upper end of the bar of colours.
 Colour colour_of_speed(double share);
 
-// Returns the valve's axes, turned about their z so that the plane of RIIS_VTK_VIEW_VALVE_LONG passes near the centres of two
-// leaflets. The plane contains the middle of the surface.
+// Returns the valve's axes after a turn about their z. The plane of RIIS_VTK_VIEW_VALVE_LONG then passes near the centres of two
+// leaflets. This plane contains the middle of the surface.
 Axes axes_through_two_leaflets(vtkPolyData *surface, const Axes &valve);
 
 class FlowPanel {

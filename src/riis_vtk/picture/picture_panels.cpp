@@ -133,7 +133,7 @@ double mean_edge_length(vtkPolyData *faces) {
   return sum / std::max(1.0, static_cast<double>(faces->GetNumberOfCells()));
 }
 
-// Moves an actor away from the eye. Without perspective, the actor looks the same, but other parts may then be drawn before it.
+// Moves an actor away from the eye. Without perspective, the actor looks the same, but nearer parts can then hide it.
 void move_away(vtkActor *actor, const View &view, double length) {
   actor->SetPosition(length * view.away()[0], length * view.away()[1], length * view.away()[2]);
 }

@@ -327,7 +327,8 @@ vtkSmartPointer<vtkImageData> transparent_from(vtkImageData *on_black, vtkImageD
   return clear;
 }
 
-// Returns the faces of the mesh's boundary. If the options have a wall, returns the wall's faces.
+// Returns the faces of the mesh's boundary. If there is no mesh, returns the faces of the wall in the options, or NULL if there
+// is no wall.
 vtkSmartPointer<vtkPolyData> wall_of(vtkUnstructuredGrid *grid, const riis_vtk_picture_options &options) {
   if (grid) return outside_of(grid, nullptr, nullptr).faces;
   return options.wall ? polydata_of(options.wall) : nullptr;
@@ -404,7 +405,7 @@ Scene::Scene(vtkUnstructuredGrid *grid, const riis_vtk_picture_options &options,
   }
   if (wall) {
     around_ = grid ? static_cast<vtkPointSet *>(grid) : wall.Get();
-    // Without captions, no key would explain the dashes.
+    // Without captions, no key would explain the dashes, so the shell has none.
     shell_.emplace(wall, style_.shell_grey, style_.line, layout_.line_width(),
                    style_.captions == RIIS_VTK_CAPTIONS_ALL);
   }
@@ -434,7 +435,7 @@ void Scene::show(const riis_surface *surface, const char *title, const Leaks &le
   if (!marks_) return;
   PanelTexts marked = {lines_of_marks(marks_->counts(), leaks), key_of_marks(marks_->counts(), leaks, style_.ink)};
   if (!has_surface()) {
-    // The only panel of a picture has the title, and also the key of the leaflets.
+    // If a picture has only one panel, this panel has the title and the key of the leaflets.
     std::string line;
     for (const std::string &part : marked.caption) line += (line.empty() ? "" : ", ") + part;
     marked.caption = {title_[0], line};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The window of a picture. The window has panels. Bands above and below the panels have the captions, the key of colours, axes
-// and a scale bar. The window can show several surfaces and their marks one after another, each from any view.
+// The window of a picture, which has one panel or several. Bands above and below the panels have the captions, the key of
+// colours, axes and a scale bar. The window can show several surfaces and their marks one after another, each from any view.
 #pragma once
 
 #include <riis/riis_vtk.h>
@@ -60,8 +60,8 @@ struct MarkCounts {
   vtkIdType n_partly_cells = 0;  // cells with some but not all nodes marked
 };
 
-// The panel with the marked cells. A cell has the colour of the leaflet of its closest node. The colour of a partly marked cell
-// is paler. Leaking edges are red. Cells whose dimension is below the largest in the grid are left out.
+// The panel with the marked cells. A cell has the colour of the leaflet to which its closest marked node belongs. The colour of a
+// partly marked cell is paler. Leaking edges are red. Cells whose dimension is below the largest in the grid are left out.
 class MarksPanel {
  public:
   // `pixels` is the width of a line.
@@ -128,7 +128,7 @@ struct PanelTexts {
   std::string upper_end = {};             // of the bar of speeds, with its unit; "" if there is no bar
 };
 
-// The leaking edges. They are drawn in red. If `edges` is NULL, the texts do not mention leaks.
+// The leaking edges, which are drawn in red. If `edges` is NULL, the texts do not mention leaks.
 struct Leaks {
   std::int64_t n_edges = 0;
   const std::int64_t *edges = nullptr;

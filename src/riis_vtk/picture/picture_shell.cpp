@@ -30,7 +30,7 @@ namespace {
 
 constexpr double sharp_angle = 30;  // degrees between faces
 
-// The opacity of the shell at a right angle of sight, and the additional opacity at a grazing angle.
+// The opacity of a face of the shell that is seen head-on, and the opacity that is added at a grazing angle.
 constexpr double opacity_across = 0.10, opacity_along = 0.36, grazing_power = 2.2;
 
 vtkSmartPointer<vtkPolyData> joined_points(vtkPolyData *faces) {

@@ -228,7 +228,7 @@ Sight sight_of(const Extents &surface, const Extents *mesh, double aspect, doubl
 }
 
 void aim_camera(vtkCamera *camera, const View &view, const Sight &sight) {
-  // The eye is outside of all objects. The depth leaves room for objects that are moved towards the eye when they are drawn.
+  // The eye is outside of all objects. The depth leaves room for objects that are moved towards the eye for drawing.
   const double depth = 4 * (sight.shown[2].half() + sight.shown[1].half() + sight.shown[0].half());
   Vector focus, eye;
   for (std::size_t k = 0; k < 3; ++k) {

@@ -46,7 +46,8 @@ struct View {
   std::array<Vector, 3> axes;
 
   // The value of `view` is a constant RIIS_VTK_VIEW_* for a single view, not the constant for three views. Views along the axes
-  // of the valve need `valve`. RIIS_VTK_VIEW_VALVE_LONG looks as RIIS_VTK_VIEW_VALVE_SIDE: the caller turns the axes.
+  // of the valve need `valve`. For RIIS_VTK_VIEW_VALVE_LONG, the caller turns the axes of the valve, and the view is that of
+  // RIIS_VTK_VIEW_VALVE_SIDE with the turned axes.
   View(std::int32_t view, const Axes &valve);
   const Vector &right() const { return axes[0]; }
   const Vector &up() const { return axes[1]; }
@@ -65,9 +66,9 @@ struct Sight {
   bool is_cut() const { return cut_below[0] || cut_below[1] || cut_above[0] || cut_above[1]; }
 };
 
-// Returns the part of space to show, the sight. It always contains the surface. Along each axis on which the mesh is not much
-// larger than the surface, the sight also contains the mesh. Pictures of a valve that moves in a mesh thus show the same part of
-// space, and can be compared. Along the other axes, the sight contains the surroundings of the surface.
+// Returns the part of space to show, the sight. The sight always contains the surface. If the mesh is not much larger than the
+// surface along an axis, the sight contains the whole mesh along this axis. Pictures of a valve that moves in a mesh thus show
+// the same part of space, and can be compared. Along any other axis, the sight contains only the surroundings of the surface.
 //   mesh    NULL if there is none
 //   aspect  the panel's width divided by its height
 //   least   the least half height of the panel, so that several views can have one scale

@@ -49,7 +49,7 @@ const ElementType *find_type(std::int64_t gmsh_type) {
       {13, 18, VTK_BIQUADRATIC_QUADRATIC_WEDGE, {0, 2, 1, 3, 5, 4, 7, 9, 6, 13, 14, 12, 8, 11, 10, 16, 17, 15}},
       {19, 13, VTK_QUADRATIC_PYRAMID, {0, 1, 2, 3, 4, 5, 8, 10, 6, 7, 9, 11, 12}},
       // VTK 9.1 has no type for a pyramid with a node in the middle of its base. The node in the middle of the base stays a node
-      // of the mesh. The node in the middle gets its edges from the cell on the other side of the base.
+      // of the mesh. The cell on the other side of the base gives this node its edges.
       {14, 14, VTK_QUADRATIC_PYRAMID, {0, 1, 2, 3, 4, 5, 8, 10, 6, 7, 9, 11, 12}},
   };
   const auto found =
@@ -424,8 +424,8 @@ class GmshFile {
   }
 
   // In version 2, an element with several physical groups is listed once for each group, each time with another number. The
-  // reader keeps the first of an element's copies. Returns the number of the elements that are left out. Equal elements within
-  // one group are all kept.
+  // reader keeps the first of an element's copies. Returns the number of copies that are left out. Equal elements within one
+  // group are all kept.
   std::int64_t drop_copies() {
     const bool are_grouped =
         std::any_of(physical_.begin(), physical_.end(), [&](std::int32_t group) { return group != physical_[0]; });

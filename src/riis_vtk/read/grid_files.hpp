@@ -58,7 +58,7 @@ enum class LegacyKinds { grid, grid_or_polydata };
 struct LegacyContent {
   LegacyKind kind;
   std::int64_t n_cells;
-  // The bytes of the file with VTK's names of types, if meshio has written other names; otherwise "".
+  // The file's bytes with VTK's names of types. The text is empty unless meshio has written other names.
   std::string rewritten;
 };
 LegacyContent check_legacy(const std::string &path, LegacyKinds allowed);

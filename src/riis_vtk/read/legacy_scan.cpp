@@ -36,7 +36,7 @@ int size_of_type(std::string_view type) {
   return is_in({"string", "utf8_string"}) ? 0 : -1;
 }
 
-// The names of types that meshio writes, although VTK does not know them, with VTK's names.
+// Maps names of types that meshio writes, but VTK does not know, to VTK's names.
 const std::map<std::string, std::string> &vtk_names() {
   static const std::map<std::string, std::string> names = {
       {"vtktypeint8", "signed_char"},    {"vtktypeint16", "short"},           {"vtktypeint32", "int"},
@@ -44,8 +44,8 @@ const std::map<std::string, std::string> &vtk_names() {
   return names;
 }
 
-// Returns whether VTK would read the whole word as a number of the given type. VTK reads numbers from C++ streams. VTK refuses
-// infinite numbers and numbers that are too large, but accepts numbers that are too small.
+// Returns whether VTK would read the whole word as a number of the given type. VTK reads numbers by C++ streams. These streams
+// refuse infinite numbers and numbers that are too large, but accept numbers that are too small.
 bool is_number(std::string_view word, const std::string &type) {
   if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
   if (type == "float" || type == "double") {
@@ -57,7 +57,7 @@ bool is_number(std::string_view word, const std::string &type) {
     return error == std::errc() && std::isfinite(value) &&
            (type == "double" || std::isfinite(static_cast<float>(value)));
   }
-  // In text files, VTK writes and reads a byte as a number of 32 bits. Therefore a number above 255 is no fault of a byte.
+  // In text files, VTK writes and reads a byte as a number of 32 bits. A byte above 255 is therefore no fault there.
   const bool is_unsigned = type.rfind("unsigned", 0) == 0 || type == "vtktypeuint64";
   const int n_bits = type == "short" || type == "unsigned_short" ? 16 : size_of_type(type) == 8 ? 64 : 32;
   if (is_unsigned && size_of_type(type) > 1) {
@@ -308,9 +308,9 @@ class Scan {
     skip_metadata(width);
   }
 
-  // Skips a block METADATA, whose keyword has already been read. The block ends with a blank line. However, the line with the
-  // name of a component may also be blank. VTK compares only the beginning of the keyword. For example, VTK reads INFORMATION8 1
-  // as 8 keys.
+  // Skips a block METADATA, whose keyword has already been read. The block ends with a blank line. However, a line with the name
+  // of a component may also be blank, so not every blank line ends the block. VTK compares only the beginning of a keyword such
+  // as INFORMATION. For example, VTK reads "INFORMATION8 1" as 8 keys.
   void skip_metadata(std::int64_t n_components) {
     line();
     while (!rest_.empty()) {
@@ -531,8 +531,8 @@ class Scan {
     }
   }
 
-  // Checks the n numbers of a polyhedron's faces. The numbers are the number of faces and, for each face, the number of its
-  // points and the points.
+  // Checks the n numbers of a polyhedron's faces. The number of faces comes first, and then the number of points and the points
+  // of each face.
   void check_polyhedron(std::int64_t cell, std::int64_t n, Numbers &corners) const {
     const auto broken = [&] { refuse("cell ", cell, " has broken polyhedron faces"); };
     if (n < 1) broken();
@@ -615,8 +615,8 @@ class Scan {
   std::int64_t n_cells_ = -1;                    // -1 if not known yet
   std::int64_t n_types_ = -1;
   std::int64_t n_points_ = 0;
-  // Views of the arrays of cells. Each begins at its array. Files up to version 4 have no offsets. In files up to version 4, each
-  // cell is its number of corners, followed by its corners.
+  // Views of the arrays of cells. Each view begins at its array. Files up to version 4 have no offsets: a cell is its number of
+  // corners, followed by its corners.
   std::string_view types_, offsets_, corners_;
   std::string type_of_offsets_ = "int", type_of_corners_ = "int";
   std::int64_t n_corners_ = 0;

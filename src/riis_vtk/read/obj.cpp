@@ -26,7 +26,7 @@ class ObjFile {
   vtkSmartPointer<vtkUnstructuredGrid> read() {
     in_.skip(bytes_.size() - without_byte_order_mark(bytes_).size());
     while (!in_.rest().empty()) {
-      // The statement is copied before its lines are skipped. Error messages then name the first line of the statement.
+      // `rest` is a copy, so `in_` still stands at the first line of the statement, which error messages name.
       std::string_view rest = in_.rest();
       read_statement(statement(rest));
       in_.skip(in_.rest().size() - rest.size());

@@ -106,7 +106,8 @@ class FoamFile {
         });
   }
 
-  // Reads lists of nodes one after the other. `ids` also gets the end of each list.
+  // Reads lists of nodes one after the other. `ids` gets the nodes of all lists, and `ends` gets 0 and the end of each list in
+  // `ids`.
   void read_faces(Ids &ids, Ids &ends) {
     if (is_compact()) {
       ends = labels();
@@ -433,7 +434,7 @@ Corners nodes_as(const Shape &shape, const Faces &faces, const std::vector<CellF
   return wanted == found && are_distinct ? nodes : Corners();
 }
 
-// Adds a cell as a linear cell of VTK, or as a polyhedron with its faces if VTK has no such cell.
+// If VTK has a linear cell of this shape, adds this cell. Otherwise adds a polyhedron with the cell's faces.
 void add_cell(const Faces &faces, const std::vector<CellFace> &cell, PlainGrid &mesh) {
   for (const Shape &shape : shapes) {
     const Corners nodes = nodes_as(shape, faces, cell);
@@ -564,7 +565,7 @@ bool read_parts(const std::string &path, const std::vector<fs::path> &folders, P
 
 bool is_mesh(const fs::path &folder) { return has_file(folder, "faces") && has_file(folder, "owner"); }
 
-// Returns the folders polyMesh of the parts of a decomposed case, in the order of the parts. Returns none for other cases.
+// Returns the folders polyMesh of the parts of a decomposed case, in the order of the parts. For other cases, returns no folders.
 std::vector<fs::path> parts_of(const fs::path &root) {
   std::vector<fs::path> folders;
   std::error_code error;

@@ -154,7 +154,7 @@ extern const bool has_hdf5;
 template <class Number>
 std::vector<Number> read_hdf5(const std::string &path, const std::string &name, std::int64_t n, bool &is_single);
 
-// Writes an HDF5 file, which gets its name when it is complete, as a ReplacingFile does.
+// Writes an HDF5 file, which gets its name only when it is complete, like a ReplacingFile.
 class Hdf5Writer {
  public:
   explicit Hdf5Writer(const std::string &path);

@@ -39,7 +39,7 @@ std::vector<std::int64_t> corners_of_first(const std::array<std::int64_t, 3> &n)
     if (size == 1) continue;
     std::vector<std::int64_t> opposite = corners;
     for (std::int64_t &corner : opposite) corner += stride;
-    // The corners of a quad run round it.
+    // The corners of a quad must be listed in their order round the quad.
     if (opposite.size() == 2) std::swap(opposite[0], opposite[1]);
     corners.insert(corners.end(), opposite.begin(), opposite.end());
     stride *= size;

@@ -57,8 +57,8 @@ inline vtkIdType id_at(vtkDataArray *array, vtkIdType i) {
   return value >= 0 ? static_cast<vtkIdType>(std::min(value, most)) : -1;
 }
 
-// Makes failures visible that VTK's XML readers only record. If the file has less data than VTK would read for an array, the
-// array is refused before VTK reads it.
+// Reports failures that VTK's XML readers only record. If the file has less data than VTK would read for an array, the array is
+// refused before VTK reads it.
 template <class Reader>
 class WatchedReader : public Reader {
  public:
@@ -152,8 +152,8 @@ class WatchedReader : public Reader {
                                       // polyhedra
 };
 
-// Explains why a file could not be read. When VTK 9.1 writes its message about an unreadable array, it crashes. The first reader
-// therefore ran without messages of VTK. The second reader skips arrays, so it can report all other faults.
+// Explains why a file could not be read. VTK 9.1 crashes when it writes its message about an unreadable array. The first reader
+// therefore ran without VTK's messages. A second reader skips the arrays, and reports all other faults.
 template <class Watched>
 [[noreturn]] void explain_failure(const std::string &path, const CaughtOutput &caught) {
   vtkNew<Watched> reader;
@@ -177,7 +177,7 @@ vtkSmartPointer<DataSet> read_xml(const std::string &path, const CaughtOutput &c
   return data;
 }
 
-// Reads a legacy file by VTK. The scan has found the content.
+// Reads a legacy file by VTK. `content` is the result of the scan.
 template <class Reader, class DataSet>
 vtkSmartPointer<DataSet> read_scanned(const std::string &path, const LegacyContent &content,
                                       const CaughtOutput &caught) {

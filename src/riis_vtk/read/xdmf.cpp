@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads XDMF: an .xdmf file describes a mesh, and its numbers are in this file, in HDF5 files or in plain binary files (xdmf.org,
+// Reads XDMF. An .xdmf file describes a mesh, whose numbers are in this file, in HDF5 files or in plain binary files (xdmf.org,
 // "XDMF Model and Format"). The reader reads XDMF as FEniCS, dolfinx and meshio write it. The nodes of a cell are in VTK's order,
 // as in FEniCS, dolfinx and meshio.
 #include <algorithm>
@@ -29,8 +29,8 @@ namespace {
 namespace fs = std::filesystem;
 
 // A type of cells: its number in a list of mixed types, and its names in lower case without "_". If the number of nodes varies,
-// n_nodes is 0. If a type of cells has several names, the first name is written. If XDMF gives no number to a type of cells, the
-// number is 0. Cells of order 3 are an example: dolfinx writes them with VTK's order of nodes.
+// n_nodes is 0. If a type of cells has several names, the first name is written. The number is 0 for a type without a number in
+// XDMF, such as cells of order 3. dolfinx writes cells of order 3 with VTK's order of nodes.
 struct Topology {
   int number, vtk_type, n_nodes;
   const char *written;
@@ -207,7 +207,8 @@ class XdmfFile {
     in.check_count(n, 1, "numbers");
     std::vector<Number> values(static_cast<std::size_t>(n));
     for (Number &value : values) {
-      // Only the end is checked. A check of the whole rest after each number would take a time proportional to the square of n.
+      // The rest is checked only near the end of the text. A check of the whole rest after each number would take a time
+      // proportional to the square of n.
       if (in.rest().size() < 64 && std::all_of(in.rest().begin(), in.rest().end(), is_blank))
         in.refuse("a DataItem has ", static_cast<std::int64_t>(&value - values.data()), " of its ", n, " numbers");
       if constexpr (std::is_same_v<Number, double>)
@@ -540,7 +541,7 @@ class XdmfWriter {
                       "\" Center=\"", center, "\"", unit_of(array), ">\n");
       std::string dataset = std::string(center) + "_" + name;
       std::replace(dataset.begin(), dataset.end(), '/', '_');
-      // The ending is added, because the arrays a/b and a_b would otherwise get the same name.
+      // A "_" is added, because the arrays a/b and a_b would otherwise get the same name.
       while (!datasets_.insert(dataset).second) dataset += '_';
       const std::int64_t n = array->GetNumberOfTuples();
       if (array->GetDataType() == VTK_DOUBLE || array->GetDataType() == VTK_FLOAT) {

@@ -124,7 +124,7 @@ std::uint64_t bits_of(vtkAbstractArray *array) {
 }
 
 // Returns the largest number of bytes that one byte of compressed data can stand for. Runs of zeros shrink to 1/1032 of their
-// size in zlib, and to 1/255 in LZ4. LZMA has no limit. The strongest compression that was measured with LZMA is to 1/7000.
+// size in zlib, and to 1/255 in LZ4. LZMA has no limit, but the strongest compression that was measured with it is to 1/7000.
 std::uint64_t most_from_a_byte(vtkDataCompressor *compressor) {
   return std::strcmp(compressor->GetClassName(), "vtkLZMADataCompressor") == 0 ? 20'000 : 1'100;
 }

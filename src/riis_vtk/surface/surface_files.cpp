@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The surfaces of riis_vtk.h, from and to files. Reads a file in one of the formats of docs/formats.md into arrays for the core.
+// Reads and writes the surfaces of riis_vtk.h. Reads a file in one of the formats of docs/formats.md into arrays for the core.
 // Writes the core's surface to a .vtp file.
 #include <riis/riis_vtk.h>
 

@@ -84,7 +84,7 @@ void put_inner_diagonal_first(vtkPointSet *data, vtkIdList *ids) {
   }
 }
 
-// Returns the usual type with the same nodes for a Lagrange cell of order 1 or 2, which dolfinx writes.
+// For a Lagrange cell of order 1 or 2, which dolfinx writes, returns the usual type with the same nodes.
 int without_lagrange(int vtk_type, vtkIdType n_nodes) {
   if (vtk_type == VTK_LAGRANGE_TRIANGLE)
     return n_nodes == 3 ? VTK_TRIANGLE : n_nodes == 6 ? VTK_QUADRATIC_TRIANGLE : vtk_type;
@@ -143,7 +143,7 @@ bool holds_quads_only(vtkPointSet *data) {
   return true;
 }
 
-// Returns a leaflet id for each cell. If the array is missing, returns none. Fails if the array is required but missing.
+// Returns a leaflet id for each cell. If the array is missing, returns no ids, or fails if the array is required.
 std::vector<std::int32_t> leaflets_of_cells(const std::string &path, vtkPointSet *data, const LeafletArray &wanted) {
   const std::string name = "cell array " + wanted.name;
   vtkAbstractArray *abstract = data->GetCellData()->GetAbstractArray(wanted.name.c_str());

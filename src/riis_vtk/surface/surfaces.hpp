@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads a surface from a file, or takes it from the core, and makes a data set of it. Makes plain arrays for the core from the
-// data set, with a leaflet id for each face. Also finds pieces of faces that are connected.
+// Reads a surface from a file or takes a surface from the core, and makes a data set of this surface. Makes plain arrays for the
+// core from the data set, with a leaflet id for each face. Also finds pieces of faces that are connected.
 #pragma once
 
 #include <cmath>
@@ -21,7 +21,7 @@ vtkSmartPointer<vtkPointSet> read_surface_data(const std::string &path, const Ca
 // riis_vtk.h.
 vtkSmartPointer<vtkPolyData> polydata_of(const riis_surface *surface);
 
-// Faces as plain arrays. If the data set has only quads, the faces are quads. Otherwise they are triangles.
+// Faces as plain arrays. If the data set has only quads, the faces are quads. Otherwise the faces are triangles.
 struct Faces {
   std::vector<double> xyz;  // (3, n_vertices), all points, used or not
   // (corners_per_face, n_faces); the diagonal from a quad's first corner to its third lies inside the quad
@@ -53,12 +53,12 @@ Faces faces_of(const std::string &path, vtkPointSet *data, const LeafletArray &w
 // has quads, its quads are cut into triangles. If only one of the two surfaces has an attachment, the attachment is lost.
 void append_faces(Faces &faces, const Faces &other);
 
-// Gives each vertex a number from 0 to the number of vertices minus 1, and returns these numbers. Two vertices have the same
-// number if and only if their coordinates are exactly equal.
+// Returns for each vertex a number below the number of vertices. Two vertices have the same number if and only if their
+// coordinates are exactly equal.
 std::vector<std::int64_t> places_of(const Faces &faces);
 
 // For each face, returns the piece to which the face belongs. Pieces are numbered in the order of their first faces. Two faces
-// are connected if they share a vertex, or if vertices of both have exactly equal coordinates.
+// are connected if they share a vertex, or if a vertex of one has exactly the coordinates of a vertex of the other.
 std::vector<std::int32_t> pieces_of(const Faces &faces);
 
 // Stores the arrays of the faces in the caller's struct. struct_size is the size of the struct in the caller's release of riis.h.
@@ -79,8 +79,8 @@ struct Frames {
 };
 
 // Reads a surface file for each time. Fails if the cells of a file differ from those of the first file, or if a coordinate is not
-// finite. In .stl files, corners that are at one position in the first file become one vertex. In every other .stl file, the
-// corners of one vertex must also be at one position.
+// finite. In .stl files, corners that are at one position in the first file become one vertex. In every later .stl file, all
+// corners of a vertex must again be at one position.
 Frames frames_of_files(const std::vector<std::string> &paths, std::vector<double> times, const LeafletArray &leaflets,
                        const CaughtOutput &caught);
 
@@ -96,7 +96,7 @@ Frames frames_of_displacements(const std::string &path, const std::string &prefi
 Frames frames_of_text(const std::string &path, double time_step, const LeafletArray &leaflets,
                       const CaughtOutput &caught);
 
-// Appends the faces of another motion, in the same way as append_faces. Both motions must have the same times.
+// Appends the faces of another motion, as append_faces does. Both motions must have the same times.
 void append_frames(Frames &frames, const Frames &other);
 
 }  // namespace riis::vtk

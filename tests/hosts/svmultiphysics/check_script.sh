@@ -79,10 +79,10 @@ ends 0 "uris_riis.cpp" compile
 ours=$'our distances\nsolver\'s distances\nour K\nsolver\'s K'
 [[ $("$work/build/svmultiphysics") == "$ours" ]] || problem "the functions are not replaced: $("$work/build/svmultiphysics")"
 ! ninja -C "$work/build" -t commands | grep main.cpp | grep -q riis/include || problem "main.cpp gets our include folder"
-# Twice: nothing is compiled again.
+# The second build with the same options compiles nothing again.
 ends 0 "" configure "${with_riis[@]}"
 ends 0 "no work to do" compile
-# Both engines in each step.
+# With this option, both engines run in each step.
 ends 0 "" configure "${with_riis[@]}" -D RIIS_URIS_CHECK=ON
 ends 0 "uris_check.cpp" compile
 [[ $("$work/build/svmultiphysics") == compared$'\n'"$ours" ]] || problem "the engines are not compared"

@@ -16,7 +16,8 @@ CASE = pathlib.Path(__file__).resolve().parent
 
 
 def rows_of(case, name, file):
-    """Returns the rows of a table of postProcessing by their times. A later start replaces what an earlier one wrote."""
+    """Returns the rows of a table of postProcessing by their times. If the run was started again, the rows of the later start
+    replace earlier rows."""
     rows = {}
     for folder in sorted((case / "postProcessing" / name).glob("*"), key=lambda path: float(path.name)):
         for time in [time for time in rows if time > float(folder.name) + 1e-9]:
