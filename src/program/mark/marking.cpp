@@ -51,11 +51,6 @@ bool is_closed(const MovingValve &valve) {
   return valve.opening().value_or(0) == 0 && valve.options().surface_options.offset == 0;
 }
 
-// Returns by how much a measured distance may be too large. Minimisation may end at a point that is not the nearest point.
-double error_of_distances(const ValveOptions &options) {
-  return options.surface_options.measure == RIIS_MEASURE_MINIMIZATION ? std::numeric_limits<double>::infinity() : 0;
-}
-
 void report_leak(const MovingValve &valve, FlowReport &flow) {
   const std::optional<double> &R = valve.options().resistance;
   if (!R || !(*R > 0)) return;
@@ -216,10 +211,13 @@ void Marking::measure(Piece &piece) {
     for (LeafletsOutside &state : sums.outside) state.add(piece);
     node_counts_.add(piece, list_of(valves_[i].result(), RIIS_LIST_WITHIN_LIMIT), within_limit(i));
     std::vector<std::int64_t> regions;
-    if (wants_measures_ && piece.is_whole() && is_closed(valves_[i]))
+    if (wants_measures_ && piece.is_whole() && is_closed(valves_[i])) {
+      // Minimisation may end at a point that is not the nearest point, so its distances may be too large by any length.
+      const bool is_exact = valves_[i].options().surface_options.measure != RIIS_MEASURE_MINIMIZATION;
       report_.valves[i].flow.closed_area =
           closed_area_in(piece.file.get(), valves_[i].surface(), options().mark_options.n_threads,
-                         error_of_distances(valves_[i].options()));
+                         is_exact ? 0 : std::numeric_limits<double>::infinity());
+    }
     if (wants_measures_ && has_edges) regions = sums.band.add(piece, valves_[i].result(), options().mark_options);
     if (i == 0 || !regions.empty()) sums.shared.push_back(shared_nodes_of(piece, regions));
   }

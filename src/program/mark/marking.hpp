@@ -91,7 +91,7 @@ class Marking {
   PassageCheck passage_;
 };
 
-// The common code of riis mark, riis surface, riis check leaks and riis check crossings. A run works on all its valves, at all
+// riis mark, riis surface, riis check leaks and riis check crossings share the code below. A run works on all its valves, at all
 // its times, in all its pieces. A whole mesh counts as one piece, a single state as one time, and a valve of the command line as
 // a case with one valve. Without a mesh there are no pieces.
 //     case -> surfaces -> pieces, read one by one -> marks, leaks, measures -> files -> report

@@ -221,10 +221,9 @@ void MeshCounts::add(const Piece &piece) {
   const riis_vtk_sharing &cells = piece.counts();
   const bool has_nodes = piece.n() > 0;
   MeshCounts own{
-      0, cells.n_cells, cells.n_volume_cells, cells.n_cells_left_out, has_nodes, has_nodes && piece.has_ids()};
+      0, cells.n_cells, cells.n_volume_cells, cells.n_cells_left_out, has_nodes, has_nodes && piece.has_ids(), 0,
+      0, piece.box(),   piece.moments()};
   for (std::int64_t i = 0; i < piece.n(); ++i) own.n_nodes += piece.is_inside(i);
-  own.box = piece.box();
-  own.moments = piece.moments();
   if (has_nodes) check(riis_vtk_mesh_get_median_edge(piece.file, &own.median_edge));
   if (own.median_edge > 0) own.n_edge_cells = static_cast<double>(cells.n_cells);
   add(own);

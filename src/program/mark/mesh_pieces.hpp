@@ -94,8 +94,7 @@ bool is_in_pieces(const std::string &mesh);
 
 class Piece;
 
-// A mesh, whose pieces are distributed among the ranks. Each rank takes some of its pieces. A mesh in one file stays in memory
-// until its only piece is dropped.
+// A mesh whose pieces are distributed among the ranks. A mesh in one file is read once, and its only piece stays in memory.
 class MeshPieces {
  public:
   // Reads the list of a .pvtu file. The options must outlive this object.

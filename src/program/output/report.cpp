@@ -72,8 +72,6 @@ struct Page {
 // Returns the value for JSON, or null if there is no value.
 Json if_known(bool is_known, const Json &value) { return is_known ? value : Json(); }
 
-std::string after_blank(const std::string &unit) { return unit.empty() ? "" : " " + unit; }
-
 void add_surface(const ValveReport &valve, Page &page) {
   const riis_surface_info &surface = valve.surface;
   std::ostream &out = page.surface << line("surface", valve.name);
@@ -246,9 +244,10 @@ void add_ideal_leak(const ValveReport &valve, Page &page) {
   if (!valve.options->given_drop) return;
   const std::optional<Unit> &unit = valve.options->unit;
   const std::string leak_unit = unit ? unit_text(a_flow, *unit) : "", drop_unit = unit ? a_pressure.si : "";
+  const char *const blank = unit ? " " : "";
   const double drop = valve.options->given_drop->number, leak = *flow.leak_per_drop * drop;
-  std::ostream &out = page.flow << line("leak", valve.name) << leak << after_blank(leak_unit) << " at the drop " << drop
-                                << after_blank(drop_unit) << ", through an ideal closed valve";
+  std::ostream &out = page.flow << line("leak", valve.name) << leak << blank << leak_unit << " at the drop " << drop
+                                << blank << drop_unit << ", through an ideal closed valve";
   if (flow.closed_area) out << " of the area " << *flow.closed_area;
   page.json["leak"] = leak;
   page.json["leak_unit"] = if_known(unit.has_value(), leak_unit);
