@@ -418,7 +418,7 @@ TEST(large_leaves_near_small_triangles) {
 /* --- If single precision does not suffice ---------------------------------------------------------------------------- */
 
 TEST(where_it_cannot_be_used_the_exhaustive_search_runs) {
-  const int n = is_long_test() ? 500 : 167;
+  const int n = is_long_test() ? 500 : is_short_test() ? 40 : 167;
   riis_surface *surface = aortic_surface(NULL);
   const struct {
     double size, at, limit;

@@ -440,7 +440,7 @@ static double nearest_share(const strip *at, const double *p) {
 TEST(skirts_move_with_warped_attachments) {
   for (int kind = 0; kind < n_kinds; ++kind)
     for (int fixed = 0; fixed < 2; ++fixed) {
-      if (is_short_test() && (fixed != kind % 2 || kind % 3)) continue;
+      if (is_short_test() && (fixed || kind > 0)) continue;
       const int owned_before = n_owned();
       const double seconds = 0.01, time = between(0, 1);
       const double of[4] = {between(0.03, 0.08), between(0.03, 0.06), between(0.03, 0.08), between(0.1, 0.2)};

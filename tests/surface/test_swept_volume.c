@@ -160,7 +160,8 @@ TEST(squares_sweep_boxes) {
 }
 
 TEST(volumes_are_conserved) {
-  for (int trial = 0; trial < trials(n_kinds + 2, 2 * n_kinds + 2); ++trial) {
+  const int first = is_short_test() ? 3 : 0; /* a short test takes the kind with the fewest triangles */
+  for (int trial = first; trial < first + trials(n_kinds + 2, 2 * n_kinds + 2); ++trial) {
     riis_valve *valve = random_valve(trial % n_kinds);
     const double a = between(0, 1), b = between(0, 1), c = between(0, 1);
     riis_surface_options options = surface_options(), placed = surface_options();
