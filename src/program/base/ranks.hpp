@@ -29,7 +29,7 @@ class Session {
 
 int rank();
 int n_ranks();
-// Only the first rank prints, and it writes the files that all ranks share.
+// Only the first rank prints, and only this rank writes the files that all ranks share.
 inline bool is_first() { return rank() == 0; }
 
 // While an object of this type lives, the first rank works alone, and exchanges and agreements do not involve the other ranks.

@@ -232,7 +232,7 @@ CLI::Option *Command::value(const std::string &names, const char *type, const ch
                         names, [take] { take(""); }, help),
                     nullptr);
   const auto taken = [take, name = option_name(names)](const std::string &text) {
-    // Refuses an empty value, because it would look like an option that was not given.
+    // Refuses an empty value, because an empty value stands for an option that was not given.
     if (text.empty()) refuse_empty(name);
     take(text);
   };

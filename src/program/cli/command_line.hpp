@@ -26,8 +26,8 @@ using Request = std::variant<MarkOptions, SizeFieldOptions, StatesOptions, AreaO
 // wrong usage.
 std::optional<Request> parse_command_line(int argc, char **argv);
 
-// Declares options of a command. CLI11 passes on each value as text. The program parses the numbers itself, because the result of
-// CLI11 would depend on the locale.
+// Declares options of a command. CLI11 gives each value to the program as text. The program parses the numbers itself, because
+// the result of CLI11 would depend on the locale.
 class Command {
  public:
   explicit Command(CLI::App *app) : app_(app) {}
