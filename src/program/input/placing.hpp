@@ -96,8 +96,8 @@ struct Placed {
   std::vector<double> places;                                     // (3, n), of the landmarks on the valve
   riis_surface_options where = defaults<riis_surface_options>();  // the placement
   bool is_warped = false;
-  // The pairs of the warp: landmarks on the valve and in the patient, (3, n), and their names. Landmarks at one place make one
-  // pair.
+  // The pairs of the warp: landmarks on the valve and in the patient, (3, n), and their names. Several landmarks at the same
+  // place make only one pair.
   std::vector<double> sources, targets;
   std::vector<std::string> paired_names;
   double warp_noise = 0;          // the noise that smooths the warp; 0: the warp meets the landmarks
@@ -105,7 +105,7 @@ struct Placed {
 };
 
 // Finds the sizes and the placement of the valve from the landmarks. The parameters in `held` keep the values that the caller has
-// set. So do the parameters that the landmarks' file states.
+// set. Parameters that the landmarks' file states also keep their values.
 Placed place_by_landmarks(const LandmarkFile &of_file, riis_valve *valve, const std::string &kind,
                           const std::vector<std::string> &held, Reader reader);
 

@@ -22,7 +22,7 @@ namespace {
 
 // The number of openings at which the wall must be near enough.
 constexpr std::int32_t n_openings = 11;
-// The gap and the skirt are measured at different points, so the gap may exceed the skirt by this share.
+// The gap and the skirt are measured at different points, so the gap may exceed the skirt's length by this share.
 constexpr double most_beyond = 0.01;
 // The largest length of a hole in the wall, as a share of the attachment's length. A longer open line is the end of a vessel.
 constexpr double longest_hole = 0.3;
@@ -174,8 +174,8 @@ void set_skirt(const ValveOptions &options, riis_valve *valve, const std::string
   if (!options.skirt) return;
   if (options.wall.empty()) {
     check(riis_valve_set_scalar(valve, "skirt_length", *options.skirt / options.surface_options.scale), subject);
-    // The library's refusal gives the skirt's length only in the valve's own unit. The program's refusal also gives the user's
-    // length. The library tests the skirt's length before it makes the triangles.
+    // The library's refusal gives the skirt's length only in the valve's own unit. The program's refusal also gives the length
+    // that the user wrote. The library tests the skirt's length before it makes the triangles.
     riis_surface_options how = options.surface_options;
     how.triangulation = RIIS_TRIANGULATION_ADAPTED;
     Surface trial;

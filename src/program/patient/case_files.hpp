@@ -25,10 +25,11 @@ Ends ends_of(const SolverCase &solver, Unit unit);
 void make_case_folder(const SolverCase &solver);
 // Copies a file from the case's folder into the solver's folder. The new name may contain folders.
 void copy_into(const SolverCase &solver, const std::string &from, const std::string &to);
-// Writes a text as a file of the solver's folder.
+// Writes a text to a file in the solver's folder.
 void write_into(const SolverCase &solver, const std::string &name, const std::string &text);
 void make_runnable(const SolverCase &solver, const std::string &name);
-// Writes beat_table.py, report.py, and the script `run`, which runs the case. `of` is the folder of the scripts among case_texts.
+// Writes beat_table.py, report.py, and the script `run`, which runs the case. `of` is the folder that holds the scripts in
+// case_texts.
 void write_scripts(const SolverCase &solver, const std::string &of, const std::string &run);
 // Writes orifice.json, from which beat_table.py takes the areas of the open valve.
 void write_orifice(const SolverCase &solver);
@@ -50,8 +51,8 @@ void announce_beat(const SolverCase &solver, const SolverCost &cost);
 std::string filled(std::string text, const std::map<std::string, std::string> &names);
 
 // Returns the texts of beat_table.py, of the files in the folders fenicsx, openfoam and svmultiphysics, and of uris_flow.py. A
-// key is a path from this folder, such as "openfoam/Allrun". CMake writes these texts into the program, so the program needs no
-// path to the files.
+// key is a path relative to the folder of this header, such as "openfoam/Allrun". CMake writes these texts into the program, so
+// the program needs no path to the files.
 const std::map<std::string, std::string> &case_texts();
 
 // The physiological defaults of one beat, in SI units: the pressures in a heart at rest, and the body behind the aorta.
