@@ -59,7 +59,7 @@ const std::map<std::string, std::string> &case_texts();
 
 inline constexpr double mmHg = 133.322;      // Pa
 inline constexpr double usual_period = 0.8;  // s
-// The time between two files. The duration of a beat is a multiple of this time, so that the end of a run has a file.
+// The time between two files. The duration of a beat is a multiple of this time, so that a file is written at the end of a run.
 inline constexpr double seconds_between_files = 0.02;
 inline constexpr double motion_seconds = 0.04;  // in which a valve opens, and in which it closes
 // The dwell time of the law of opening. Closing leaflets push blood back, and the pressure of this blood must not open the valve
@@ -70,14 +70,16 @@ inline constexpr double opening_pressure = 50;
 // m3/s. A mitral valve closes when the flow falls below this value, so that less blood returns.
 inline constexpr double closing_flow_of_mitral = 1e-4;
 
-// The length of the systole in a beat of this period, as a share of its usual length. At N beats a minute, the time from the Q
-// wave to the second heart sound is 546 ms - 2.1 ms N (A. M. Weissler et al., Circulation 37, 1968, 149-159, for men).
+// Returns the length of the systole in a beat of the given period, divided by the length of the systole in a usual beat. At N
+// beats a minute, the time from the Q wave to the second heart sound is 546 ms - 2.1 ms N (A. M. Weissler et al., Circulation 37,
+// 1968, 149-159, for men).
 inline double systole_at(double period) {
   const auto seconds = [](double duration) { return 0.546 - 2.1e-3 * 60 / duration; };
   return seconds(period) / seconds(usual_period);
 }
 
-// A pressure as a function of time, which is linear between its keys. The function repeats, and its last time is its period.
+// A pressure as a function of time, which is linear between its keys. The function repeats, and the time of its last key is its
+// period.
 struct PressureCurve {
   struct Key {
     double time, pressure;  // s, mmHg

@@ -377,7 +377,8 @@ std::string options_of(const WallFrame &frame, const WallFrame &other) {
   return joined_by(options, " ");
 }
 
-// Returns all units and axes of the wall with the distances of the landmarks, the nearest first.
+// Tries all units and axes of the wall, and measures the distances of the landmarks from the wall. Returns the results, the
+// nearest first.
 std::vector<WallFrame> frames_of(const riis_surface *wall, const LandmarkFile &landmarks) {
   const std::string own = name_of(landmarks.axes);
   std::vector<WallFrame> all;

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The files of the case, with the names of their texts.
+// The path of each file of the case, and the key of its text in case_texts.
 constexpr std::pair<const char *, const char *> foam_files[] = {
     {"0/U", "openfoam/U"},
     {"0/p", "openfoam/p"},

@@ -30,7 +30,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The area of an end may change a little, because the rim of the new surface has longer edges.
+// The area of an end may change by at most this share, because the rim of the new surface has longer edges.
 constexpr double most_area_change = 0.05;
 // The edge length in the middle of an end, as a share of the end's radius. The rim of an end then has at least sixteen edges.
 constexpr double end_edge_share = 0.35;
@@ -198,7 +198,7 @@ std::string vtk_file_text(const std::vector<Vector3> &points, const std::vector<
          ">\n</VTKFile>\n";
 }
 
-// Returns the last error in gmsh's log, or "" if there is none. gmsh's summary has a frame, which is removed.
+// Returns the last error in gmsh's log, or "" if there is none. The frame that gmsh draws around its summary is left out.
 std::string last_error_in(const std::string &log) {
   std::string last;
   for (const std::string &line : split(log, "\n")) {

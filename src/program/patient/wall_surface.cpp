@@ -16,8 +16,8 @@
 namespace riis::program {
 namespace {
 
-// Two vertices of open sides are joined if their distance is below this share of the wall's size. In single precision, the
-// rounding errors of a root that is a metre away from the origin are a sixth of this share.
+// Two vertices of open sides are joined if their distance is below this share of the wall's size. If a root is a metre away from
+// the origin, its rounding errors in single precision are a sixth of this distance.
 constexpr double joined_share = 1e-5;
 // A piece is an island of the segmentation if its area is below this share of the largest piece's area.
 constexpr double island_share = 0.01;
