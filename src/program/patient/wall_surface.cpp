@@ -345,7 +345,7 @@ class WallRepair {
     return -1;
   }
 
-  // Moves one end of a side, b, to the other end, a. Returns whether the surface allows the move.
+  // Moves the end b of a side to the side's other end a. Returns whether the surface allows the move.
   bool join_side(std::int64_t a, std::int64_t b) {
     const std::int64_t left = of_side(a, b), right = of_side(b, a);
     if (left < 0 || right < 0) return false;
