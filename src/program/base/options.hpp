@@ -114,7 +114,7 @@ struct MarkOptions : ValveOptions {
   bool at_cells = false;   // whether the centres of cells are marked
   riis_mark_options mark_options = defaults<riis_mark_options>();
   double far_distance = RIIS_FAR_DISTANCE;
-  // The array of K follows from the resistance R, and OpenFOAM's K is divided by the density. The drop is the pressure drop for
+  // The resistance R determines the array of K. For OpenFOAM, K is divided by the density. given_drop is the pressure drop for
   // the ideal leak.
   std::optional<Amount> given_resistance, given_drop, density;
   std::optional<std::string> chosen_K_unit;

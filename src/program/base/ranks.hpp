@@ -50,7 +50,7 @@ struct AgreedRefusal {
   Refusal refusal;
 };
 
-// Throws an AgreedRefusal on all ranks if one of them passes a failure.
+// Throws an AgreedRefusal on all ranks if at least one rank passes a failure.
 void agree(const Refusal *failure = nullptr);
 
 // Returns the bytes that all ranks passed, in the order of the ranks.

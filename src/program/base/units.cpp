@@ -87,8 +87,8 @@ constexpr double smallest_half_thickness = 0.3;
 // A unit is impossible if it makes the vessel much too narrow or much too wide. The limit for wide vessels is larger than the
 // limit for narrow vessels, because a valve may stand in a wide basin.
 constexpr double most_too_narrow = 1.5, most_too_wide = 10;
-// The oddity of a unit tells how unlikely the unit is. It is a product of ratios, each at least 1. A unit is possible if its
-// oddity is at most this factor times the oddity of the likeliest unit.
+// The oddity of a unit tells how unlikely the unit is. The oddity is a product of ratios, which are all at least 1. A unit is
+// possible if its oddity is at most this factor times the oddity of the likeliest unit.
 constexpr double most_odd = 2.7;
 // In a wide basin, the present unit is right if the oddity of every other unit is larger by this factor.
 constexpr double surely_odder = 1.35;

@@ -49,7 +49,7 @@ struct Box {
   }
   void grow(const double *point) { grow(point, point); }
   void grow(const Box &other) { grow(other.lower, other.upper); }
-  // Returns the box with each side moved outwards by `by`.
+  // Returns the box with each side moved outwards by the length `by`.
   Box widened(double by) const {
     return {{lower[0] - by, lower[1] - by, lower[2] - by}, {upper[0] + by, upper[1] + by, upper[2] + by}};
   }

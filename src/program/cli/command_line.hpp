@@ -98,8 +98,8 @@ PatientOptions finish_patient(const Command &command, PatientOptions options);
 // The beginning of the program's help.
 extern const char *const description;
 
-// Returns the text after the options in a command's help: examples, and topics to read. The name "riis" stands for the program's
-// own help.
+// Returns the text that follows the options in a command's help: examples, and topics to read. The name "riis" stands for the
+// program's own help.
 std::string help_of(const std::string &command);
 
 // Returns the text of a topic, or the list of topics if the name is "". Throws a Refusal for an unknown name.

@@ -322,7 +322,7 @@ const std::set<std::string> meshes_of_gmsh = {".unv", ".bdf", ".nas"};
 // gmsh 4 silently leaves out the prisms of a .mesh file.
 const std::set<std::string> meshes_of_meshio = {".inp", ".su2",  ".med", ".mesh", ".meshb", ".avs", ".dat", ".f3grid",
                                                 ".h5m", ".mdpa", ".vol", ".node", ".ele",   ".xml", ".post"};
-// Endings of files that ParaView opens. The files contain blocks, or grids that are not unstructured.
+// Endings of files that ParaView opens. The files contain blocks or structured grids.
 const std::set<std::string> meshes_of_paraview = {".cgns", ".case", ".encas", ".vtkhdf", ".pvti", ".pvtr",
                                                   ".pvts", ".plt",  ".tec",   ".vtmb",   ".vtpc", ".vtpd"};
 // Endings of CAD files. gmsh fills a CAD model with cells, or covers it with triangles.

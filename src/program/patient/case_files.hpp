@@ -65,9 +65,9 @@ inline constexpr double motion_seconds = 0.04;  // in which a valve opens, and i
 // The dwell time of the law of opening. Closing leaflets push blood back, and the pressure of this blood must not open the valve
 // again. Each motion of the leaflets therefore ends before the next motion may begin, as in svMultiPhysics.
 inline constexpr double dwell_seconds = motion_seconds;
-// Pa. The opening pressure is larger than the rounding error of the difference between two equal pressures.
+// The opening pressure in Pa. It is larger than the rounding error of the difference between two equal pressures.
 inline constexpr double opening_pressure = 50;
-// m3/s. A mitral valve closes when the flow falls below this value, so that less blood returns.
+// A mitral valve closes when the flow falls below this value, in m3/s, so that less blood returns.
 inline constexpr double closing_flow_of_mitral = 1e-4;
 
 // Returns the length of the systole in a beat of the given period, divided by the length of the systole in a usual beat. At N

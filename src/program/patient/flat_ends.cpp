@@ -93,7 +93,7 @@ class EndChoice {
   }
 
   // Remarks on the largest flat part that counts as wall but may be an end. The parts are sorted by area, so this part is the
-  // first that find_if meets.
+  // first that find_if finds.
   void remark_unclear(PatientWall &wall) const {
     const auto is_unclear = [&](const FlatPart &part) {
       return part.is_large && part.is_disc() && !part.is_facet &&
@@ -369,7 +369,7 @@ WallFrame frame_with(const riis_surface *wall, const LandmarkFile &given, Unit u
   return frame;
 }
 
-// Returns the options that choose a frame's unit and axes, or words for the unit and the axes.
+// Returns the options that choose a frame's unit and axes. Leaves out an option if the other frame has the same unit or axes.
 std::string options_of(const WallFrame &frame, const WallFrame &other) {
   std::vector<std::string> options;
   if (frame.unit != other.unit) options.push_back(std::string("--wall-unit ") + name_of(frame.unit));

@@ -468,7 +468,7 @@ class PatientMesher {
                   in_gmsh("surface.log") + "); " + cure_of_surface());
   }
 
-  // Refuses a surface that lost an end, or whose size changed.
+  // Refuses a surface if an end was lost or has another area.
   void check_ends(const GmshMesh &mesh) const {
     std::vector<double> areas(groups_.size(), 0);
     for (const auto &[group, corner] : mesh.triangles) {
