@@ -22,7 +22,7 @@ struct SineCosine {
 
 namespace elementary {
 
-// Returns the polynomial with these coefficients, the constant term first.
+// Evaluates the polynomial with the given coefficients at x. The constant term is the first coefficient.
 template <std::size_t n>
 constexpr double polynomial(const double (&coefficient)[n], double x) {
   double value = coefficient[n - 1];

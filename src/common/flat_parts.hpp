@@ -77,7 +77,8 @@ class Finder {
   Part grown(std::int64_t seed, double tolerance);
   // Measures the rim and the angle to the wall beside it.
   void measure(Part &part);
-  // Adds a part if no larger part has most of its triangles. Removes smaller parts whose triangles are mostly in the new part.
+  // Adds a part, unless most of its triangles belong to a larger part. Removes smaller parts whose triangles are mostly in the
+  // new part.
   void add(Part part, std::vector<Part> &parts);
 
   void fit(Part &part) const;

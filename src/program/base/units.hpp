@@ -82,7 +82,8 @@ struct Moments {
 std::array<double, 3> sides_of(const Box &box, const Moments &moments);
 
 // The sizes of a mesh and of a valve in the mesh. The functions below tell whether the sizes of mesh and valve fit together, and
-// which unit and which half thickness would fit. The program's warnings and the lights of Python's view follow the same rules.
+// which unit and which half thickness would fit. The program's warnings and the lights of riis view (docs/view.md) follow the
+// same rules.
 struct Sizes {
   std::array<double, 3> mesh_sides;  // the longest first
   Box surface;

@@ -17,8 +17,8 @@ namespace riis::program {
 
 namespace {
 
-// Formats an option as its name and the type of its value. CLI11's own format would also list the options that an option excludes
-// and needs, and the help would be too long for a screen.
+// Formats an option as its name and the type of its value. For each option, CLI11's own format would also list other options that
+// it excludes or needs. The help would then be too long for a screen.
 class BriefHelp : public CLI::Formatter {
  public:
   BriefHelp() { column_width(36); }

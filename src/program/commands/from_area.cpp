@@ -101,8 +101,8 @@ class Search {
                              made->values.data(), made->reached.data(), &made->range, sizeof made->range);
   }
 
-  // Refuses the first area of the file that the valve cannot reach. If the valve can reach all areas, refuses with the library's
-  // reason.
+  // Finds the first area in the file that the valve cannot reach, and refuses it. If the valve can reach all areas, refuses with
+  // the library's reason.
   void refuse_row(const Areas &wanted, const std::string &reason) const {
     Solution all;
     if (call({}, &all) != RIIS_OK) throw Refusal{exit_wrong_usage, with_option_named(reason)};

@@ -176,7 +176,7 @@ Grid grid_in(const Box &box, double spacing, bool is_given) {
   return grid;
 }
 
-// Returns the edge length at each point: the least length of all zones.
+// Returns the edge length at each point. If the zones have different lengths there, the least of these lengths counts.
 std::vector<double> lengths_at(const Grid &grid, const std::vector<Zone> &zones, const SizeFieldOptions &options) {
   const Stage stage("measuring the distances of the grid", options.quiet);
   const std::vector<double> xyz = grid.points();

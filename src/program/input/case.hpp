@@ -25,9 +25,9 @@ struct Case {
   bool is_series() const { return !options.series.times.empty(); }
   // Returns the times of the series. Without a series, returns the only time.
   std::vector<double> times() const;
-  // Returns a valve's name for files and columns, or "" if it is the only valve.
+  // Returns a valve's name for files and columns, or "" if the case has only one valve.
   std::string part_of(std::size_t valve) const { return valves.size() == 1 ? "" : valves[valve].options.prefix; }
-  // Returns the beginning of a line about a valve, such as "mitral: ", or "" if it is the only valve.
+  // Returns the beginning of a line about a valve, such as "mitral: ", or "" if the case has only one valve.
   std::string before(std::size_t valve) const { return valves.size() == 1 ? "" : part_of(valve) + ": "; }
   // Returns the name that warnings use for a valve's surface.
   std::string surface_of(std::size_t valve) const;

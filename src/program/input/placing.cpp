@@ -47,7 +47,7 @@ std::string held_names(std::vector<std::string> given, const LandmarkFile &landm
   return joined_by(held, " ");
 }
 
-// Returns the library's message with the names that landmarks and fields have in the file.
+// Returns the library's message, in which landmarks and fields get the names that they have in the file.
 std::string in_words_of_file(std::string text, const LandmarkFile &landmarks) {
   static const std::regex numbered("landmark ([0-9]+)( \\([^)]*\\))?");
   std::string named;
@@ -370,7 +370,7 @@ std::string filled(const std::string &text, std::size_t width) {
   return text + std::string(std::max(width, text.size() + 1) - text.size(), ' ');
 }
 
-// Returns a distance from the valve as text. A distance that is smaller than the error of measured distances becomes 0.
+// Returns a distance from the valve as text. A distance that is smaller than the error of measured distances is shown as 0.
 std::string distance_text(double distance, double centimetre) {
   return distance > distance_error * centimetre ? digits(distance, 3) : "0";
 }

@@ -55,7 +55,7 @@ LandmarkFile read_landmarks(const std::string &path, const std::string &text, co
 // If all given nadirs and commissures name their cusps, every nadir and commissure of this kind of valve must be given. The
 // refusal names the missing landmarks.
 void check_names_of_cusps(const LandmarkFile &landmarks, const std::string &kind);
-// Reads landmarks in memory from an object that has the keys of a file. `subject` names the landmarks in refusals.
+// Takes landmarks from a JSON object in memory, which has the keys of a landmark file. `subject` names the landmarks in refusals.
 LandmarkFile landmarks_of_json(const std::string &subject, const Json &root);
 
 // The reader of a message: a user of the program or of the Python package. Messages write options like --unit mm for the program,

@@ -20,7 +20,7 @@
 namespace riis::program {
 namespace {
 
-// The number of openings at which the wall must be near enough.
+// The wall must be near enough at each of this number of openings.
 constexpr std::int32_t n_openings = 11;
 // The gap and the skirt are measured at different points, so the gap may exceed the skirt's length by this share.
 constexpr double most_beyond = 0.01;
@@ -54,7 +54,7 @@ std::string axes_advice(const ValveOptions &options) {
 }
 
 // Returns a hint if the skirt would reach the wall in another unit or with other axes. Otherwise returns "". The function
-// `reaches` tells whether the skirt reaches a changed wall.
+// `reaches` tells whether the skirt reaches the wall after such a change.
 template <class Reaches>
 std::string hint_of_change(const ValveOptions &options, const SurfaceFile &file, const Reaches &reaches) {
   for (const Change change : {Change{"1", true}, Change{"0.1", false}, Change{"10", false}, Change{"0.01", false},

@@ -597,7 +597,7 @@ class PatientRun {
                          [&](const Boundary &boundary) { return boundary.name == name; });
   }
 
-  // Returns the options that choose the ends on the right sides of the valve.
+  // Returns the options that choose ends on the correct sides of the valve.
   std::string cure_of_ends(const ValveSides &sides) const {
     std::string text;
     if (options_.flow) text = ", according to --flow: reverse --flow if it points against the blood; otherwise";

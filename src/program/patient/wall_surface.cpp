@@ -335,8 +335,8 @@ class WallRepair {
     for (const std::int64_t id : corner) view(is_locked_)[id] = 1;
   }
 
-  // Returns the triangle whose side leads from a to b in this direction, or -1. Vertex a or vertex b must belong to a thin
-  // triangle.
+  // Returns the triangle that has a side from a to b, in this direction. Returns -1 if there is none. Vertex a or vertex b must
+  // belong to a thin triangle.
   std::int64_t of_side(std::int64_t a, std::int64_t b) const {
     const auto found = around_.find(around_.count(a) > 0 ? a : b);
     for (const std::int64_t i : found->second)

@@ -140,8 +140,8 @@ void UrisLeaflets::part(const ExportOptions &options) {
   }
 }
 
-// Turns the triangles of the ring so that their normals point against the flow. In the solver, upstream nodes inside the ring are
-// then upstream of the valve.
+// Turns the triangles of the ring so that their normals point against the flow. The solver then takes upstream nodes inside the
+// ring for nodes on the upstream side of the valve.
 void UrisLeaflets::turn_ring(double opening) {
   const std::vector<double> xyz = vertices_at(opening);
   const auto middle_of = [&](const Corners &corners) {
