@@ -95,9 +95,9 @@ GroundTruth make_ground_truth(const PatchSet &patches, const TruthRequest &reque
     const Vec3 p = foot.point + offset * foot.normal;
     const double xyz[3] = {p.x, p.y, p.z};
     const riis_closest closest = fine.closest(xyz);
-    // The point p was moved by `height` from its foot, a point of the surface at which the curvature is bounded. If a point of
-    // the surface near the foot is at the distance r from the foot, it is therefore at least sqrt(height^2 + r^2 / 2) away from
-    // p. A triangle that is nearer to p belongs to another part of the surface.
+    // The point p was moved by `height` from its foot, a point of the surface at which the curvature is bounded. A point of the
+    // surface near the foot, at the distance r from the foot, is therefore at least sqrt(height^2 + r^2 / 2) away from p. A
+    // triangle that is nearer to p belongs to another part of the surface.
     const double reach = 3 * std::sqrt(error * (height + error)) + error;
     if (closest.distance < height - error || norm(closest.point, foot.point) > reach) {
       ++truth.n_nearer;

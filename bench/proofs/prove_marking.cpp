@@ -73,7 +73,7 @@ class NearTriangles {
       if (p[i] < box.lower[i] || p[i] > box.upper[i]) return false;
     return true;
   }
-  // A larger coordinate never gives a lower number of a cell. If a box contains a point, the point's cell is therefore one of the
+  // A larger coordinate never gives a lower cell number. If a box contains a point, the point's cell is therefore one of the
   // box's cells.
   std::size_t cell_of(double coordinate, int i) const {
     return static_cast<std::size_t>((coordinate - whole_.lower[i]) / edge_);

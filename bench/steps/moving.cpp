@@ -342,7 +342,7 @@ void measure_warps(Contest &contest, Bars &bars, WarpedSteps &steps, const std::
   contest.run();
   if (steps.has_patches())
     bars.add(name + ": step / moving update of the same patches", contest.ratio(step, of_patches), Wanted::at_most, 2);
-  // In a symmetric update, the work for one cusp serves all three cusps, and the work for one half of a mitral valve serves both
+  // In a symmetric update, the work for one cusp serves all three cusps. The work for one half of a mitral valve serves both
   // halves.
   bars.add(name + ": step / moving update of the symmetric valve", contest.ratio(step, symmetric), Wanted::at_most,
            steps.has_patches() ? 5 : 2.5);

@@ -39,8 +39,8 @@ double degrees_between(const Vector3 &a, const Vector3 &b) {
   return 180 / pi * arc_tangent(norm(cross(a, b)), dot(a, b));
 }
 
-// A sum is the sum of the area vectors of the wall in one sector. Returns the mean and the least angle between these sums and the
-// normal.
+// `sums` has, for each sector, the sum of the wall's area vectors. Returns the mean and the least angle between these sums and
+// the normal.
 std::pair<double, double> angles_of(const Sectors &sums, const Vector3 &normal) {
   double n = 0, total = 0, smallest = 180;
   for (const Vector3 &sum : sums) {

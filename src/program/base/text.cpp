@@ -168,7 +168,7 @@ std::string text_of_file(const std::string &path) {
   std::ifstream file(path);
   std::ostringstream text;
   if (file) text << file.rdbuf();
-  // On Linux, a folder can be opened as a file, but reading it fails. This failure shows here that the path is a folder.
+  // On Linux, a folder can be opened as a file, but reading it fails. This failure is noticed here.
   if (!file.is_open() || errno != 0) refuse_file(path, "cannot be read: " + system_text(errno));
   const std::string content = text.str();
   if (content.empty()) refuse_file(path, "is empty");

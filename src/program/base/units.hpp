@@ -77,8 +77,9 @@ struct Moments {
   void add(const Moments &other);
 };
 
-// Returns the three sides of a mesh, the longest first. The length of a side is the shorter of two lengths: the side of the box,
-// and the diameter of a disc with the same moment as the points. Without points, the sides of the box are returned.
+// Returns the three sides of a mesh, the longest first. The length of a side is the shorter of two lengths. One is the side of
+// the box, and the other is the diameter of a disc with the same moment as the points. Without points, the sides of the box are
+// returned.
 std::array<double, 3> sides_of(const Box &box, const Moments &moments);
 
 // The sizes of a mesh and of a valve in the mesh. The functions below tell whether the sizes of mesh and valve fit together, and

@@ -256,7 +256,7 @@ ExitCode run_size_field(const SizeFieldOptions &options) {
   double spacing = std::numeric_limits<double>::infinity();
   for (const Edges &one : edges) spacing = std::min(spacing, 0.5 * one.half_thickness);
   if (options.spacing) spacing = *options.spacing;
-  // Collecting all states may take minutes. The grid around the first states is therefore made before. It already shows whether
+  // Collecting all states may take minutes. A grid around only the first states is therefore made first. It may already show that
   // the spacing gives too many points.
   Box first = empty_box();
   for (std::size_t i = 0; i < valves.size(); ++i)

@@ -244,7 +244,7 @@ class CaseReader {
     set_skirt(source.options, source.valve, source.subject);
   }
 
-  // Reads the warp, and warps the valve as at the first time.
+  // Reads the warp, and warps the valve to the landmarks of the first time.
   void set_warp(const CaseValues &values, riis_valve *valve, ValveSource &source) {
     const std::vector<double> &times = all_.options.series.times;
     source.warp = read_warp(source.options);

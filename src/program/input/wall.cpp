@@ -20,7 +20,7 @@
 namespace riis::program {
 namespace {
 
-// The wall must be near enough at each of this number of openings.
+// The number of openings at which the program tests whether the wall is near enough.
 constexpr std::int32_t n_openings = 11;
 // The gap and the skirt are measured at different points, so the gap may exceed the skirt's length by this share.
 constexpr double most_beyond = 0.01;

@@ -369,7 +369,7 @@ WallFrame frame_with(const riis_surface *wall, const LandmarkFile &given, Unit u
   return frame;
 }
 
-// Returns the options that choose a frame's unit and axes. Leaves out an option if the other frame has the same unit or axes.
+// Returns the options that choose a frame's unit and axes. Leaves out an option whose value is the same in the other frame.
 std::string options_of(const WallFrame &frame, const WallFrame &other) {
   std::vector<std::string> options;
   if (frame.unit != other.unit) options.push_back(std::string("--wall-unit ") + name_of(frame.unit));

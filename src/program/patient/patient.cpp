@@ -39,7 +39,7 @@ Words joined(std::initializer_list<Words> lists) {
 constexpr double aortic_half_thickness = 1, mitral_half_thickness = 1.5, usual_skirt = 6, usual_noise = 0.3;
 // Limits of the half thickness. A value beyond these limits has a wrong unit, or would close the open valve.
 constexpr double least_half_thickness_mm = 0.1, most_half_thickness_mm = 4, most_skirt_mm = 30;
-// The mean distance of landmarks from the wall is at most `usual_distance_mm` if a person has set them with care. Above
+// The mean distance of landmarks from the wall is usually at most `usual_distance_mm` if a person has set them. Above
 // `doubtful_distance_mm`, the landmarks are probably wrong.
 constexpr double usual_distance_mm = 1, doubtful_distance_mm = 2;
 constexpr double usual_band_edge = 0.95, usual_largest_edge = 3;
