@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures the errors of the paper's three methods for a distance (4.1, "Performance evaluation"). One leaflet belongs to the
-// aortic valve and one to the mitral valve. The true distances of the points are known. Prints a table. Fails if an error is
-// larger than its promised bound.
+// Measures the errors of the paper's three methods to compute a distance (section 4.1, "Performance evaluation"). One leaflet
+// belongs to the aortic valve and one to the mitral valve. The true distances of the points are known. Prints a table. Fails if
+// an error is larger than its promised bound.
 //   argv[1]  a JSON file for the table and further results
 //   argv[2]  the number of points per leaflet
 #include <riis/riis.h>
@@ -36,13 +36,13 @@ constexpr std::uint64_t seed = 1;
 // For this fraction of the points, sampling may have an error above the tolerance.
 constexpr double sampling_share = 1e-3;
 
-// Returns the value below which a given fraction of the values lies. The values ascend.
+// Returns a quantile: the given fraction of the values lies below it. The values must ascend.
 double quantile(const std::vector<double> &ascending, double share) {
   const auto n = static_cast<double>(ascending.size());
   return ascending[std::min(ascending.size() - 1, static_cast<std::size_t>(share * n))];
 }
 
-// Counts the values in bins of equal width in the logarithm. Values below the first bin are only counted in "below".
+// Counts the values in bins of equal width on a logarithmic scale. Values below the first bin are counted in "below".
 json histogram_of(const std::vector<double> &values, double lowest_power, double highest_power, double bins_per_power) {
   std::vector<std::int64_t> counts(static_cast<std::size_t>((highest_power - lowest_power) * bins_per_power));
   std::int64_t below = 0, above = 0;
@@ -91,7 +91,7 @@ json measure(const MeasuredSurface &surface, const TruePoints &points, double to
     least = std::min(least, error);
     most = std::max(most, error);
     errors.push_back(std::abs(error));
-    // The tolerance has a margin for the rounding of coordinates.
+    // An error counts only if it exceeds the tolerance by more than 1e-9, because coordinates are rounded.
     n_over += std::abs(error) > tolerance + 1e-9;
   }
   json result = summary_of(errors);
@@ -107,7 +107,7 @@ json measure(const MeasuredSurface &surface, const TruePoints &points, double to
   return result;
 }
 
-// Returns a text about the first broken promise, or "" if all promises are kept.
+// Returns a message about the first promise that is broken, or "" if all promises are kept.
 std::string broken_promise(const Setting &setting, const json &run) {
   for (const char *where : {"on_surface", "off_surface"}) {
     const double share = run.at(where).at("share_over_tolerance");

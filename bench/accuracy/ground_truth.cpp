@@ -20,7 +20,8 @@ struct Place {
   double u, v;
 };
 
-// Chooses random points evenly by area. The areas are those of triangles, so the points are even up to the triangles' tolerance.
+// Chooses random points evenly by area. The area is measured on triangles that follow the surface within a tolerance. The points
+// are therefore evenly spread only within this tolerance.
 class Places {
  public:
   Places(const PatchSet &patches, const SmoothSurface &smooth)
@@ -94,9 +95,9 @@ GroundTruth make_ground_truth(const PatchSet &patches, const TruthRequest &reque
     const Vec3 p = foot.point + offset * foot.normal;
     const double xyz[3] = {p.x, p.y, p.z};
     const riis_closest closest = fine.closest(xyz);
-    // The point p was moved by `height` from its foot, a point of the surface at which the curvature is bounded. At the distance
-    // r from the foot, the surface near the foot is therefore at least sqrt(height^2 + r^2 / 2) away from p. A triangle that is
-    // nearer to p belongs to another part of the surface.
+    // The point p was moved by `height` from its foot, a point of the surface at which the curvature is bounded. A point of the
+    // surface near the foot, at the distance r from the foot, is therefore at least sqrt(height^2 + r^2 / 2) away from p. A
+    // triangle that is nearer to p belongs to another part of the surface.
     const double reach = 3 * std::sqrt(error * (height + error)) + error;
     if (closest.distance < height - error || norm(closest.point, foot.point) > reach) {
       ++truth.n_nearer;

@@ -34,7 +34,7 @@ struct TruthRequest {
 
 struct GroundTruth {
   TruePoints on_surface;  // evenly by area; u and v at least SmoothSurface::step away from a patch's sides
-  // The points of on_surface, each of which is moved by every offset in turn. The two fields below count points that are left
+  // These points are the points of on_surface, moved by every offset in turn. The next two fields count the points that are left
   // out.
   TruePoints off_surface;
   std::int64_t n_curved;  // points whose radius of curvature is too small for the offset

@@ -14,8 +14,8 @@ void check(riis_status status) {
   if (status != RIIS_OK) throw std::runtime_error(std::string(riis_status_name(status)) + ": " + riis_last_error());
 }
 
-// Returns a kind of valve with the given patches. The patches may be patches of arcs, which riis_valve_create_from_patches does
-// not accept.
+// Returns the kind of a valve that is made from ready patches. These may be patches of arcs, which riis_valve_create_from_patches
+// does not accept.
 const ValveKind &fixed_patches_kind() {
   static const ValveKind &kind =
       *new ValveKind{"fixed patches",

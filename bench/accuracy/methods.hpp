@@ -52,7 +52,7 @@ class MeasuredSurface {
 
   riis_closest closest(const double *point) const;
   double distance(const double *point) const { return closest(point).distance; }
-  // Returns the number of triangles, samples or patches used to measure distances.
+  // Returns the number of triangles, samples or patches, depending on the method.
   std::int64_t size() const;
 
  private:

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Evaluates the smooth surface to which tolerances refer (docs/theory/triangles.md). The surface consists of Coons patches and
-// patches of arcs. The patches are made from the Bézier curves themselves. The parameter of a curve is the fraction of its exact
-// length. The surface has no polylines, no grid and no tolerance. Input: curves and patches of a valve. Output: points, normals
-// and curvatures anywhere.
+// patches of arcs. The patches are made from the Bézier curves themselves. The parameter of a point on a curve is the exact
+// length up to this point, divided by the exact length of the whole curve. The surface has no polylines, no grid and no
+// tolerance. Input: curves and patches of a valve. Output: points, normals and curvatures anywhere.
 #pragma once
 
 #include <cstddef>
@@ -25,17 +25,18 @@ class SmoothSurface {
  public:
   explicit SmoothSurface(const PatchSet &set);
 
-  // Each image of a patch has a number and a patch_id.
+  // The images of all patches are numbered from 0. Each image also has a patch_id.
   std::size_t n_images() const { return images_.size(); }
   std::int32_t patch_id(std::size_t image) const { return images_[image].image.patch_id; }
   std::size_t image_of(std::int32_t patch_id) const;
 
-  // Returns a point with a relative error of 1e-13, because the lengths of the curves are rounded.
+  // The returned point has a relative error of 1e-13, because the lengths of the curves are rounded.
   Vec3 at(std::size_t image, double u, double v) const;
   // Computes derivatives by differences over `step`. u and v must be at least `step` away from 0 and 1.
   static constexpr double step = 1e-4;
   SurfacePoint describe(std::size_t image, double u, double v) const;
-  // Returns all points (u[i], v[j]). u runs fastest. Every curve is evaluated once per line.
+  // Returns all points (u[i], v[j]). u runs fastest. A line has a constant u or a constant v. The function evaluates every curve
+  // only once per line.
   std::vector<Vec3> at_lines(std::size_t image, const std::vector<double> &u, const std::vector<double> &v) const;
 
  private:
@@ -48,7 +49,7 @@ class SmoothSurface {
     std::size_t patch;
     PatchImage image;
   };
-  // The values of the curves on a line of constant u, and on a line of constant v.
+  // AcrossU has the curves' points for one value of u, and AcrossV has them for one value of v.
   struct AcrossU {
     Vec3 c0, c1, offset;
   };

@@ -25,7 +25,7 @@ struct Part {
   double from, to;
 };
 
-// Returns n places in equal steps: the middles of the steps if `first` is 0.5, and their starts if `first` is 0.
+// Divides a part into n equal steps. Returns the middle of every step if `first` is 0.5, and its start if `first` is 0.
 std::vector<double> equal_steps(std::size_t n, double first, const Part &part) {
   std::vector<double> steps;
   for (std::size_t i = 0; i < n; ++i)
@@ -39,15 +39,16 @@ std::vector<double> ends_of_steps(std::size_t n, const Part &part) {
   return ends;
 }
 
-// Paints cells of about the given size. The middle of a cell lies on the surface. Its true distance is 0, so its computed
-// distance is the error.
+// Paints cells of about the given size. The middle of a cell lies on the surface, so its true distance is 0. The distance that a
+// method computes there is therefore the error.
 struct Painter {
   const SmoothSurface &smooth;
   const MeasuredSurface &surface;
   double cell;
   Numbers &numbers;
 
-  // Returns how many cells the longest of several lines needs. The lines run along one parameter of a patch.
+  // Compares the lengths of several lines, which run along one parameter of a patch. Returns the number of cells that the longest
+  // line needs.
   std::size_t n_cells(std::size_t image, const Part &u, const Part &v, bool along_u) const {
     constexpr std::size_t n = 16;
     const std::vector<Vec3> net = smooth.at_lines(image, ends_of_steps(n, u), ends_of_steps(n, v));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes the geometry of valves: their curves, the sides of their patches, their quads and triangles. A Bézier curve is the list
-// of its control points. A curve is the list of its spans.
+// Writes the geometry of valves: their curves, the sides of their patches, their quads and triangles. In the output, a Bézier
+// curve is a list of control points, and a curve is a list of spans.
 #include <algorithm>
 #include <array>
 #include <string>
@@ -44,7 +44,7 @@ json json_of(const PatchSet &set, const Side &side, const PatchImage &image) {
 }
 
 // "lengths" has the length of each side. "own_frame" has the sides before the image is turned and moved. "ends_of_lines" has
-// points of the sides v0 and v1 at equal shares of their lengths.
+// points of the sides v0 and v1, in equal steps of length along each side.
 json json_of(const PatchSet &set, std::size_t patch_number, const PatchImage &image) {
   constexpr int n_lines = 32;
   const Patch &patch = set.patches[patch_number];
@@ -90,8 +90,8 @@ Valve valve_of(const std::string &kind, const json &settings) {
   return valve;
 }
 
-// "example" has the parameters that differ from their defaults. If a length has the default 0, the example has another value, so
-// that the drawing shows the length.
+// "example" sets the parameters that differ from their defaults. If the default of a length is 0, "example" sets another value,
+// so that the drawing shows the length.
 json valve_at_openings(const std::string &kind, json example) {
   json states = json::array();
   for (const double opening : {0.0, 0.5, 1.0}) {
@@ -102,7 +102,7 @@ json valve_at_openings(const std::string &kind, json example) {
   return {{"parameters", parameters_of(find_valve_kind(kind))}, {"example", std::move(example)}, {"states", states}};
 }
 
-// Returns a set with one image of one patch.
+// Returns a set with only the image that has the given patch_id.
 PatchSet only(const PatchSet &set, int patch_id) {
   PatchSet made;
   made.curves = set.curves;

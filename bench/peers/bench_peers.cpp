@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// ./run bench peers: gives the library's nodes and triangles to other programs (CGAL, VTK, OpenVDB), on one thread. The marks of
-// all programs are compared with the marks of a loop over all triangles. Then the programs are timed in turns. The bars for
-// queries without a limit compare queries over leaves with queries node by node, with FCPW and with CGAL. Fails if the library or
-// CGAL marks other nodes than the loop. Also fails if queries over leaves give other bits than queries node by node.
+// ./run bench peers: compares the library with other programs (CGAL, VTK, OpenVDB) on the same nodes and triangles, on one
+// thread. The marks of all programs are compared with the marks of a loop over all triangles. Then the programs are timed in
+// turns. A bar is the required ratio of two times. The bars for queries without a limit compare queries over leaves with queries
+// node by node, with FCPW and with CGAL. Fails if the library or CGAL marks other nodes than the loop. Also fails if queries over
+// leaves give other bits than queries node by node.
 //   argv[1]  a file for the results as JSON
 //   argv[2]  thousands of nodes; default 100
 //   argv[3]  a folder for nodes, triangles and distances as raw binary numbers, for peers.py
@@ -105,8 +106,8 @@ void find_closest(const riis_surface *surface, const std::vector<double> &xyz, s
   }
 }
 
-// Adds two contenders that compute every field of the given points: over leaves, and node by node. Returns whether the two
-// contenders give the same bits.
+// Adds two contenders that compute all fields at the given points. One contender works over leaves, and the other node by node.
+// Returns whether both give the same bits.
 bool add_closest(Contest &contest, const std::string &name, const riis_surface *surface,
                  const std::vector<double> &xyz) {
   const std::size_t n = xyz.size() / 3;
@@ -129,9 +130,9 @@ struct Truth {
 // Tells whether a peer measures distances to the triangles, or to an approximation of the triangles.
 enum class Measures { triangles, approximately };
 
-// Compares a peer's distances with the truth. Counts, by reason, the nodes that are marked differently.
+// Compares a peer's distances with the truth. Counts the nodes whose marks differ, separately for each reason.
 json compared(const Truth &truth, const std::vector<double> &distance, Measures measures = Measures::triangles) {
-  // The rounding errors, in cm, of coordinates of some centimetres in double and in single precision.
+  // The errors, in cm, from rounding coordinates of a few centimetres to double and to single precision.
   constexpr double rounding = 1e-12, single = 2e-6;
   std::map<std::string, std::int64_t> reasons;
   std::int64_t n_marked = 0, n_different = 0;
@@ -178,7 +179,7 @@ Truth truth_of(const riis_surface *surface, const Triangles &triangles, const Cy
   for (std::int64_t i = 0; i < n; ++i)
     truth.distance[static_cast<std::size_t>(i)] =
         every_triangle(nodes.xyz().data() + 3 * i, std::numeric_limits<double>::infinity());
-  // The library gives the nearest triangle, and the comparison measures the distance to it.
+  // The library gives the nearest triangle, and the comparison measures the distance to this triangle.
   std::vector<std::int64_t> nearest(static_cast<std::size_t>(n));
   riis_closest_arrays arrays;
   check(riis_closest_arrays_init(&arrays, sizeof arrays));

@@ -9,8 +9,8 @@
 
 namespace bench {
 
-// A competitor for every distance: FCPW's tree with eight branches and eight triangles at a time. This competitor is built if
-// RIIS_FCPW_DIR is FCPW's source folder. FCPW's package on PyPI has only four branches (peers.py).
+// A competitor that computes the distance of every node: FCPW's tree with eight branches and eight triangles at a time. This
+// competitor is built if RIIS_FCPW_DIR is FCPW's source folder. FCPW's package on PyPI has only four branches (peers.py).
 class FcpwQuery {
  public:
   explicit FcpwQuery(const Triangles &triangles);
@@ -32,7 +32,7 @@ class OpenVdbBand {
   ~OpenVdbBand();
   // Makes the band. A new band is needed after the surface has moved.
   void make();
-  // distance: (n_nodes); nodes outside the band have about the limit. xyz: (3, n_nodes).
+  // distance: (n_nodes); nodes outside the band get about the limit as their distance. xyz: (3, n_nodes).
   void distances(std::int64_t n_nodes, const double *xyz, double *distance) const;
 
  private:

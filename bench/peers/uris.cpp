@@ -54,7 +54,7 @@ struct Export {
   double thickness = 0;
 };
 
-// Returns the value of each element of this name, without blanks.
+// Returns the values of all elements with this name, without blanks.
 std::vector<std::string> values_of(const std::string &block, const std::string &element) {
   std::vector<std::string> values;
   const std::string tag = "<" + element + ">";

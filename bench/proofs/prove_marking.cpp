@@ -25,7 +25,7 @@ using namespace bench;
 // Finds the triangles whose boxes are near a point. Each cell of the grid over the surface has a list of triangles.
 class NearTriangles {
  public:
-  // Ignores boxes that are farther than `reach`.
+  // A triangle is ignored at points that are farther than `reach` from its box.
   NearTriangles(const riis::TriangleSet &set, double reach) : set_(set), edge_(std::max(reach, 0.05)) {
     boxes_.reserve(set.triangle_id.size());
     for (std::int64_t i = 0; i < set.n_triangles(); ++i) {
@@ -73,8 +73,8 @@ class NearTriangles {
       if (p[i] < box.lower[i] || p[i] > box.upper[i]) return false;
     return true;
   }
-  // A larger coordinate never gives a lower cell. If a box contains a point, the point's cell is therefore one of the box's
-  // cells.
+  // A larger coordinate never gives a lower cell number. If a box contains a point, the point's cell is therefore one of the
+  // box's cells.
   std::size_t cell_of(double coordinate, int i) const {
     return static_cast<std::size_t>((coordinate - whole_.lower[i]) / edge_);
   }

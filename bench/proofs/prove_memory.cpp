@@ -25,8 +25,8 @@ void count() {
 
 }  // namespace
 
-// Functions of an executable come before those of libraries. All allocations of the process therefore call these functions,
-// including those of operator new.
+// If an executable and a library define the same function, the executable's function is called. All allocations of the process,
+// including those of operator new, therefore call the functions below.
 extern "C" {
 void *__libc_malloc(std::size_t size);
 void *__libc_calloc(std::size_t n, std::size_t size);

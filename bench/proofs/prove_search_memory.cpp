@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // ./run bench proof, its third part: every search marks a small mesh many times, and the memory of the process must not grow.
 // Each search runs with 1, 2 and 4 threads, on processors that other processes keep busy. A search takes less than a millisecond,
-// so threads join it late. TBB keeps the memory that it allocated for late threads. The program prints a table and fails if
-// memory grows. OpenMP's threads should sleep while they wait (OMP_WAIT_POLICY=passive). Otherwise the run takes many times as
-// long.
+// so some threads join it only near its end. TBB keeps the memory that it allocated for late threads. The program prints a table
+// and fails if memory grows. OpenMP's threads should sleep while they wait (OMP_WAIT_POLICY=passive). Otherwise the run takes
+// many times as long.
 //   argv[1]  the number of markings, 5,000 by default
 #include <sched.h>
 #include <sys/prctl.h>
@@ -63,8 +63,9 @@ class BusyProcessors {
   std::vector<pid_t> processes_;
 };
 
-// The ways in which a case makes the handles of a marking. One solver keeps all handles. A solver whose mesh moves may make a new
-// mesh each time. A subroutine that keeps nothing between calls makes all handles each time.
+// Says when a case makes the handles of a marking. The value "before" stands for a solver that keeps all handles. A solver whose
+// mesh moves may make a new mesh for each marking. A subroutine that keeps nothing between calls makes all handles for each
+// marking.
 enum class Made { before, mesh_each_time, all_each_time };
 
 struct Case {
@@ -121,11 +122,11 @@ class Marking {
 };
 
 // The number of bytes that the markings may add to the memory of the process. If a thread first takes part during the
-// measurement, its stack and the first pages of its allocator are added. In the short form with 300 markings, this number is 1 kB
-// per marking. TBB's arena of two threads takes 7 kB.
+// measurement, its stack and the first pages of its allocator are added. If the proof runs only 300 markings, this limit is 1 kB
+// per marking. For comparison, TBB's arena of two threads takes 7 kB.
 constexpr double most_growth = 3e5;
 
-// Leaked memory grows in every round. Memory that is allocated only once does not grow.
+// A leak adds memory in every round, but an allocation that happens only once does not.
 bool stays(const Case &of, int n_threads, int n_markings) {
   Marking marking(of, n_threads);
   for (int i = 0; i < 60; ++i) marking.mark();

@@ -78,7 +78,7 @@ void CgalQuery::distances(std::int64_t n_nodes, const double *xyz, double limit,
   const CGAL::Bbox_3 box = tree.bbox();
   const bool is_unlimited = std::isinf(limit);
   const Triangle *last = nullptr;  // the last node's triangle, if there is no limit
-  // Threads take chunks, because nodes near the valve take longer than other nodes.
+  // A thread takes a new chunk of nodes when its last chunk is done, because nodes near the valve take longer than other nodes.
 #pragma omp parallel for num_threads(n_threads) firstprivate(last) schedule(dynamic, 4096)
   for (std::int64_t i = 0; i < n_nodes; ++i) {
     const Point p(xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]);

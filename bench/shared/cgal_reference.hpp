@@ -10,8 +10,8 @@
 
 namespace bench {
 
-// Queries the distance of each node within a limit. Other nodes have infinity. This class is the fastest way to get distances
-// from CGAL. Times on one thread, with a million nodes of which 3 % are marked, and 2456 triangles:
+// Computes the distances of nodes. A node beyond the limit gets infinity. This class is the fastest way to get distances from
+// CGAL. Times on one thread, with a million nodes of which 3 % are marked, and 2456 triangles:
 //
 //   this class: a traversal with a shrinking limit, after a test of the tree's own box                50 ms
 //   the same with CGAL's test of a sphere and a box instead of the distance of a box                  62 ms

@@ -16,8 +16,8 @@ double milliseconds_of(const Contest::Work &work) {
 }
 
 // Waits for at most a second until only the calling thread runs. After a loop, OpenMP's threads spin for some milliseconds, and
-// would take processors from the next contender. The calling thread does not sleep, because Linux would then often wake a thread
-// of the next loop on its processor.
+// would take processors from the next contender. The calling thread does not sleep. If it did, Linux would often wake a thread of
+// the next loop on the caller's processor.
 void wait_for_other_threads() {
   using std::chrono::steady_clock;
   constexpr double share = 0.1;  // the share of a processor that the other threads may use

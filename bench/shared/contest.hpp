@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures the times of several pieces of work in turns, so that other work on the machine slows them equally. Bars are required
-// ratios of the times of two contenders. The output is JSON, and tables in markdown.
+// Measures the times of several contenders in turns, so that other work on the machine slows all of them equally. A bar is the
+// required ratio of the times of two contenders. The output is JSON, and tables in markdown.
 #pragma once
 
 #include <functional>
@@ -19,13 +19,14 @@ class Contest {
   // run.
   void add(
       const std::string &name, int n_turns, Work work, Work before = [] {});
-  // Records a contender that cannot take part here. The contender's bars are left out, and the reason is printed.
+  // Records a contender that cannot take part on this machine. The contender's bars are left out, and the reason is printed.
   void leave_out(const std::string &name, const std::string &why) { left_out_[name] = why; }
   // Runs all contenders that were added since the last run. Before its first turn, each contender works once without timing.
   void run();
 
   double least(const std::string &name) const;
-  // Returns the median of five ratios. Each is the ratio of the two contenders' least times in a fifth of the run.
+  // Divides the run into five parts. In every part, takes the ratio of the two contenders' shortest times. Returns the median of
+  // these five ratios.
   double ratio(const std::string &above, const std::string &below) const;
   // Returns the reason why a contender was left out, or "" if it took part.
   std::string why_left_out(const std::string &name) const;

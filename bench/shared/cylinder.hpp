@@ -15,12 +15,12 @@ struct Cylinder {
 };
 
 // The cylinders of the aortic and of the mitral valve. The aortic cylinder is slightly larger than the demo's cylinder, and the
-// mitral cylinder equals the demo's. About 4 % of the nodes are marked. In the paper, the times of the two searches have a ratio
-// of 18 to 26, which suggests this fraction of marked nodes.
+// mitral cylinder equals the demo's. About 4 % of the nodes are marked. In the paper, one search takes 18 to 26 times as long as
+// the other, which suggests this fraction of marked nodes.
 inline constexpr Cylinder cylinders[] = {{1.8, -1.6, 0.9, 0}, {2.4, -1.35, 2.1, 0.3}};
 
 // A wider cylinder around the aortic valve. About 3 % of the nodes are within 0.1 cm of the valve. The ratio of the two searches'
-// times in the paper suggests 3 % for the paper's meshes.
+// times in the paper suggests that this fraction is also 3 % in the paper's meshes.
 inline constexpr Cylinder wide_cylinder{2.0, -2.1, 1.3, 0};
 
 // A structured grid, deformed into a cylinder.
@@ -40,10 +40,10 @@ class CylinderNodes {
   std::vector<double> xyz_;
 };
 
-// Makes a mesh of the library from these nodes, and borrows their coordinates.
+// Makes a riis_mesh from these nodes. The mesh borrows their coordinates.
 Mesh mesh_over(const CylinderNodes &nodes);
 
-// A mesh with the adjacency from its tetrahedra.
+// A mesh whose adjacency is computed from its tetrahedra.
 class CylinderMesh : public CylinderNodes {
  public:
   CylinderMesh(const Cylinder &cylinder, std::int64_t about_n_nodes);

@@ -108,7 +108,7 @@ inline void get_distances(const riis_marks *marks, double far_distance, std::vec
   check(riis_marks_get_dense(marks, &arrays));
 }
 
-// Adds K and K u_surface to K (n) and to K_u_surface (3, n), which may be NULL.
+// Adds the resistance K to the array K (n), and K u_surface to the array K_u_surface (3, n). K_u_surface may be NULL.
 inline void add_resistance(const riis_marks *marks, const riis_resistance &resistance, std::vector<double> &K,
                            double *K_u_surface) {
   riis_resistance_arrays arrays;

@@ -12,7 +12,7 @@
 
 namespace bench {
 
-// Returns the middles of triangles, (3, n): the means of their corners.
+// Returns the middles of all triangles, (3, n). The middle of a triangle is the mean of its corners.
 inline std::vector<double> middles_of(const Triangles &triangles) {
   std::vector<double> middles;
   for (std::int64_t i = 0; i < triangles.n(); ++i) {

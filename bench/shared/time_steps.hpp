@@ -15,8 +15,8 @@ struct StepOptions {
   double tolerance = 0.05;
   int n_threads = 1;
   std::int32_t instructions = RIIS_INSTRUCTIONS_AUTO;
-  // With a fixed triangulation, the aortic valve changes its opening from step to step. Without a fixed triangulation, its cusps'
-  // angles change.
+  // With a fixed triangulation, the aortic valve changes its opening from step to step. Without a fixed triangulation, the angle
+  // of its cusps changes.
   std::int32_t triangulation = RIIS_TRIANGULATION_ADAPTED;
 };
 
@@ -41,8 +41,8 @@ class TimeSteps {
     marking_.instructions = options.instructions;
   }
 
-  // Moves the valve to a position from 0 to 1. Either the valve opens, or the free edges of the aortic valve's cusps turn by 30
-  // degrees. A fixed triangulation allows only the opening to change.
+  // Moves the valve to a position from 0 to 1. Between positions 0 and 1, either the valve opens, or the free edges of the aortic
+  // valve's cusps turn by 30 degrees. A fixed triangulation allows only the opening to change.
   void move_to(double position) {
     if (opens_)
       check(riis_valve_set_scalar(valve_.get(), "opening", position));

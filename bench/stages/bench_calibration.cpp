@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures work that does not use the library. compare.py divides every other time by these times. The division makes runs on
-// different machines or days comparable.
+// Measures work that does not use the library. compare.py divides the times of all other benchmarks by these times, so that runs
+// on different machines or days can be compared.
 #include <benchmark/benchmark.h>
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace {
 
-// Measures memory: reads the coordinates of a million nodes once.
+// Measures the speed of memory: reads the coordinates of a million nodes once.
 void calibration_coordinates(benchmark::State &state) {
   constexpr std::size_t n_nodes = 1000000;
   std::vector<double> xyz(3 * n_nodes);
@@ -19,7 +19,7 @@ void calibration_coordinates(benchmark::State &state) {
 }
 BENCHMARK(calibration_coordinates)->Unit(benchmark::kMillisecond);
 
-// Measures a core. Each product or sum in double precision needs the result of the operation before.
+// Measures the speed of a core. Each product or sum in double precision needs the result of the operation before it.
 void calibration_products(benchmark::State &state) {
   constexpr int n_products = 1000000;
   double factor = 0.9999999, summand = 1e-7;

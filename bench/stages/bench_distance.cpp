@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures the time and the error of a query by each of the paper's three methods for a distance (4.1, "Performance evaluation").
-// The points are on the surface, as in the paper, or in a box around it. Tolerances are fractions of the half thickness, 0.1.
+// Measures the time and the error of a query by each of the paper's three methods to compute a distance (section 4.1,
+// "Performance evaluation"). The points are on the surface, as in the paper, or in a box around it. Tolerances are fractions of
+// the half thickness, which is 0.1.
 #include <benchmark/benchmark.h>
 #include <riis/riis.h>
 

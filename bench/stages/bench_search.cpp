@@ -117,7 +117,7 @@ void search_neighbor_warm(benchmark::State &state) { mark_repeatedly(state, RIIS
 void search_paper(benchmark::State &state) { mark_repeatedly(state, RIIS_SEARCH_PAPER); }
 
 // Marks into a new result every time. The search therefore cannot start from an earlier marking, and has no memory to reuse. The
-// mesh already has its balls of nodes.
+// mesh's nodes are already sorted into balls.
 void search_neighbor_cold(benchmark::State &state) {
   const riis_mesh *mesh = mesh_of(state).mesh();
   MovingValve &valve = valve_of(state);
@@ -163,8 +163,8 @@ void search_all_distances(benchmark::State &state) {
 }
 
 // Runs the paper's exhaustive search with the library's kernel, on one thread. The search measures every node against every
-// triangle. This benchmark measures only every 50th node. Each node takes the same time, so "all_nodes_s" is the extrapolated
-// time of all nodes.
+// triangle. This benchmark measures only every 50th node. Each node takes the same time, so the measured time is extrapolated to
+// all nodes ("all_nodes_s").
 void search_every_triangle(benchmark::State &state) {
   const CylinderMesh &mesh = mesh_of(state);
   const riis_surface *surface = valve_of(state).first();
@@ -188,8 +188,8 @@ void search_every_triangle(benchmark::State &state) {
 }
 
 // Runs the first of the paper's two searches, in plain code (references.hpp). The search measures an evenly spaced sample of
-// about 2,000 nodes against every triangle. Each node takes the same time, so "all_nodes_ms" is the extrapolated time of all
-// nodes.
+// about 2,000 nodes against every triangle. Each node takes the same time, so the measured time is extrapolated to all nodes
+// ("all_nodes_ms").
 void search_paper_exhaustive(benchmark::State &state) {
   const CylinderMesh &mesh = mesh_of(state);
   const Triangles triangles(valve_of(state).first());
@@ -235,7 +235,7 @@ void search_paper_neighbor(benchmark::State &state) {
   state.counters["triangles"] = static_cast<double>(triangles.n());
 }
 
-// Measures the sorting of a mesh's nodes into balls. The first neighbour search of a mesh sorts the nodes.
+// Measures the time to sort a mesh's nodes into balls. The first neighbour search on a mesh does this work.
 void search_groups(benchmark::State &state) {
   const CylinderMesh &mesh = mesh_of(state);
   const double *xyz = mesh.xyz().data();
@@ -249,7 +249,7 @@ void search_groups(benchmark::State &state) {
   count_time_per(state, "time/node", static_cast<double>(mesh.n_nodes()));
 }
 
-// Measures the time in which the library makes an adjacency, which a mesh needs once.
+// Measures the time to make an adjacency, which is needed once for each mesh.
 void search_adjacency_of_tetrahedra(benchmark::State &state) {
   const CylinderMesh &mesh = mesh_of(state);
   const std::vector<std::int32_t> tetrahedra = mesh.tetrahedra();
@@ -258,8 +258,8 @@ void search_adjacency_of_tetrahedra(benchmark::State &state) {
   count_time_per(state, "time/node", static_cast<double>(mesh.n_nodes()));
 }
 
-// Measures the time in which the library makes an adjacency from faces. The nodes of the grid count as cells. Each face has an
-// owner and a neighbour.
+// Measures the time to make an adjacency from faces. Here the nodes of the grid stand for cells. A face lies between two cells,
+// its owner and its neighbour.
 void search_adjacency_of_faces(benchmark::State &state) {
   const CylinderMesh &mesh = mesh_of(state);
   const std::int64_t n[3] = {mesh.n_across(), mesh.n_across(), mesh.n_along()};

@@ -79,7 +79,7 @@ void closest_point(benchmark::State &state) {
   const Surface surface = aortic_surface(static_cast<double>(state.range(0)) * 1e-3);
   std::size_t i = 0;
   riis_closest closest;
-  // The first query of a surface prepares the data for sides. The first query is not timed.
+  // The first query of a surface also prepares the data for sides. This query is therefore not timed.
   check(riis_closest_point(surface.get(), nodes().data(), &closest, sizeof closest));
   for (auto _ : state) {
     check(riis_closest_point(surface.get(), nodes().data() + 3 * (i++ % 100000), &closest, sizeof closest));
@@ -103,8 +103,8 @@ void mark_exhaustive(benchmark::State &state) {
 }
 BENCHMARK(mark_exhaustive)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
 
-// Compares a loop over all triangles, which uses the library's kernel, with the marking of the same nodes on one thread. The
-// ratio says how many times as fast the marking is. The loop measures every 100th node.
+// Compares the marking of nodes on one thread with a loop that measures all triangles by the library's kernel. The ratio says how
+// many times as fast the marking is. The loop measures every 100th node.
 void brute_force_over_marking(benchmark::State &state) {
   const Surface surface = aortic_surface(0.05);
   const riis::TriangleSet &triangles = riis::content_of(surface.get()).triangles();

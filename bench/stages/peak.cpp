@@ -47,7 +47,8 @@ double operations_a_nanosecond(const PeakKernel &kernel) {
   return static_cast<double>(kernel.operations * n) / nanoseconds;
 }
 
-// Copies in blocks, because other work interrupts long copies. A pass over all blocks removes each block from the caches.
+// Copies in blocks, because other work interrupts long copies. All blocks together are larger than the caches, so a block has
+// left every cache before its turn comes again.
 double bytes_a_nanosecond() {
   constexpr std::size_t of_block = std::size_t{2} << 20, n_blocks = 128;
   const std::vector<char> from(n_blocks * of_block, 1);

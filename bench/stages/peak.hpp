@@ -25,7 +25,8 @@ struct PeakKernels {
 
 extern const PeakKernels peak_kernels_baseline, peak_kernels_avx2, peak_kernels_avx512;
 
-// The highest rates per nanosecond. For `bytes`, a copy reads and writes arrays that are larger than any cache.
+// The highest rates per nanosecond: operations in single and in double precision, and bytes that a copy reads and writes. The
+// copied arrays are larger than any cache.
 struct Peak {
   double floats, doubles, bytes;
 };

@@ -243,8 +243,8 @@ class StagedSteps {
       : steps_(mesh, options), mesh_(mesh->mesh), kernels_(riis::kernels(riis::best_instruction_set())) {}
 
   void move() { steps_.move(); }
-  // Makes a step as a solver does. Only the time of this thread counts, because on a busy machine other work interrupts every
-  // whole step.
+  // Makes a step as a solver does. Measures only the processor time of this thread, because other work on a busy machine
+  // interrupts every whole step.
   double whole() {
     const double start = nanoseconds_of_thread();
     steps_.step();
@@ -266,7 +266,7 @@ class StagedSteps {
     Times times;
     times.update = nanoseconds(updated - start);
     times.regions = nanoseconds(measured.regions_end - updated) - n_boxes * of_clock;
-    // An interval needs two readings of the clock, and contains the time of one reading.
+    // An interval lies between two readings of the clock, and includes the time that one reading takes.
     times.filter = nanoseconds(measured.filter) - n_filter * of_clock;
     times.decide = nanoseconds(measured.decide) - n_decide * of_clock;
     times.rest = nanoseconds(searched - measured.regions_end - measured.filter - measured.decide) -

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// ./run bench marking: measures the cost of a time step, of an adjacency, and of their competitors in one run. A step makes the
-// surface and the scene of a valve that moved, and marks nodes. The step then reads the list of marked nodes with distances and
-// triangles (time_steps.hpp). The program prints the times and the bars. The program fails if a competitor marks other nodes or
-// makes other rows.
+// ./run bench marking: measures in one run the times of a time step, of making an adjacency, and of their competitors. A step
+// makes the surface and the scene of a valve that moved, and marks nodes. The step then reads the list of marked nodes with
+// distances and triangles (time_steps.hpp). The program prints the times and the bars, which are required ratios of two times.
+// The program fails if a competitor marks other nodes or makes other rows.
 //   argv[1]  a file for the times and bars as JSON, optional
 //   argv[2]  the number of nodes in thousands, 1000 by default
 #include <riis/riis.h>
@@ -149,7 +149,7 @@ bool compare_with_others(Contest &contest, Bars &bars, std::int64_t about_n_node
       contest.leave_out(name, "the processor has no AVX-512");
   }
 
-  // The competitors mark nodes by the present surface.
+  // The competitors mark the nodes near the surface in its present state.
   const riis_mark_list marked = two.step();
   const Triangles triangles(two.surface());
   PaperSearch paper(n, xyz, nodes.rows());
@@ -211,8 +211,8 @@ bool compare_with_others(Contest &contest, Bars &bars, std::int64_t about_n_node
               100.0 * static_cast<double>(marked.n_nodes) / static_cast<double>(n));
   std::fflush(stdout);
   contest.run();
-  // Contenders with more threads than processors come last. For these contenders OpenMP starts and ends threads, and this would
-  // slow the contenders on two threads.
+  // Contenders with more threads than processors come last. OpenMP starts and ends threads for these contenders. In the same run,
+  // this would slow the contenders on two threads.
   add(contest, "step, 4 threads", four);
   contest.run();
   const double ns_a_pair = 1e6 * contest.least("the paper's search, every triangle, 1 thread") /
@@ -269,8 +269,9 @@ void compare_sizes(Contest &contest, std::int64_t about_n_nodes, nlohmann::json 
               static_cast<long long>(stats.n_marked));
 }
 
-// Measures the times of markings of a grid in two forms: by its axes, and as a prepared mesh of points. The nodes fill a box of
-// 1.5 valves. The half thickness is 1.5 steps of the axes. Returns whether both meshes get the same marks.
+// Measures the times of markings of a grid, which is given by its axes, and also as a prepared mesh of points. The nodes fill a
+// box that is 1.5 times as wide as the valve. The half thickness is 1.5 times the spacing of the grid. Returns whether both
+// meshes get the same marks.
 bool compare_grid(Contest &contest, std::int64_t about_n_nodes, nlohmann::json &counts) {
   constexpr double box_of_valves = 1.5, cells_of_half = 1.5;
   const auto n = static_cast<std::int64_t>(std::lround(std::cbrt(static_cast<double>(about_n_nodes))));

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // ./run bench busy: measures time steps on two processors that two other processes keep busy, with 1 and with 2 threads. These
 // steps are also measured while the two processes are stopped, and after a loop on the caller's own OpenMP threads. The program
-// prints times and bars. With busy processes, the measured time is the mean, which a few waits of milliseconds dominate. Blocks
-// of calls with 1 and with 2 threads therefore take turns for a long time. The table gives the ratio of the mean times with 1 and
-// with 2 threads, and its standard error.
+// prints times and bars, which are required ratios of times. While the processes are busy, the mean time of the calls counts. A
+// few waits of several milliseconds dominate this mean, so blocks of calls with 1 and with 2 threads take turns for a long time.
+// The table gives the ratio of the mean times with 1 and with 2 threads, and its standard error.
 //   argv[1]  the number of nodes in thousands, 1000 by default
 #include <riis/riis.h>
 #include <sched.h>
@@ -35,7 +35,8 @@ using namespace bench;
 constexpr int most_turns = 400;
 constexpr std::chrono::seconds longest{5};       // for all turns of a subject
 constexpr std::chrono::seconds beside_busy{24};  // for all blocks of a subject while other processes are busy
-// A block of calls with 1 thread takes about this time. The system's slices of processor time are a tenth as long.
+// A block of calls with 1 thread takes about this time. The system gives processor time to processes in slices that are a tenth
+// as long.
 constexpr double block_milliseconds = 40;
 
 [[noreturn]] void fail(const char *what) {
@@ -57,7 +58,7 @@ void keep_two_processors() {
   if (sched_setaffinity(0, sizeof two, &two) != 0) fail("sched_setaffinity");
 }
 
-// Two processes that compute without end. The two processes are stopped at first, and end with this process.
+// Two processes that compute until this process ends. They are stopped at first.
 class BusyProcesses {
  public:
   BusyProcesses() {
@@ -126,7 +127,8 @@ struct Means {
   double ratio() const { return mean[1] / mean[0]; }
 };
 
-// Measures blocks of equally many calls with 1 and with 2 threads. Every second pair of blocks begins with 2 threads.
+// Measures blocks of equally many calls with 1 and with 2 threads. The pairs of blocks begin with 1 thread and with 2 threads in
+// turn.
 Means measure_in_blocks(const Subject &subject, double estimate) {
   const int n_calls = std::max(1, static_cast<int>(block_milliseconds / estimate));
   const auto block = [&](std::size_t i) {

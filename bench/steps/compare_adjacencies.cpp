@@ -23,7 +23,7 @@
 namespace bench {
 namespace {
 
-// The benchmark compares riis_adjacency_create_from_cells with this earlier version, which did not yet count into 32-bit entries.
+// The benchmark compares riis_adjacency_create_from_cells with this earlier version, which had no 32-bit counts yet.
 struct PlainRows {
   std::vector<std::int64_t> offsets;
   std::vector<std::int32_t> columns;
@@ -70,8 +70,8 @@ void for_blocks(std::int64_t n, int n_threads, const Body &body) {
   for (std::int64_t block = 0; block < n_blocks; ++block) body(block * per_block, std::min(n, (block + 1) * per_block));
 }
 
-// Makes the rows of cells of 4, 5, 6 or 8 nodes each, with ids of either width. The cells must be valid, and the mesh must have
-// fewer than 2^31 nodes.
+// Makes the rows of an adjacency from cells of 4, 5, 6 or 8 nodes, with ids of 32 or 64 bits. The cells must be valid, and the
+// mesh must have fewer than 2^31 nodes.
 PlainRows plain_adjacency(const riis_mesh_cells &cells, int n_threads) {
   const Integers nodes{cells.node_ids, cells.id_bits == 64}, offsets{cells.offsets, cells.id_bits == 64};
   const std::int64_t first = cells.offsets ? offsets[0] : 0, base = cells.index_base;
@@ -159,7 +159,7 @@ const RatioBar ratio_bars[] = {
      Wanted::at_least, 1.6},
 };
 
-// Returns a number of kilobytes from this process's status.
+// Returns the number of kilobytes in the given field of this process's status.
 double status_kb(const char *field) {
   std::FILE *file = std::fopen("/proc/self/status", "r");
   char line[256];

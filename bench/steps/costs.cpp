@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures the cost of each call for the tables in docs/performance.md. The cost is the time of the shortest of repeated calls,
-// and the memory that stays with the handle. The meshes are cylinders of a million nodes around the valves, and the tolerance is
-// 5 %. A second table compares a step with an offset to a step without an offset. The last table has processor times of orifices,
-// free edges and coaptation, for surfaces with 60,000 triangles.
+// Measures the cost of each call for the tables in docs/performance.md. The cost of a call is its shortest time in several
+// repetitions, and the memory that the handle keeps. The meshes are cylinders of a million nodes around the valves, and the
+// tolerance is 5 %. A second table compares a step with an offset to a step without an offset. The last table has processor times
+// of orifices, free edges and coaptation, for surfaces with 60,000 triangles.
 //   argv[1]  thousands of nodes, "offset" for the second table alone, or "measures" for the last table alone; optional
 #include <riis/riis.h>
 
@@ -225,8 +225,8 @@ class OffsetStep {
   riis_mark_options marking_;
 };
 
-// Prints the ratio of two processor times: of a step with the offset 0.75, and of a step without an offset. The two steps take
-// turns, so other work on the machine slows them equally.
+// Compares the processor time of a step with the offset 0.75 with that of a step without an offset. Prints the ratio of the two
+// times. The two steps take turns, so other work on the machine slows them equally.
 void print_offset() {
   constexpr double half_thickness = 0.1, spacing = half_thickness / 2;
   const Cylinder &around = cylinders[0];
@@ -259,7 +259,7 @@ riis_surface_options fine_options(const riis_valve *valve) {
   }
 }
 
-// Gives the triangles of a valve's surface as arrays and as two equal frames, as a solver or a file would.
+// Copies the triangles of a valve's surface. Gives them as arrays, as a solver would, and as two equal frames, as a file would.
 class OwnTriangles {
  public:
   explicit OwnTriangles(const riis_surface *surface) {

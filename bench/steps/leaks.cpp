@@ -126,7 +126,7 @@ Mesh mesh_over(const Crystal &crystal) {
   return Mesh(mesh);
 }
 
-// Returns the numbers of leaks. The arrays of the list are NULL, because the function destroys the leaks.
+// Returns the numbers of leaks. The arrays of the list are NULL, because the function destroys the leaks before it returns.
 riis_leak_list leaks_of(const Surface &surface, const Mesh &mesh) {
   const Result result = make_result();
   const Leaks leaks = make_leaks();
@@ -159,7 +159,8 @@ void print_leaks(const char *kind) {
   }
 }
 
-// Returns the fraction of a disc around the axis that no triangle covers, seen along the axis. Counts points of a square grid.
+// Returns the fraction of a disc around the axis that no triangle covers, seen along the axis. The fraction is counted on the
+// points of a square grid.
 double open_share(const Surface &surface, double radius, int n_per_radius) {
   const int side = 2 * n_per_radius + 1;
   const auto place = [&](int i) { return radius * (i - n_per_radius) / n_per_radius; };
@@ -197,8 +198,8 @@ double open_share(const Surface &surface, double radius, int n_per_radius) {
   return static_cast<double>(n_open) / static_cast<double>(n_disc);
 }
 
-// Prints the milliseconds of a marking by clusters, of a first search for leaks, and of a second search with known edges. Also
-// prints the milliseconds of labelling regions, and of the passage from the first node to the last node.
+// Prints times in milliseconds: of a marking by clusters, of a first search for leaks, and of a second search with known edges.
+// Also prints the times to label regions, and to find the passage from the first node to the last node.
 void print_cost(double thickness, const CylinderMesh &nodes) {
   const Surface surface = with_half_thickness(surface_of("aortic", 0), thickness);
   const double *xyz = nodes.xyz().data();

@@ -20,7 +20,7 @@ namespace {
 
 using namespace bench;
 
-// One kind of triangulation, with the change of K in the last step.
+// Marks with one kind of triangulation, and keeps the change of K in the last step.
 class ResistanceChange {
  public:
   ResistanceChange(const riis_valve *valve, const CylinderNodes &nodes, double tolerance, std::int32_t triangulation)
@@ -69,8 +69,8 @@ struct KJump {
   double with_fixed;
 };
 
-// Makes n_steps steps, each from one of evenly spaced openings. A step changes the opening by `step`. All values are fractions of
-// the largest K.
+// Makes n_steps separate steps, which start at evenly spaced openings. A step changes the opening by `step`. All results are
+// fractions of the largest K.
 KJump measure_k_jump(riis_valve *valve, const CylinderNodes &nodes, double step, int n_steps) {
   constexpr double tolerance = 0.05, fine = 0.0005;
   ResistanceChange adapted(valve, nodes, tolerance, RIIS_TRIANGULATION_ADAPTED),
@@ -106,7 +106,7 @@ Valve opening_valve(const char *kind) {
   return valve;
 }
 
-// A valve that opens by a thousandth in each step, back and forth, on one thread.
+// A valve whose opening changes by a thousandth in each step, up and down, on one thread.
 class MovingSteps {
  public:
   MovingSteps(const char *kind, const CylinderNodes &nodes)
@@ -228,9 +228,9 @@ class FineSteps {
 };
 
 // Measures the time of a step of an annulus that moves by landmarks: new targets, a warped valve, and a moving update. The first
-// contender has the patches that were read out of the warped valve before. The warped valve is asymmetric, and so is the first
-// contender. Arcs cannot be given as patches, so a mitral valve lacks the first contender. The second contender is the symmetric
-// valve without a warp, which opens.
+// contender is a valve of the patches that were read from the warped valve before. Both valves are asymmetric. Arcs cannot be
+// given as patches, so a mitral valve lacks the first contender. The second contender is the symmetric valve, which has no warp
+// and opens.
 class WarpedSteps {
  public:
   WarpedSteps(const char *kind, int n_landmarks)
@@ -342,7 +342,8 @@ void measure_warps(Contest &contest, Bars &bars, WarpedSteps &steps, const std::
   contest.run();
   if (steps.has_patches())
     bars.add(name + ": step / moving update of the same patches", contest.ratio(step, of_patches), Wanted::at_most, 2);
-  // In a symmetric update, three cusps share the work, and so do the two halves of a mitral valve.
+  // In a symmetric update, the work for one cusp serves all three cusps. The work for one half of a mitral valve serves both
+  // halves.
   bars.add(name + ": step / moving update of the symmetric valve", contest.ratio(step, symmetric), Wanted::at_most,
            steps.has_patches() ? 5 : 2.5);
 }

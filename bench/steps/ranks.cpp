@@ -51,7 +51,7 @@ Graph graph_of(const CylinderNodes &nodes) {
   return {{offsets, offsets + nodes.n_nodes() + 1}, {columns, columns + offsets[nodes.n_nodes()]}};
 }
 
-// Returns the part of each node. Each kind of weight is balanced between the parts.
+// Returns, for each node, the number of its part. Each kind of weight is balanced between the parts.
 std::vector<idx_t> partition(Graph &graph, idx_t n_parts, std::vector<idx_t> &weights) {
   auto n_nodes = static_cast<idx_t>(graph.offsets.size() - 1);
   auto n_weights = static_cast<idx_t>(weights.size() / static_cast<std::size_t>(n_nodes)), cut = idx_t{0};
@@ -136,7 +136,7 @@ class Rank {
     check(riis_valve_set_scalar(valve_.get(), "opening", opening_ = 0.001 * (step_ < 5 ? step_ : 10 - step_)));
   }
 
-  // A surface with an adapted or a fixed triangulation, and its steps.
+  // A surface with an adapted or a fixed triangulation, and the results and times of its steps.
   struct Side {
     Surface surface;
     Result result = make_result();
@@ -188,7 +188,7 @@ Cost cost_of(const CylinderNodes &nodes, const std::vector<idx_t> &part, idx_t n
     cost.n_empty += n_marked == 0;
   }
   for (std::size_t k = 0; k < n_triangulations; ++k) {
-    // Every rank makes the same surface, so one rank's time is the time of all.
+    // Every rank makes the same surface, so the time of one rank holds for all ranks.
     cost.of[k].update = median(updates[k]);
     std::sort(marks[k].begin(), marks[k].end());
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Views and resizes containers with counts and positions of type int64_t, which the whole project uses. Counts and positions are
-// never negative. The containers' own functions take std::size_t, so this file converts between the two types.
+// Makes views of containers, and resizes containers, with counts and positions of type int64_t. The whole project uses this type.
+// Counts and positions are never negative. The containers' own functions take std::size_t, so this file converts between the two
+// types.
 #pragma once
 
 #include <cstddef>

@@ -19,20 +19,21 @@ struct Band {
   // Returns the same band with another half thickness.
   Band with(double other_half_thickness) const { return {other_half_thickness, offset}; }
 
-  // Returns the largest distance that a node of the band can have. Rounding never lets a node beyond this distance count as
-  // marked.
+  // Returns the largest distance that a node of the band can have. A node beyond this distance is never marked, in spite of
+  // rounding.
   double reach() const { return reach_of(half_thickness); }
   // Returns a distance up to which all nodes are in the band.
   double sure_distance() const { return (1 - std::abs(offset)) * half_thickness; }
 
-  // Returns the least half thickness that marks a node. Off the rim, this half thickness is h / (1 + offset) for h >= 0, and -h /
-  // (1 - offset) for h < 0. At a rim, it is the root e of (1 - offset^2) e^2 + 2 offset h e - d^2 = 0, also for h = d and h = -d.
+  // Returns the smallest half thickness at which a node is marked. Off the rim, this half thickness is h / (1 + offset) for h >=
+  // 0, and -h / (1 - offset) for h < 0. At a rim, it is the root e of (1 - offset^2) e^2 + 2 offset h e - d^2 = 0, even if h is d
+  // or -d.
   double marking_thickness(double distance, double height) const {
     if (!steps_aside() || !(distance > 0)) return distance;
     const double cosine = height / distance, along = offset * cosine;
     const double root = std::sqrt(1 - offset * offset * ((1 - cosine) * (1 + cosine)));
-    // Neither formula of the half thickness subtracts numbers of the same sign, so no digits are lost. For a node off the rim,
-    // `root` is 1.
+    // Neither of the two formulas below subtracts numbers of the same sign, so no digits are lost. For a node off the rim, `root`
+    // is 1.
     const double made =
         root == 1 || along >= 0 ? distance / (along + root) : distance * (root - along) / ((1 - offset) * (1 + offset));
     double least = distance / reach_of(1);
@@ -40,8 +41,8 @@ struct Band {
     return made < least ? least : made;
   }
   bool holds(double distance, double height) const {
-    // The sign of marking_thickness's equation at the half thickness decides without a square root. Near the edge of the band,
-    // rounding could change this sign, so marking_thickness itself is computed there.
+    // The sign of the left side of marking_thickness's equation, at the half thickness, decides without a square root. Near the
+    // edge of the band, rounding could change this sign, so marking_thickness itself is computed there.
     constexpr double near_edge = 1e-6;
     const double e = half_thickness,
                  over = ((1 - offset) * (1 + offset) * e + 2 * offset * height) * e - distance * distance;
@@ -57,7 +58,8 @@ struct Band {
     const double over = height_over_middle(height), beside_sq = (distance - height) * (distance + height);
     return beside_sq > 0 ? std::sqrt(over * over + beside_sq) : std::abs(over);
   }
-  // Returns the rate of distance_from_middle, from the rates of the distance and of the height. `from_middle` is above 0.
+  // Returns the rate of change of distance_from_middle. The inputs include the rates of the distance and of the height.
+  // `from_middle` is above 0.
   double middle_rate(double distance, double from_middle, double distance_rate, double height_rate) const {
     return (distance * distance_rate - offset * half_thickness * height_rate) / from_middle;
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lengths of the edges in the band. The library uses this code for its caller's mesh, and the program uses it for the pieces
-// of a mesh.
+// Collects the lengths of a mesh's edges in the band. The library uses this code for its caller's mesh, and the program uses it
+// for the pieces of a mesh.
 #pragma once
 
 #include <riis/riis.h>
@@ -27,8 +27,8 @@ struct EdgeLengths {
   // Returns how many edges fit across the band.
   riis_cells_across across(double half_thickness) const {
     if (n == 0) return {0, 0, 0, 0, 0, 0, half_thickness, 0};
-    // Rounding of the sum could put the mean outside the range of the lengths, even if all lengths are equal. The mean is
-    // therefore limited to this range.
+    // Because of rounding, the computed mean could lie outside the range of the lengths, even if all lengths are equal. The mean
+    // is therefore limited to this range.
     const double mean = std::clamp(static_cast<double>(sum / static_cast<Sum>(n)), shortest, longest);
     const double band = 2 * half_thickness;
     return {band / longest, band / mean, band / shortest, shortest, mean, longest, half_thickness, n};

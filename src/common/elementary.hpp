@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sines, cosines and arc tangents whose bits depend on the argument alone. A C library may use different code for these functions
-// on different processors, so that the last bits differ. The functions of this file consist only of sums, products, quotients and
-// roots, which IEEE 754 rounds in one way. Arguments are finite. Errors are in units of 2^-53 = 1.1e-16, and test_elementary
-// checks them.
+// on different processors, and then the last bits of the results differ. The functions of this file consist only of sums,
+// products, quotients and roots, which IEEE 754 rounds in one way. Arguments are finite. The comments below give errors in units
+// of 2^-53 = 1.1e-16, and test_elementary checks these errors.
 //
-// The polynomials in the square of the argument interpolate the functions at Chebyshev points. Only the polynomial of sine_of_pi
-// is a least-squares fit. Its third coefficient is five units lower in its last place, so that no value exceeds 1.
+// The functions use polynomials in the square of the argument, which interpolate the functions at Chebyshev points. Only the
+// polynomial of sine_of_pi is a least-squares fit. The third coefficient of this fit was lowered by five units in its last place,
+// so that no value exceeds 1.
 #pragma once
 
 #include <cmath>
@@ -21,7 +22,7 @@ struct SineCosine {
 
 namespace elementary {
 
-// Returns the polynomial with these coefficients, the constant term first.
+// Evaluates the polynomial with the given coefficients at x. The constant term is the first coefficient.
 template <std::size_t n>
 constexpr double polynomial(const double (&coefficient)[n], double x) {
   double value = coefficient[n - 1];
@@ -70,10 +71,10 @@ inline double sine_of_pi(double u) {
 // Returns cos(pi t) for 0 <= t <= 1, with an error of 3.5 units. The cosine is exact at 0, 1/2 and 1.
 inline double cosine_of_pi(double t) { return sine_of_pi(0.5 - t); }
 
-// Returns sine and cosine of an angle in radians, with errors of 2 units. Beyond 1e6 the error grows with the angle.
+// Returns sine and cosine of an angle in radians, with errors of 2 units. Beyond 1e6 radians the error grows with the angle.
 inline SineCosine sine_cosine(double radians) {
   using elementary::half_pi;
-  // pi/2 in three parts. The first two parts have few digits, so that their products with a number of quarters below 2^20 are
+  // pi/2 in three parts. The first two parts have few digits, so that their product with any number of quarters below 2^20 is
   // exact.
   constexpr double first = 0x1.921fb544p+0, second = 0x1.0b4611a6p-34, third = 0x1.3198a2e037073p-69;
   const double near = std::abs(radians) <= 1e6 ? radians : std::remainder(radians, 2 * pi);
@@ -85,7 +86,7 @@ inline SineCosine sine_cosine(double radians) {
 // Returns sine and cosine of an angle in degrees, with errors of 2 units. Sine and cosine are exact at multiples of 90 degrees.
 inline SineCosine sine_cosine_degrees(double degrees) {
   using elementary::half_pi;
-  // The reduction to a number of quarter turns and an angle in [-45, 45] degrees is exact.
+  // The angle is split into quarter turns and a rest within [-45, 45] degrees, without any rounding.
   const double turned = std::remainder(degrees, 360.0);
   const double quarters = std::nearbyint(turned / 90.0);
   return elementary::turned_by_quarters(elementary::of_small((turned - 90.0 * quarters) * (half_pi / 90.0)), quarters);
@@ -112,7 +113,7 @@ inline double arc_tangent(double y, double x) {
   return std::copysign(angle, y);
 }
 
-// Returns the angle from 0 to pi with the given cosine, with a relative error of 4 units. The cosine is from -1 to 1.
+// Returns the angle from 0 to pi with the given cosine, with a relative error of 4 units. The cosine must be from -1 to 1.
 inline double arc_cosine(double cosine) { return arc_tangent(std::sqrt((1 - cosine) * (1 + cosine)), cosine); }
 
 // Returns exp(x) - 1 for x <= 0, with a relative error of 7 units.
@@ -130,7 +131,8 @@ inline double exponential_minus_one(double x) {
 
 // Returns the base raised to a power between 0 and 1, with a relative error of 60 units. The base is positive.
 inline double power_to_share(double base, double share) {
-  // Each binary digit 1 of the share contributes a factor, which is one of the repeated square roots of the base.
+  // Each binary digit of the share belongs to one of the repeated square roots of the base. The power is the product of the roots
+  // whose digit is 1.
   if (share >= 1) return base;
   double power = 1, root = base;
   for (int digit = 0; digit < 53 && share > 0; ++digit) {
@@ -151,7 +153,7 @@ inline double cube_root(double x) {
   return root;
 }
 
-// Returns the length of a vector. The squares must be in the range of doubles, or be negligible.
+// Returns the length of a vector. The squares must not overflow. A square that underflows must be negligible.
 inline double hypotenuse(double x, double y, double z = 0) { return std::sqrt(x * x + y * y + z * z); }
 
 }  // namespace riis

@@ -13,8 +13,8 @@
 namespace riis::flat_parts {
 namespace {
 
-// In a flat part, triangles stay within the first share of the wall's size from the plane. In a part that the user points at,
-// triangles stay within the second share.
+// A triangle of a flat part is at most `flat_share` times the wall's size away from the part's plane. If the user points at the
+// part, the limit is `pointed_share` times this size.
 constexpr double flat_share = 5e-4, pointed_share = 5e-3;
 // The largest angle between a triangle of a flat part and the part's plane, in degrees. Triangles with little height may lean
 // more because of rounding.
@@ -28,8 +28,8 @@ constexpr std::size_t n_sectors = 12;
 // Two flat parts that touch are both unclear if their areas differ by a factor of less than `most_apart`. If the areas differ
 // more, only the smaller part is unclear.
 constexpr double most_apart = 10;
-// A small part is an end only if its rim has at least `least_sides` sides. In a wider band, up to `wide_band_share` times the
-// radius, the wall must also be steep.
+// A small part is an end only if its rim has at least `least_sides` sides. The wall must also be steep in a wider band, up to
+// `wide_band_share` times the radius.
 constexpr std::int64_t least_sides = 12;
 constexpr double wide_band_share = 1.5;
 
@@ -39,7 +39,8 @@ double degrees_between(const Vector3 &a, const Vector3 &b) {
   return 180 / pi * arc_tangent(norm(cross(a, b)), dot(a, b));
 }
 
-// Returns the mean and the least angle between the sectors and the normal.
+// `sums` has, for each sector, the sum of the wall's area vectors. Returns the mean and the least angle between these sums and
+// the normal.
 std::pair<double, double> angles_of(const Sectors &sums, const Vector3 &normal) {
   double n = 0, total = 0, smallest = 180;
   for (const Vector3 &sum : sums) {
@@ -52,7 +53,7 @@ std::pair<double, double> angles_of(const Sectors &sums, const Vector3 &normal) 
   return {n > 0 ? total / n : 0, smallest};
 }
 
-// Returns the number of lines that edges form.
+// Connected edges form a line. Returns the number of lines.
 std::int64_t n_lines(const std::vector<std::pair<std::int64_t, std::int64_t>> &edges) {
   std::vector<std::int64_t> ids;
   for (const auto &[a, b] : edges) ids.insert(ids.end(), {a, b});
@@ -134,8 +135,8 @@ bool Finder::is_large(const Part &part) const {
   return part.area >= least_share * total_ && static_cast<std::int64_t>(part.triangles.size()) >= least_triangles;
 }
 
-// The sum of the area vectors depends only on the rim, and is exact for a flat part. A least-squares plane would also depend on
-// the corners inside the part.
+// The plane's normal is the direction of the sum of the area vectors. This sum depends only on the rim, and is exact for a flat
+// part. A least-squares plane would also depend on the corners inside the part.
 void Finder::fit(Part &part) const {
   Vector3 area{}, centre{};
   part.area = 0;

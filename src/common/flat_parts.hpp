@@ -18,8 +18,8 @@ inline constexpr double least_share = 3e-4;
 // The angle between a flat part and the wall beside it, in degrees. A tube that is cut has a mean angle of 90, even if the cut is
 // oblique. A part whose angle is between the limits for clear and unclear parts may be a cut, or a flat place of the wall.
 inline constexpr double clear_mean = 55, clear_least = 20, unclear_mean = 30;
-// The roundness of a part is four pi times its area over the square of its perimeter. It is 1 for a disc, and 0.6 for an ellipse
-// that is three times as long as wide.
+// The roundness of a part is four pi times its area, divided by the square of its perimeter. It is 1 for a disc, and 0.6 for an
+// ellipse that is three times as long as wide.
 inline constexpr double least_roundness = 0.25;
 // A flat part with less than `small_share` of the largest end's area may be a facet of a coarse wall, or the end of a coronary
 // artery.
@@ -52,17 +52,17 @@ struct Part {
   double radius() const { return std::sqrt(area / pi); }
 };
 
-// Finds flat parts. The triangles must not change while this object is used, and neighbours must face to the same side. The
-// surface may be open.
+// Finds flat parts. The triangles must not change while this object is used, and neighbouring triangles must face to the same
+// side. The surface may be open.
 class Finder {
  public:
-  // `faces_outwards` is true if the triangles face outwards. If `faces_outwards` is false, the wall beside a part counts as
-  // behind the part.
+  // `faces_outwards` is true if the triangles face outwards. If `faces_outwards` is false, the class assumes that the wall beside
+  // a part lies behind the part.
   Finder(const Triangles &triangles, bool faces_outwards);
 
   // Returns the flat parts that may be ends, the largest first. The result includes `parts`, which are already known.
   std::vector<Part> find(std::vector<Part> parts);
-  // Returns the flat part that these triangles form. The triangles closed a hole.
+  // Returns the flat part that consists of these triangles, which closed a hole.
   Part closed_hole(std::vector<std::int64_t> triangles);
   // Returns the flat part at a triangle to which the user points.
   Part pointed_at(std::int64_t triangle);
@@ -72,11 +72,13 @@ class Finder {
 
  private:
   bool is_large(const Part &part) const;
-  // Returns the connected triangles in the plane around the seed, which is a triangle. The plane is fitted anew to the triangles.
+  // Returns the connected triangles in the plane around the seed, which is a triangle. The plane is fitted to these triangles
+  // again in every round.
   Part grown(std::int64_t seed, double tolerance);
   // Measures the rim and the angle to the wall beside it.
   void measure(Part &part);
-  // Adds a part if no larger part has most of its triangles. Removes smaller parts whose triangles are mostly in the new part.
+  // Adds a part, unless most of its triangles belong to a larger part. Removes smaller parts whose triangles are mostly in the
+  // new part.
   void add(Part part, std::vector<Part> &parts);
 
   void fit(Part &part) const;

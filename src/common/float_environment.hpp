@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sets the default floating-point environment within a scope, and restores the caller's environment at its end. Solvers may
-// run with traps (-ffpe-trap), flush-to-zero (-ffast-math) or another rounding mode. Inside the scope no trap fires, and no
-// result depends on the caller's settings. Each thread that computes needs its own scope.
+// Sets the default floating-point environment within a scope, and restores the caller's environment at the end of the scope.
+// Solvers may run with traps (-ffpe-trap), flush-to-zero (-ffast-math) or another rounding mode. Inside the scope no trap fires,
+// and no result depends on the caller's settings. Each thread that computes needs its own scope.
 #pragma once
 
 #include <cfenv>

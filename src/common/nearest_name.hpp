@@ -35,7 +35,8 @@ inline std::size_t edit_distance(std::string_view a, std::string_view b) {
   return rows[a.size() % 3][b.size()];
 }
 
-// Compares candidates, and keeps the nearest, or the first of several equally near ones. The class ignores very different names.
+// Compares candidates, and keeps the nearest. If several candidates are equally near, keeps the first of them. The class ignores
+// very different names.
 class NearestName {
  public:
   explicit NearestName(std::string_view name)

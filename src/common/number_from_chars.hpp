@@ -73,8 +73,8 @@ class NumberText {
   const char *last_;
 };
 
-// Does the same as std::from_chars for a double, but by strtod. strtod gets only the text of the number, because it would also
-// accept blanks, a plus sign, and hexadecimal digits.
+// Reads a double by strtod, with the same result as std::from_chars. strtod gets only the text of the number, because it would
+// also accept blanks, a plus sign, and hexadecimal digits.
 inline std::from_chars_result double_from_chars(const char *first, const char *last, double &number) {
   NumberText text(first != last && *first == '-' ? first + 1 : first, last);
   const bool has_digits = text.has_digits();

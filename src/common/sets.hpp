@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Joins numbers into disjoint sets, and gives points at the same place the same number.
+// Joins numbers into disjoint sets. Also numbers points, so that points at the same place have the same number.
 #pragma once
 
 #include <algorithm>
@@ -19,14 +19,14 @@ class DisjointSets {
   explicit DisjointSets(std::int64_t n) : parent_(static_cast<std::size_t>(n)) {
     std::iota(parent_.begin(), parent_.end(), std::int64_t{0});
   }
-  // Adds the next number as a set.
+  // Adds the next number as a set by itself.
   void add() { parent_.push_back(static_cast<std::int64_t>(parent_.size())); }
   // Returns the least number of the set that contains i.
   std::int64_t root(std::int64_t i) {
     while (parent(i) != i) i = parent(i) = parent(parent(i));
     return i;
   }
-  // Returns whether the two numbers were in different sets.
+  // Unites the sets of two numbers. Returns whether these sets were different.
   bool unite(std::int64_t a, std::int64_t b) {
     a = root(a);
     b = root(b);

@@ -72,7 +72,7 @@ struct TriangleSide {
   bool is_forward;  // whether the triangle goes from a to b
 };
 
-// Returns the sides in the order of their edges, so that sides of one edge follow each other.
+// Returns the sides of all triangles, sorted so that the sides at one edge follow each other.
 inline std::vector<TriangleSide> sorted_sides(const std::vector<Triangles::Corners> &corners) {
   std::vector<TriangleSide> sides;
   sides.reserve(3 * corners.size());
@@ -87,7 +87,7 @@ inline std::vector<TriangleSide> sorted_sides(const std::vector<Triangles::Corne
   return sides;
 }
 
-// Calls `visit` for each edge, with the edge's first side and the number of its sides.
+// Calls `visit` for each edge, with the first triangle side at the edge and the number of triangle sides there.
 template <class Visit>
 void for_each_edge(const std::vector<TriangleSide> &sides, const Visit &visit) {
   for (std::size_t i = 0, end = 0; i < sides.size(); i = end) {

@@ -18,7 +18,7 @@ inline Vector3 cross(const Vector3 &a, const Vector3 &b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 inline double norm(const Vector3 &a) { return hypotenuse(a[0], a[1], a[2]); }
-// Returns the vector of length 1, and (0, 0, 0) for (0, 0, 0).
+// Returns the vector scaled to length 1. Returns (0, 0, 0) for (0, 0, 0).
 inline Vector3 unit_vector(const Vector3 &a) {
   const double length = norm(a);
   return length > 0 ? 1 / length * a : Vector3{};

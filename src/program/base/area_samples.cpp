@@ -10,7 +10,7 @@
 namespace riis::program {
 namespace {
 
-// The number of samples of a surface with coarse triangles. Each triangle has at least one sample.
+// The number of samples that are taken if the triangles are coarse. Each triangle has at least one sample.
 constexpr double n_wanted = 20'000;
 
 double area_of(const double *a, const double *b, const double *c) {

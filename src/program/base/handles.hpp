@@ -74,7 +74,7 @@ inline bool has_default_values(const riis_valve *valve, const std::set<std::stri
   });
 }
 
-// Returns points whose coordinates stay in the given array (3, n).
+// Returns a view of the points in the given array (3, n). Coordinates are not copied.
 inline riis_points points_of(const std::vector<double> &xyz) {
   auto points = defaults<riis_points>();
   points.n_points = view(xyz).size() / 3;

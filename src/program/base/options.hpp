@@ -41,16 +41,16 @@ struct ValveOptions {
   std::optional<Unit> placed_unit;         // unit of the file of a placed valve
   bool takes_placed_unit = false;          // the user named no unit, so `unit` is that of the placed valve
   bool has_doubted_unit = false;  // the sizes contradict `unit`, so messages give the mesh's lengths without it
-  // True if the user gave the scale, the half thickness or the tolerance as a number. The reader of a case and the checks of the
-  // command line set these members.
+  // These members are true if the user gave the scale, the half thickness or the tolerance as a number. The reader of a case and
+  // the checks of the command line set these members.
   bool has_scale = false, has_half_thickness = false, has_tolerance = false;
   std::int32_t n_threads = 0;  // 0: the library chooses by the amount of work
   bool quiet = false;
   bool strict = false;  // a warning changes the exit status
 };
 
-// The names of searches and of distances. A name's position in the list is the value of its constant RIIS_SEARCH_* or
-// RIIS_MEASURE_*.
+// The names of the searches, and of the ways to measure distances. A name's position in the list is the value of its constant
+// RIIS_SEARCH_* or RIIS_MEASURE_*.
 inline const std::vector<std::string> search_names = {"auto", "exhaustive", "neighbor", "paper", "clusters"};
 inline const std::vector<std::string> distance_names = {"triangles", "sampling", "minimization"};
 
@@ -114,7 +114,7 @@ struct MarkOptions : ValveOptions {
   bool at_cells = false;   // whether the centres of cells are marked
   riis_mark_options mark_options = defaults<riis_mark_options>();
   double far_distance = RIIS_FAR_DISTANCE;
-  // The array of K follows from the resistance R, and OpenFOAM's K is divided by the density. The drop is the pressure drop for
+  // The resistance R determines the array of K. For OpenFOAM, K is divided by the density. given_drop is the pressure drop for
   // the ideal leak.
   std::optional<Amount> given_resistance, given_drop, density;
   std::optional<std::string> chosen_K_unit;
@@ -156,7 +156,7 @@ struct StatesOptions : ValveOptions {
   bool has_contacts = false;    // whether the table has the coaptation
 };
 
-// The options of riis from-area. Areas have the mesh's unit squared.
+// The options of riis from-area. Areas are in the square of the mesh's unit of length.
 struct AreaOptions : ValveOptions {
   std::optional<Amount> given_area;
   std::optional<double> area;            // the area of the valve, or nothing if a file has areas
@@ -248,7 +248,7 @@ void apply_amounts(MarkOptions &options);
 // Returns whether the user gave the valve's opening by --opening or --set.
 bool sets_opening(const ValveOptions &options);
 
-// Returns whether the names of arrays may begin with `name`.
+// Returns whether `name` is valid as the beginning of the names of arrays.
 bool is_prefix(const std::string &name);
 
 }  // namespace riis::program

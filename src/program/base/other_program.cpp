@@ -95,7 +95,8 @@ ProgramEnd run_program(const std::vector<std::string> &words, std::FILE *input,
   std::rewind(messages.get());
   read_lines(messages.get(), [&end](const std::string &line) { end.messages.push_back(line); });
   if (!end.messages.empty()) end.last_message = end.messages.back();
-  // By POSIX, posix_spawnp may succeed although the program cannot be run. The new process then ends with the status not_run.
+  // According to POSIX, posix_spawnp may succeed although the program cannot be run. The new process then ends with the status
+  // not_run.
   constexpr int not_run = 127;
   if (end.status == not_run && end.messages.empty()) end.error = ENOENT;
   return end;

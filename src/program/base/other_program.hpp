@@ -15,7 +15,7 @@ struct CloseFile {
 };
 // A file without a name. When the file is closed, the system removes it.
 using TemporaryFile = std::unique_ptr<std::FILE, CloseFile>;
-// Returns NULL, and sets errno, if the file cannot be made.
+// Makes a temporary file. If the file cannot be made, returns NULL and sets errno.
 TemporaryFile temporary_file();
 
 struct ProgramEnd {
@@ -25,16 +25,16 @@ struct ProgramEnd {
   std::vector<std::string> messages{};  // all these lines
 };
 // Runs the program whose name is the first word, and waits until the program ends. A name without a slash is looked for in PATH.
-// The program reads the file `input` from its present position, or nothing if `input` is NULL. Passes each line of the output to
-// `read`.
+// The started program reads the file `input` from the file's present position, or nothing if `input` is NULL. run_program passes
+// each line of the output to `read`.
 ProgramEnd run_program(
     const std::vector<std::string> &words, std::FILE *input = nullptr,
     const std::function<void(const std::string &)> &read = [](const std::string &) {});
 
-// Returns the path of the program with that name on the PATH, or "" if there is none.
+// Looks for the program with the given name in PATH. Returns its path, or "" if PATH has no such program.
 std::string program_on_path(const std::string &name);
 
-// Returns the Python that the program starts: `python3`, or the value of the environment variable RIIS_PYTHON.
+// Returns the command that starts Python: `python3`, or the value of the environment variable RIIS_PYTHON.
 std::string python_of_user();
 
 // Implements `riis view`: this process becomes `python3 -m riis view` with the words of the command line. The function never

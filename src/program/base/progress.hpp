@@ -21,7 +21,7 @@ struct Silence {
 
 class Stage {
  public:
-  // Prints `what`, such as "reading mesh.vtu", on stderr if the stage is longer than the silence. Prints nothing if `quiet`.
+  // Prints `what`, such as "reading mesh.vtu", on stderr if the stage takes longer than the silence. Prints nothing if `quiet`.
   Stage(const std::string &what, bool quiet, Silence silence = {});
   ~Stage();
   Stage(const Stage &) = delete;
@@ -37,7 +37,8 @@ class Stage {
   std::thread watcher_;
 };
 
-// Counts the steps of a long stage. On a terminal, the count stays in one line, and a log gets a new line after each silence.
+// Counts the steps of a long stage. On a terminal, the count is updated in one line. In a log, a new line is added after each
+// silence.
 class StepProgress {
  public:
   // Prints `what`, such as "writing", before "step 12 of 81". Prints nothing if `quiet`.

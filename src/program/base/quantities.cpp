@@ -51,8 +51,8 @@ constexpr std::array<Symbol, 17> symbols = {{{"kg", {1, 1, 0, 0}},
                                              {"cP", {1e-3, 1, -1, -1}},
                                              {"1", {1, 0, 0, 0}}}};
 
-// Reads a unit. Its symbols may have exponents, and blanks, dots, * and / join them. Brackets may enclose the unit. A slash
-// divides only by the factor that follows it.
+// Reads a unit. Its symbols may have exponents. Blanks, dots, * and / stand between symbols. Brackets may enclose the unit. A
+// slash divides only by the factor that follows it.
 class UnitReader {
  public:
   UnitReader(const std::string &text, const std::string &subject) : text_(text), subject_(subject) {}

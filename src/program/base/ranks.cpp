@@ -13,8 +13,8 @@ namespace {
 
 int own_rank = 0, number = 1;
 
-// An MPI type for an element of several bytes. MPI counts up to 2^31 elements, so a message of larger elements may have more than
-// 2^31 bytes.
+// An MPI type for an element of several bytes. A message of MPI has fewer than 2^31 elements. If an element has several bytes,
+// the message may therefore have more than 2^31 bytes.
 class ElementType {
  public:
   explicit ElementType(std::size_t size) {
@@ -114,7 +114,7 @@ void agree(const Refusal *failure) {
   if (failure) throw AgreedRefusal{*failure};
 }
 
-// Without MPI there is one rank, for which gather and exchange return their argument and never call these two functions.
+// Without MPI there is one rank. gather and exchange then return their argument, and never call these two functions.
 std::vector<std::byte> gather_bytes(const void *, std::size_t, std::size_t) { return {}; }
 std::vector<std::byte> exchange_bytes(const void *, const std::vector<std::size_t> &, std::size_t) { return {}; }
 

@@ -29,7 +29,7 @@ class Session {
 
 int rank();
 int n_ranks();
-// Only the first rank prints, and it writes the files that all ranks share.
+// Only the first rank prints, and only this rank writes the files that all ranks share.
 inline bool is_first() { return rank() == 0; }
 
 // While an object of this type lives, the first rank works alone, and exchanges and agreements do not involve the other ranks.
@@ -50,7 +50,7 @@ struct AgreedRefusal {
   Refusal refusal;
 };
 
-// Throws an AgreedRefusal on all ranks if one of them passes a failure.
+// Throws an AgreedRefusal on all ranks if at least one rank passes a failure.
 void agree(const Refusal *failure = nullptr);
 
 // Returns the bytes that all ranks passed, in the order of the ranks.

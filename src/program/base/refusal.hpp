@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A Refusal is an exit code and one line for stderr. The program throws a Refusal to give up. The Python package raises an
+// A Refusal is an exit code and one line for stderr. To give up, the program throws a Refusal. The Python package raises an
 // exception with a Refusal's status and text.
 #pragma once
 
@@ -55,8 +55,8 @@ inline std::string with_option_named(const std::string &text) {
 }
 
 // Throws a Refusal with the library's message if the status is not RIIS_OK. Faults of files, arrays and parameters count as bad
-// data. A refused argument counts as wrong usage, because it comes from an option that is out of range. Puts `subject`, such as a
-// file's name, before a message that does not begin with it.
+// data. A refused argument counts as wrong usage, because it comes from an option that is out of range. If a message does not
+// begin with `subject`, such as a file's name, puts `subject` before the message.
 inline void check(riis_status status, const std::string &subject = "") {
   if (status == RIIS_OK) return;
   const bool data = status == RIIS_INVALID_SURFACE || status == RIIS_INVALID_MESH || status == RIIS_INVALID_PARAMETER ||

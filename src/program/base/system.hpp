@@ -19,7 +19,7 @@ bool make_pipe(int ends[2]);
 // ended before the call.
 void end_with_parent(int signal);
 
-// Returns the bytes of this process that count towards the limit of its memory (RLIMIT_AS). If the system does not report this
+// Returns how many bytes of this process count towards the limit of its memory (RLIMIT_AS). If the system does not report this
 // number, or ignores the limit, returns nothing.
 std::optional<std::uintmax_t> limited_memory();
 

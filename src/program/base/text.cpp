@@ -168,7 +168,7 @@ std::string text_of_file(const std::string &path) {
   std::ifstream file(path);
   std::ostringstream text;
   if (file) text << file.rdbuf();
-  // On Linux, a folder can be opened as a file. Reading a folder fails, so folders are recognised here.
+  // On Linux, a folder can be opened as a file, but reading it fails. This failure is noticed here.
   if (!file.is_open() || errno != 0) refuse_file(path, "cannot be read: " + system_text(errno));
   const std::string content = text.str();
   if (content.empty()) refuse_file(path, "is empty");
@@ -208,7 +208,7 @@ double tidied(double time, double step) {
 std::vector<double> stepped(double start, double stop, double step, const std::string &subject) {
   if (!(step > 0)) refuse_usage(subject + ": the step " + shortest(step) + " is not above 0");
   if (stop < start) refuse_usage(subject + ": the stop " + shortest(stop) + " is before the start " + shortest(start));
-  // Without the small additions, rounding could lose the last step of a span that the step divides.
+  // If the step divides the span, rounding could lose the last step. The small additions prevent this loss.
   const double n = std::floor((stop - start) / step * (1 + 1e-12) + 1e-9) + 1;
   if (n > static_cast<double>(most_times)) refuse_count(subject, n);
   if (n < 2) refuse_usage(subject + ": the step " + shortest(step) + " is beyond the stop " + shortest(stop));

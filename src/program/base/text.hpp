@@ -15,7 +15,7 @@ namespace riis::program {
 // The inputs are words of the command line. The results are numbers, which are the same in every locale. If other characters
 // follow the number, the word is refused as wrong usage. `subject` names the value in the refusal.
 
-// Returns the number if the whole text is one number, or nothing.
+// If the whole text is one number, returns this number. Otherwise returns nothing.
 std::optional<double> number_in(const std::string &text);
 double parse_number(const std::string &text, const std::string &subject);
 std::int32_t parse_integer(const std::string &text, const std::string &subject);
@@ -27,14 +27,14 @@ std::vector<double> parse_list(const std::string &text, const std::string &subje
 
 // Returns the text of a number in a format of printf, such as "%.3g".
 std::string printed(const char *format, double number);
-// Returns the shortest text that reads back as the same number, in any locale.
+// Returns the shortest text from which the same number can be read, in any locale.
 std::string shortest(double number);
 // Returns the power of ten of a number's first digit. For example, the power is 2 for 123. The number must be finite and not 0.
 int decimal_exponent(double number);
 // Returns 10 to the given power as the nearest double, or 0 if a double cannot hold it.
 double power_of_ten(int exponent);
 
-// Joins the texts of numbers by the given text.
+// Returns the texts of several numbers, with the given text between them.
 std::string numbers_text(const double *numbers, std::size_t n, const char *between,
                          std::string (*as_text)(double) = shortest);
 
@@ -56,7 +56,7 @@ std::string shell_word(const std::string &word);
 std::string shell_text(const std::vector<std::string> &words);
 
 inline bool is_control(unsigned char c) { return c < ' ' || c == 127; }
-// Returns the system's message for errno.
+// Returns the system's message for a value of errno.
 std::string system_text(int error);
 
 // The input is a path. The result is the ending of the path, or the text of the file. Refusals name the file.
@@ -66,7 +66,7 @@ std::string ending_of(const std::string &path);
 // Returns whether the path has this ending, in small letters or in capitals.
 bool has_ending(const std::string &path, const std::string &ending);
 
-// Refuses the file. The reason may quote parts of the file of any length.
+// Refuses the file. The reason may quote parts of the file, and these parts may have any length.
 [[noreturn]] void refuse_file(const std::string &path, const std::string &reason);
 
 // Refuses a file that cannot be read or is empty.

@@ -67,19 +67,19 @@ std::optional<Unit> unit_of_valve(double largest_side) {
 
 namespace {
 
-// A unit fits if it puts the vessel's width between the least and the largest width. The least width limits the mesh's middle
-// side, because a valve is no wider than its vessel. The largest width limits the mesh's shortest side, because a vessel is not
-// much wider than its valve. Both widths are multiples of the valve's largest side. The two widths differ by a factor of ten, so
-// two units seldom fit.
+// A unit fits if it puts the vessel's width between the least and the largest width. The middle one of the mesh's three sides
+// must be above the least width, because a valve is no wider than its vessel. The shortest side must be below the largest width,
+// because a vessel is not much wider than its valve. Both widths are multiples of the valve's largest side. The two widths differ
+// by a factor of ten, so two units seldom fit.
 constexpr double least_width = 0.4, largest_width = 4;
-// A mesh with longer edges cannot show the valve. The limit is a share of the valve's largest side.
+// If a mesh's edges are longer than this share of the valve's largest side, the mesh cannot show the valve.
 constexpr double longest_edge = 0.3;
 // In a mesh that was made for the default half thickness, edges are usually at most this number of half thicknesses long.
 constexpr double usual_edge = 3;
 // Near the valve, edges are usually at least this number of half thicknesses long.
 constexpr double shortest_edge = 0.3;
-// Edges above the limit show that the mesh was made for another valve. With the default half thickness, the limit is a number of
-// half thicknesses. Otherwise the limit is a share of the valve's largest side.
+// Edges above the limit show that the mesh was made for another valve. With the default half thickness, the limit is `most_edge`
+// half thicknesses. Otherwise the limit is the share `most_edge_of_valve` of the valve's largest side.
 constexpr double most_edge = 10, most_edge_of_valve = 0.4;
 // The least half thickness, as a share of the mesh's edge length. A thinner band fits between two layers of nodes, and contains
 // few nodes.
@@ -87,8 +87,8 @@ constexpr double smallest_half_thickness = 0.3;
 // A unit is impossible if it makes the vessel much too narrow or much too wide. The limit for wide vessels is larger than the
 // limit for narrow vessels, because a valve may stand in a wide basin.
 constexpr double most_too_narrow = 1.5, most_too_wide = 10;
-// The oddity of a unit tells how unlikely the unit is. It is a product of ratios, each at least 1. A unit is possible if its
-// oddity is at most this number of times the oddity of the likeliest unit.
+// The oddity of a unit tells how unlikely the unit is. The oddity is a product of ratios, which are all at least 1. A unit is
+// possible if its oddity is at most this factor times the oddity of the likeliest unit.
 constexpr double most_odd = 2.7;
 // In a wide basin, the present unit is right if the oddity of every other unit is larger by this factor.
 constexpr double surely_odder = 1.35;
@@ -104,7 +104,7 @@ double wideness_at(double factor, const Sizes &s) {
 }
 
 // Returns the oddity of the sizes after the mesh's lengths are multiplied by the factor. A default half thickness is in the
-// valve's unit, so the mesh's edges may be too long or too short for it.
+// valve's unit, so the mesh's edges may be too long or too short for this half thickness.
 double oddity_at(double factor, const Sizes &s, double edge) {
   double oddity = narrowness_at(factor, s) * wideness_at(factor, s) *
                   excess(factor * edge / (longest_edge * s.surface.largest_side()));

@@ -27,8 +27,8 @@ double paper_half_thickness(Unit unit);
 
 // Returns the unit into which `factor` converts lengths from the unit `from`, or none.
 std::optional<Unit> unit_reached(Unit from, double factor);
-// Returns the units of a surface and a mesh between which this factor converts lengths. Returns nothing for the factor 1, and for
-// a factor that belongs to no pair of units.
+// Returns the surface's unit and the mesh's unit if the factor converts lengths from the first of these units to the second.
+// Returns nothing for the factor 1, and for a factor that belongs to no pair of units.
 struct UnitPair {
   Unit surface, mesh;
 };
@@ -49,7 +49,7 @@ struct Box {
   }
   void grow(const double *point) { grow(point, point); }
   void grow(const Box &other) { grow(other.lower, other.upper); }
-  // Returns the box with each side moved outwards by `by`.
+  // Returns the box with each side moved outwards by the length `by`.
   Box widened(double by) const {
     return {{lower[0] - by, lower[1] - by, lower[2] - by}, {upper[0] + by, upper[1] + by, upper[2] + by}};
   }
@@ -68,8 +68,8 @@ inline Box empty_box() {
   return {{far, far, far}, {-far, -far, -far}};
 }
 
-// Sums over points, for their moments. The sums tell how far the points reach along their principal axes. A narrow vessel that
-// lies obliquely therefore does not count as wide.
+// Collects sums over points, from which their moments follow. The moments tell how far the points reach along their principal
+// axes. A narrow vessel that lies obliquely therefore does not count as wide.
 struct Moments {
   double n = 0, sum[3]{}, squares[6]{};  // squares has xx, yy, zz, xy, xz, yz
 
@@ -77,12 +77,14 @@ struct Moments {
   void add(const Moments &other);
 };
 
-// Returns the three sides of a mesh, the longest first. A side is the shorter of two lengths: the side of the box, and the
-// diameter of a disc with the points' moment. Without points, the sides of the box are returned.
+// Returns the three sides of a mesh, the longest first. The length of a side is the shorter of two lengths. One is the side of
+// the box, and the other is the diameter of a disc with the same moment as the points. Without points, the sides of the box are
+// returned.
 std::array<double, 3> sides_of(const Box &box, const Moments &moments);
 
 // The sizes of a mesh and of a valve in the mesh. The functions below tell whether the sizes of mesh and valve fit together, and
-// which unit and which half thickness would fit. The program's warnings and the lights of Python's view follow the same rules.
+// which unit and which half thickness would fit. The program's warnings and the lights of riis view (docs/view.md) follow the
+// same rules.
 struct Sizes {
   std::array<double, 3> mesh_sides;  // the longest first
   Box surface;

@@ -157,7 +157,7 @@ void end_process(pid_t process) {
   }
 }
 
-// Returns the last message of Xvfb that gives a reason.
+// Returns the last message of Xvfb that gives a reason for its failure.
 std::string reason_of(int messages) {
   constexpr off_t most = 4096;
   std::array<char, most> bytes{};

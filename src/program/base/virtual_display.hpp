@@ -14,8 +14,8 @@ namespace riis::program {
 void check_virtual_display();
 
 // Starts Xvfb, and puts the display into the variables DISPLAY and XAUTHORITY. Only this process knows the key of the display.
-// Xvfb ends with this object. Xvfb also ends if the thread that made the object ends in any way. Each run of the program has a
-// separate display.
+// Xvfb ends with this object. Xvfb also ends if the thread that made the object ends for any reason. Each run of the program has
+// a separate display.
 class VirtualDisplay {
  public:
   // Throws a Refusal if Xvfb is missing, ends early, or is not ready in time.

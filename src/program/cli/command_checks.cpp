@@ -180,8 +180,8 @@ void finish_solver_units(ExportOptions &options) {
   options.viscosity = in_solver_units(options.given_viscosity, a_viscosity, blood_viscosity);
 }
 
-// Converts the area into the mesh's unit. The parameters of a kind are in centimetres. If such a valve is not scaled, its mesh is
-// in centimetres, too.
+// Converts the area into the mesh's unit. The parameters of a kind of valve are in centimetres. If such a valve is not scaled,
+// its mesh is in centimetres, too.
 void finish_areas(AreaOptions &options) {
   const bool is_in_centimetres = !options.has_scale && !is_valve_file(options.valve);
   const std::optional<Unit> unit = options.unit        ? options.unit

@@ -17,8 +17,8 @@ namespace riis::program {
 
 namespace {
 
-// Formats an option as its name and the type of its value. CLI11's own format would also list the options that an option excludes
-// and needs, and the help would be too long for a screen.
+// Formats an option as its name and the type of its value. For each option, CLI11's own format would also list other options that
+// it excludes or needs. The help would then be too long for a screen.
 class BriefHelp : public CLI::Formatter {
  public:
   BriefHelp() { column_width(36); }
@@ -232,7 +232,7 @@ CLI::Option *Command::value(const std::string &names, const char *type, const ch
                         names, [take] { take(""); }, help),
                     nullptr);
   const auto taken = [take, name = option_name(names)](const std::string &text) {
-    // Refuses an empty value, because it would look like an option that was not given.
+    // Refuses an empty value, because an empty value stands for an option that was not given.
     if (text.empty()) refuse_empty(name);
     take(text);
   };

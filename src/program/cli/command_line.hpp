@@ -26,8 +26,8 @@ using Request = std::variant<MarkOptions, SizeFieldOptions, StatesOptions, AreaO
 // wrong usage.
 std::optional<Request> parse_command_line(int argc, char **argv);
 
-// Declares options of a command. CLI11 passes on each value as text. The program parses the numbers itself, because the result of
-// CLI11 would depend on the locale.
+// Declares options of a command. CLI11 gives each value to the program as text. The program parses the numbers itself, because
+// the result of CLI11 would depend on the locale.
 class Command {
  public:
   explicit Command(CLI::App *app) : app_(app) {}
@@ -98,8 +98,8 @@ PatientOptions finish_patient(const Command &command, PatientOptions options);
 // The beginning of the program's help.
 extern const char *const description;
 
-// Returns the text after the options in a command's help: examples, and topics to read. The name "riis" stands for the program's
-// own help.
+// Returns the text that follows the options in a command's help: examples, and topics to read. The name "riis" stands for the
+// program's own help.
 std::string help_of(const std::string &command);
 
 // Returns the text of a topic, or the list of topics if the name is "". Throws a Refusal for an unknown name.

@@ -15,10 +15,10 @@ namespace {
 // The largest number of openings that riis states and riis size-field accept.
 constexpr std::int32_t most_states = 100001;
 
-// A name's position in the list is the value of its constant of LandmarkWarp.
+// A name stands for a constant of LandmarkWarp. The constant's value is the name's position in the list.
 const std::vector<std::string> warp_names = {"none", "exact", "smoothed"};
 
-// A name's position in the list is the value of its constant of UrisRing.
+// A name stands for a constant of UrisRing. The constant's value is the name's position in the list.
 const std::vector<std::string> ring_names = {"face", "none"};
 
 // Refuses numbers that are not above 0. RIIS_AUTO is a negative number, so a negative number from the user would count as
@@ -313,8 +313,8 @@ void declare_style(Command &command, PictureStyle &style) {
   command.choice("--picture-panels", "both (default), valve or marks", panel_names, style.panels, "WHICH");
 }
 
-// CLI11 passes on the pictures before the views, because --view is declared after --picture. The number of pictures is therefore
-// known when the views are read.
+// CLI11 gives the pictures to the program before the views, because --view is declared after --picture. The number of pictures is
+// therefore known when the views are read.
 void declare_pictures(Command &command, MarkOptions &options) {
   CLI::Option *const pictures =
       command

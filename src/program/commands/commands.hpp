@@ -41,13 +41,13 @@ struct UrisExport {
 UrisExport write_uris(const ExportOptions &options, const std::string &named_folder);
 
 // riis size-field. The inputs are valves and their motion. The result is a grid of edge lengths that gmsh reads. The edges are
-// short near the valves. The edge length at a point of the grid follows from the point's least distance from the valves over all
-// times.
+// short near the valves. The edge length at a point of the grid depends on the distance of the point from the valves. The least
+// distance over all times counts.
 ExitCode run_size_field(const SizeFieldOptions &options);
 
 // The input is the user's request. The results are the files, and the report on stdout. Returns exit_none_marked if no node was
-// marked, unless the user allowed this. Returns exit_warned if a check found a fault, and with --strict also after a warning.
-// Otherwise returns exit_fine.
+// marked, unless the user allowed this. Returns exit_warned if a check found a fault. With --strict, also returns exit_warned
+// after a warning. Otherwise returns exit_fine.
 ExitCode run(const Request &request);
 
 }  // namespace riis::program

@@ -39,7 +39,7 @@ struct Solution {
 
 std::string words_of(const AreaOptions &options) { return options.is_effective ? "effective area" : "area"; }
 
-// Returns a number with nine digits. With nine digits, the printed opening or size gives the same area again.
+// Returns the text of a number with nine digits. With so many digits, the printed opening or size gives the same area again.
 std::string exact(double number) { return printed("%.9g", number); }
 
 std::string text_of_range(const AreaOptions &options, const riis_area_range &range) {
@@ -101,8 +101,8 @@ class Search {
                              made->values.data(), made->reached.data(), &made->range, sizeof made->range);
   }
 
-  // Refuses the first area of the file that the valve cannot reach. If the valve can reach all areas, refuses with the library's
-  // reason.
+  // Finds the first area in the file that the valve cannot reach, and refuses it. If the valve can reach all areas, refuses with
+  // the library's reason.
   void refuse_row(const Areas &wanted, const std::string &reason) const {
     Solution all;
     if (call({}, &all) != RIIS_OK) throw Refusal{exit_wrong_usage, with_option_named(reason)};
@@ -132,8 +132,8 @@ void warn_of_turns(const AreaOptions &options, const riis_area_range &range) {
        "; if there are several solutions, the command finds " + taken + ", and --from and --to lead to the others");
 }
 
-// A run warns of a larger relative error. Where the adapted triangles change, the area jumps. The jump is smaller than this
-// error, except for small areas.
+// A run warns if the relative error is above this limit. The area jumps where the adapted triangles change. Such a jump is below
+// this limit, except for small areas.
 constexpr double fair_error = 1e-4;
 
 void warn_of_jumps(const Areas &wanted, const Solution &found) {

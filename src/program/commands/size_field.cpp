@@ -128,7 +128,7 @@ Surface surface_of(const Triangles &triangles, double half_thickness) {
   return create_for<Surface>("the triangles of all states together", riis_surface_create_from_arrays, &arrays, &how);
 }
 
-// Adds the triangles of one valve at all times to one surface. The distance to the joined surface is the least distance during
+// Joins the triangles of one valve at all times into one surface. The distance to the joined surface is the least distance during
 // the whole motion, so each valve is marked only once. If the band has an offset, a second joined surface has the rims at all
 // times.
 void add_zones(MovingValve &valve, const Edges &edges, const Case &all, std::vector<Zone> &zones) {
@@ -176,7 +176,7 @@ Grid grid_in(const Box &box, double spacing, bool is_given) {
   return grid;
 }
 
-// Returns the edge length at each point: the least length of all zones.
+// Returns the edge length at each point. If the zones have different lengths there, the least of these lengths counts.
 std::vector<double> lengths_at(const Grid &grid, const std::vector<Zone> &zones, const SizeFieldOptions &options) {
   const Stage stage("measuring the distances of the grid", options.quiet);
   const std::vector<double> xyz = grid.points();
@@ -256,7 +256,8 @@ ExitCode run_size_field(const SizeFieldOptions &options) {
   double spacing = std::numeric_limits<double>::infinity();
   for (const Edges &one : edges) spacing = std::min(spacing, 0.5 * one.half_thickness);
   if (options.spacing) spacing = *options.spacing;
-  // Collecting all states may take minutes. A grid around only the first states tells earlier whether it has too many points.
+  // Collecting all states may take minutes. A grid around only the first states is therefore made first. It may already show that
+  // the spacing gives too many points.
   Box first = empty_box();
   for (std::size_t i = 0; i < valves.size(); ++i)
     first.grow(box_of(info_of(valves[i].surface())).widened(edges[i].reach()));

@@ -271,8 +271,8 @@ std::string text_of_changes(const States &states) {
   return text.empty() ? "all " + range : "not " + range + ": " + text;
 }
 
-// Returns names of columns. Blanks and dashes in the names of leaflets become _. If a name has other special characters, such as
-// those of "x > 0", all leaflets are named by numbers.
+// Returns names of columns. Blanks and dashes in the names of leaflets become _. If a name has another special character, such as
+// > in "x > 0", all leaflets are named by numbers.
 std::vector<std::string> columns_of(const States &states) {
   std::vector<std::string> columns = states.names;
   bool are_words = true;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A case: one or several valves in one mesh, at one time or at many. A valve of the command line is a case with one valve.
+// A case: one or several valves in one mesh, at one time or at many. A valve that the command line describes is a case with one
+// valve.
 #pragma once
 
 #include <functional>
@@ -24,17 +25,17 @@ struct Case {
   bool is_series() const { return !options.series.times.empty(); }
   // Returns the times of the series. Without a series, returns the only time.
   std::vector<double> times() const;
-  // Returns a valve's name for files and columns, or "" if it is the only valve.
+  // Returns a valve's name for files and columns, or "" if the case has only one valve.
   std::string part_of(std::size_t valve) const { return valves.size() == 1 ? "" : valves[valve].options.prefix; }
-  // Returns the beginning of a line about a valve, such as "mitral: ", or "" if it is the only valve.
+  // Returns the beginning of a line about a valve, such as "mitral: ", or "" if the case has only one valve.
   std::string before(std::size_t valve) const { return valves.size() == 1 ? "" : part_of(valve) + ": "; }
-  // Returns the name of a valve's surface in warnings.
+  // Returns the name that warnings use for a valve's surface.
   std::string surface_of(std::size_t valve) const;
 };
 
-// Returns the valve or the surface of the command line as a case. The case takes the opening and the time from the options, and
-// for a series the times and the cycle. For a series, the surface is read here, because no output of the series may replace one
-// of its frames.
+// Returns the valve or the surface of the command line as a case. The options give the case its opening and its time. For a
+// series, they give the times and the cycle. The surface of a series is read here, because no output of the series may replace a
+// frame of the surface.
 Case case_of_command_line(const MarkOptions &options);
 // Reads the valves' surfaces from files. A surface that was read before is not read again.
 void read_surfaces(Case &all);

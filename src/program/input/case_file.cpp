@@ -244,7 +244,7 @@ class CaseReader {
     set_skirt(source.options, source.valve, source.subject);
   }
 
-  // Reads the warp, and gives the valve its warp at the first time.
+  // Reads the warp, and warps the valve to the landmarks of the first time.
   void set_warp(const CaseValues &values, riis_valve *valve, ValveSource &source) {
     const std::vector<double> &times = all_.options.series.times;
     source.warp = read_warp(source.options);
@@ -374,7 +374,7 @@ void read_valve(const MarkOptions &options, ValveSource &source) {
   }
   const SeriesOptions &series = options.series;
   source.law = OpeningLaw(read_cycle(series.cycle, options.period, series.interpolation), series.cycle);
-  // make_valve gets the largest opening, so that it can refuse a file of patches that does not open so far.
+  // make_valve gets the largest opening, so that it can refuse a file of patches if the valve cannot open so far.
   source.options.opening = largest_opening(source.law, options.series.times);
   source.valve = make_valve(source.options, OpeningCheck::yes, &source.warp);
 }

@@ -21,9 +21,9 @@
 namespace riis::program {
 namespace {
 
-// Faces that are joined along sides, as disjoint sets. The sets also tell how the faces of a piece are oriented relative to each
-// other. The number i stands for face i as it is, and the number n + i stands for face i turned over. Two numbers are in one set
-// if the faces are joined and have the same orientation.
+// Disjoint sets of faces that are joined along their sides. The sets also tell which faces of a piece have the same orientation.
+// The number i stands for face i as it is, and the number n + i stands for face i turned over. Two numbers are in one set if the
+// faces are joined and have the same orientation.
 class Pieces {
  public:
   explicit Pieces(std::int64_t n) : n_(n), sets_(2 * n) {}

@@ -18,7 +18,7 @@ namespace riis::program {
 std::vector<Triangles::Corners> joined_corners(const riis_triangles &triangles);
 
 // Warns of triangles turned against their neighbours, leaflets turned over as a whole, equal triangles, and closed pieces such as
-// thick leaflets. The warnings begin with the names of --surface.
+// thick leaflets. The warnings begin with the names of the files of --surface.
 void warn_of_faces(const ValveOptions &options, const riis_surface *surface);
 
 // A line of open edges: the number of its edges, their total length, and the middle of the box around the line.

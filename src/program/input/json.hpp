@@ -18,7 +18,7 @@ namespace riis::program {
 
 using Json = nlohmann::ordered_json;
 
-// If the file is nested too deeply, the refusal names the file's content by `content`, such as "parameters".
+// If the file is nested too deeply, the refusal calls the file's content `content`, such as "parameters".
 Json parse_json_file(const std::string &path, const std::string &content);
 Json parse_json(const std::string &path, const std::string &text, const std::string &content);
 
@@ -35,8 +35,8 @@ std::optional<std::array<double, 3>> point_in(const Json &value);
 
 class CaseValues {
  public:
-  // `object`, such as "valve 0", names the object in refusals. If `object` is "", refusals name the file's root by `root`. The
-  // new object borrows the JSON value.
+  // `object`, such as "valve 0", names the object in refusals. If `object` is "", refusals call the file's root `root`. The new
+  // object borrows the JSON value.
   CaseValues(const std::string &path, const std::string &object, const Json &value,
              const std::vector<std::string> &keys, const std::string &root = "the case");
 
@@ -55,7 +55,7 @@ class CaseValues {
   std::vector<double> numbers(const char *key, std::size_t n) const;
   bool flag(const char *key) const;  // returns false if the key is missing
   std::optional<Unit> unit(const char *key) const;
-  // Returns the position of the key's text in the list, or 0 if the key is missing.
+  // Looks for the key's text in the list, and returns its position. If the key is missing, returns 0.
   std::size_t choice(const char *key, const std::vector<std::string> &names) const;
 
   [[noreturn]] void refuse(const std::string &key, const std::string &reason) const;

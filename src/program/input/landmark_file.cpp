@@ -15,8 +15,8 @@
 namespace riis::program {
 namespace {
 
-// The words for the leaflets of three groups of valves: with three cusps, tricuspid, and with any number of cusps. In the list,
-// non_coronary stands before non, because the first fitting word counts.
+// The words for the leaflets of valves with three cusps, of the tricuspid valve, and of valves with any number of cusps. In the
+// list, non_coronary stands before non, because the first fitting word counts.
 struct LeafletWord {
   const char *word;
   std::int32_t leaflet_id;
@@ -105,7 +105,7 @@ bool is_landmark(const std::string &name) {
   return place_of_name(name) || plain(name) == flow_from || plain(name) == flow_to;
 }
 
-// The words for leaflets in messages. Their positions are the leaflets' ids.
+// The words for leaflets in messages. The position of a word is the leaflet's id.
 const char *const cusp_words_of_three[] = {"right", "left", "non_coronary"};
 
 std::string cusp_word(std::size_t n_cusps, std::size_t cusp) {

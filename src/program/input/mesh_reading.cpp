@@ -33,7 +33,7 @@ bool may_crash(const std::string &path) {
   return endings.count(ending_of(path)) != 0;
 }
 
-// A folder for the mesh that a child process has read. If a signal ends the process, the folder is removed.
+// A folder for the mesh that a child process has read. If a signal ends this process, the folder is removed.
 class PassingFolder {
  public:
   PassingFolder() { remove_if_ended(folder_.path(), mesh()); }
@@ -47,9 +47,9 @@ class PassingFolder {
   const TemporaryFolder folder_;
 };
 
-// Limits the memory of this process, because damaged files may claim any size. Reading an undamaged file needs a few times its
-// size in memory. A compressed file may need a thousand times its size. Builds with the address sanitizer have no limit, because
-// the sanitizer reserves terabytes.
+// Limits the memory of this process, because damaged files may claim any size. To read an undamaged file, the process needs a few
+// times the file's size in memory. For a compressed file, it may need a thousand times the file's size. Builds with the address
+// sanitizer have no limit, because the sanitizer reserves terabytes.
 void limit_memory([[maybe_unused]] const std::string &path) {
 #ifndef __SANITIZE_ADDRESS__
   std::error_code error;
@@ -94,7 +94,7 @@ struct Answer {
   if (status == RIIS_OK) status = riis_vtk_mesh_get_notes(mesh, &notes);
   if (status == RIIS_OK) status = riis_vtk_mesh_write(mesh, passed.c_str());
   const char *const text = status == RIIS_OK ? notes : riis_last_error();
-  // The text is so short that one write to a pipe takes it whole.
+  // The text is short, so one call of write puts all of it into the pipe.
   const auto n_bytes = static_cast<ssize_t>(std::strlen(text));
   const bool is_written =
       write(answer, &status, sizeof status) == sizeof status && write(answer, text, std::strlen(text)) == n_bytes;

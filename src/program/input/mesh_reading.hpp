@@ -10,14 +10,14 @@
 
 namespace riis::program {
 
-// Reads a mesh. Keeps a note of the reader for the summary. For example, a note says that the file has single precision.
+// Reads a mesh. The reader may give a note, for example that the file has single precision. The note is kept for the summary.
 // `cells_where` chooses cells of the mesh. "" chooses all cells.
 MeshFile read_mesh_file(const std::string &path, const std::string &cells_where);
-// Returns a sentence about the domains of the mesh if they touch. Returns "" if no cell array tells domains apart.
+// If domains of the mesh touch, returns a sentence about them. Returns "" if no cell array tells domains apart.
 std::string text_of_regions(const std::string &path, riis_vtk_mesh *mesh);
 // Returns the existing files from which an .xdmf file takes its numbers. For files of other formats, returns an empty list.
 std::vector<std::string> data_files_of(const std::string &path);
-// Returns the notes since the last call, as lines for the beginning of the summary.
+// Returns the notes that were kept since the last call, as lines for the beginning of the summary.
 std::string take_notes();
 
 // Returns whether the path is the folder of an OpenFOAM case.

@@ -20,11 +20,11 @@ void set_from_json_file(riis_valve *valve, const std::string &path);
 // file.
 void set_from_json(riis_valve *valve, const Json &parameters, const std::string &path);
 
-// Sets the parameter of one option --set.
+// Sets the parameter that one option --set names.
 void set_from_text(riis_valve *valve, const std::string &setting);
 
-// Returns all parameters of the valve with their values. Reading these values back sets every parameter, so that none follows
-// from another any more. Bumps that have no place are left out, except bump_0.
+// Returns all parameters of the valve with their values. If these values are read again, they set every parameter. No parameter
+// then follows from another parameter. Bumps that have no place are left out, except bump_0.
 std::string json_template(const riis_valve *valve);
 // Returns the parameters as a table for the user to read. Each line has a parameter's name, value, unit, range and description.
 // One line stands for all parts that are alike, such as bumps.

@@ -47,7 +47,7 @@ std::string held_names(std::vector<std::string> given, const LandmarkFile &landm
   return joined_by(held, " ");
 }
 
-// Returns the library's message with the names that landmarks and fields have in the file.
+// Returns the library's message, in which landmarks and fields get the names that they have in the file.
 std::string in_words_of_file(std::string text, const LandmarkFile &landmarks) {
   static const std::regex numbered("landmark ([0-9]+)( \\([^)]*\\))?");
   std::string named;
@@ -110,7 +110,7 @@ std::vector<double> places_on_valve(const Placed &placed, const riis_valve *valv
   return closest;
 }
 
-// Finds the pairs of landmarks for the warp. Refuses a pair of landmarks that no warp can take to their places at once.
+// Finds the pairs of landmarks for the warp. Refuses two landmarks if no warp can take both of them to their places.
 void pair_landmarks(Placed &placed, const riis_valve *valve, bool is_exact) {
   const LandmarkFile &landmarks = placed.landmarks;
   const auto apart = [](const std::vector<double> &xyz, std::size_t i, std::size_t k) {
@@ -163,8 +163,8 @@ Warp unfolded_warp(const Placed &placed, riis_valve *valve, double noise, Reader
   return warp;
 }
 
-// Returns advice for a warp that meets the landmarks but folds the valve. To give the advice, tries a warp that the landmarks'
-// noise smooths.
+// Returns advice for a warp that meets the landmarks but folds the valve. To give the advice, tries a warp that is smoothed by
+// the landmarks' noise.
 std::string cure_of_folds(const Placed &placed, const riis_valve *valve, Reader reader) {
   const std::string smoothed = option_text(reader, "warp", "smoothed"), look = "look for a landmark in the wrong place";
   if (!(placed.noise > 0))
@@ -370,7 +370,7 @@ std::string filled(const std::string &text, std::size_t width) {
   return text + std::string(std::max(width, text.size() + 1) - text.size(), ' ');
 }
 
-// Returns a distance from the valve as text. A distance that is smaller than the error of measured distances becomes 0.
+// Returns a distance from the valve as text. A distance that is smaller than the error of measured distances is shown as 0.
 std::string distance_text(double distance, double centimetre) {
   return distance > distance_error * centimetre ? digits(distance, 3) : "0";
 }
@@ -478,7 +478,8 @@ std::string place_report(const Placed &placed, Reader reader) {
           "\n";
   std::size_t name_width = 16;
   for (const std::string &name : landmarks.names) name_width = std::max(name_width, name.size() + 2);
-  // Distances between valve and landmarks are in millimetres in every unit, because a person reads and compares them.
+  // Distances between valve and landmarks are printed in millimetres, whatever the landmarks' unit, because a person reads and
+  // compares them.
   const double mm = factor_between(landmarks.unit, Unit::millimetre);
   const auto distance = [&](double in_unit) { return distance_text(mm * in_unit, mm * at.scale); };
   const std::string column = "residual mm";

@@ -55,7 +55,7 @@ LandmarkFile read_landmarks(const std::string &path, const std::string &text, co
 // If all given nadirs and commissures name their cusps, every nadir and commissure of this kind of valve must be given. The
 // refusal names the missing landmarks.
 void check_names_of_cusps(const LandmarkFile &landmarks, const std::string &kind);
-// Reads landmarks in memory from an object that has the keys of a file. `subject` names the landmarks in refusals.
+// Takes landmarks from a JSON object in memory, which has the keys of a landmark file. `subject` names the landmarks in refusals.
 LandmarkFile landmarks_of_json(const std::string &subject, const Json &root);
 
 // The reader of a message: a user of the program or of the Python package. Messages write options like --unit mm for the program,
@@ -96,8 +96,8 @@ struct Placed {
   std::vector<double> places;                                     // (3, n), of the landmarks on the valve
   riis_surface_options where = defaults<riis_surface_options>();  // the placement
   bool is_warped = false;
-  // The pairs of the warp: landmarks on the valve and in the patient, (3, n), and their names. Landmarks at one place make one
-  // pair.
+  // The pairs of the warp: landmarks on the valve and in the patient, (3, n), and their names. Several landmarks at the same
+  // place make only one pair.
   std::vector<double> sources, targets;
   std::vector<std::string> paired_names;
   double warp_noise = 0;          // the noise that smooths the warp; 0: the warp meets the landmarks
@@ -105,7 +105,7 @@ struct Placed {
 };
 
 // Finds the sizes and the placement of the valve from the landmarks. The parameters in `held` keep the values that the caller has
-// set. So do the parameters that the landmarks' file states.
+// set. Parameters that the landmarks' file states also keep their values.
 Placed place_by_landmarks(const LandmarkFile &of_file, riis_valve *valve, const std::string &kind,
                           const std::vector<std::string> &held, Reader reader);
 

@@ -52,7 +52,7 @@ struct Disease {
   const char *diagnosis;
 };
 
-// Returns the disease with that name, or nullptr.
+// Returns the disease with the given name, or nullptr if there is none.
 const Disease *disease_named(const std::string &name);
 
 // Returns a table of all diseases for the user to read.

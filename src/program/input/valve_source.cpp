@@ -322,19 +322,20 @@ const std::set<std::string> meshes_of_gmsh = {".unv", ".bdf", ".nas"};
 // gmsh 4 silently leaves out the prisms of a .mesh file.
 const std::set<std::string> meshes_of_meshio = {".inp", ".su2",  ".med", ".mesh", ".meshb", ".avs", ".dat", ".f3grid",
                                                 ".h5m", ".mdpa", ".vol", ".node", ".ele",   ".xml", ".post"};
-// Endings of files that ParaView opens. The files contain blocks, or grids that are not unstructured.
+// Endings of files that ParaView opens. The files contain blocks or structured grids.
 const std::set<std::string> meshes_of_paraview = {".cgns", ".case", ".encas", ".vtkhdf", ".pvti", ".pvtr",
                                                   ".pvts", ".plt",  ".tec",   ".vtmb",   ".vtpc", ".vtpd"};
 // Endings of CAD files. gmsh fills a CAD model with cells, or covers it with triangles.
 const std::set<std::string> cad_files = {".step", ".stp", ".iges", ".igs", ".brep"};
 const std::set<std::string> surfaces_of_gmsh = {".msh", ".unv", ".bdf", ".nas", ".mesh", ".ply2", ".med", ".wrl"};
 const std::set<std::string> surfaces_of_meshio = {".off"};
-// Endings of surface files from which meshio writes all faces to a .vtu file. To a .stl file, meshio writes only triangles.
+// Endings of surface files that meshio converts to .vtu files with all faces. In a .stl file, meshio would write only the
+// triangles.
 const std::set<std::string> faces_of_meshio = {".xdmf", ".xmf", ".inp", ".e", ".exo", ".avs", ".mdpa", ".vol"};
 const std::set<std::string> surfaces_of_paraview = {".vtkhdf", ".pvtp", ".vtm"};
 const std::set<std::string> surfaces_only = {".stl", ".vtp", ".ply", ".ply2", ".obj", ".off"};
 
-// Returns the path so that a shell reads it as one word, and no program takes it for an option.
+// Returns the path in a form that a shell reads as one word, and that no program takes for an option.
 std::string path_in_shell(const std::string &path) { return shell_word(path[0] == '-' ? "./" + path : path); }
 
 std::string with_ending(const std::string &path, const char *ending) {
@@ -375,8 +376,8 @@ std::string first_bytes_of(const std::string &path, std::size_t n) {
   return bytes;
 }
 
-// Returns the end of a refusal that names the first mesh of a .pvd file, such as ", such as step0.vtu". Returns "" if the .pvd
-// file names no mesh.
+// Returns the last words of a refusal, which name the first mesh of a .pvd file, for example ", such as step0.vtu". Returns "" if
+// the .pvd file names no mesh.
 std::string first_file_of_list(const std::string &path) {
   constexpr std::size_t most_bytes = 65536;
   const std::string text = first_bytes_of(path, most_bytes), begin = " file=\"";

@@ -50,7 +50,7 @@ enum class OpeningCheck { no, yes };
 // Makes the valve of --valve, and applies --params and the other options of a valve. `moving` receives the warp. If `moving` is
 // NULL, a warp that moves is refused.
 Valve make_valve(const ValveOptions &options, OpeningCheck opening = OpeningCheck::yes, WarpSource *moving = nullptr);
-// Returns the beginning of refusals of a valve's shape: the valve's file, or "" for a kind.
+// Returns the words with which refusals of a valve's shape begin: the path of the valve's file, or "" for a kind.
 std::string subject_of(const ValveOptions &options);
 double opening_of(const riis_valve *valve);
 // Returns n openings from 0 to 1.

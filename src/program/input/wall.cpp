@@ -20,9 +20,9 @@
 namespace riis::program {
 namespace {
 
-// The number of openings at which the wall must be near enough.
+// The number of openings at which the program tests whether the wall is near enough.
 constexpr std::int32_t n_openings = 11;
-// The gap and the skirt are measured at different points, so the gap may exceed the skirt by this share.
+// The gap and the skirt are measured at different points, so the gap may exceed the skirt's length by this share.
 constexpr double most_beyond = 0.01;
 // The largest length of a hole in the wall, as a share of the attachment's length. A longer open line is the end of a vessel.
 constexpr double longest_hole = 0.3;
@@ -54,7 +54,7 @@ std::string axes_advice(const ValveOptions &options) {
 }
 
 // Returns a hint if the skirt would reach the wall in another unit or with other axes. Otherwise returns "". The function
-// `reaches` tells whether the skirt reaches a changed wall.
+// `reaches` tells whether the skirt reaches the wall after such a change.
 template <class Reaches>
 std::string hint_of_change(const ValveOptions &options, const SurfaceFile &file, const Reaches &reaches) {
   for (const Change change : {Change{"1", true}, Change{"0.1", false}, Change{"10", false}, Change{"0.01", false},
@@ -174,8 +174,8 @@ void set_skirt(const ValveOptions &options, riis_valve *valve, const std::string
   if (!options.skirt) return;
   if (options.wall.empty()) {
     check(riis_valve_set_scalar(valve, "skirt_length", *options.skirt / options.surface_options.scale), subject);
-    // The library's refusal gives the skirt's length only in the valve's own unit. The program's refusal also gives the user's
-    // length. The library tests the skirt's length before it makes the triangles.
+    // The library's refusal gives the skirt's length only in the valve's own unit. The program's refusal also gives the length
+    // that the user wrote. The library tests the skirt's length before it makes the triangles.
     riis_surface_options how = options.surface_options;
     how.triangulation = RIIS_TRIANGULATION_ADAPTED;
     Surface trial;

@@ -15,8 +15,8 @@
 namespace riis::program {
 
 // Gives the valve the skirt that --skirt and --wall describe. Without --skirt, the function does nothing. Refusals that are not
-// about the wall begin with `subject`. Refuses a wall that is farther away than --skirt at any opening. Warns of holes in the
-// wall.
+// about the wall begin with `subject`. Refuses a wall if it is farther away than --skirt at one of the openings. Warns of holes
+// in the wall.
 void set_skirt(const ValveOptions &options, riis_valve *valve, const std::string &subject);
 
 // The arrays of a surface from a file, including the skirt that --skirt and --wall describe.

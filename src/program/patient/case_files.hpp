@@ -25,10 +25,11 @@ Ends ends_of(const SolverCase &solver, Unit unit);
 void make_case_folder(const SolverCase &solver);
 // Copies a file from the case's folder into the solver's folder. The new name may contain folders.
 void copy_into(const SolverCase &solver, const std::string &from, const std::string &to);
-// Writes a text as a file of the solver's folder.
+// Writes a text to a file in the solver's folder.
 void write_into(const SolverCase &solver, const std::string &name, const std::string &text);
 void make_runnable(const SolverCase &solver, const std::string &name);
-// Writes beat_table.py, report.py, and the script `run`, which runs the case. `of` is the folder of the scripts among case_texts.
+// Writes beat_table.py, report.py, and the script `run`, which runs the case. `of` is the folder that holds the scripts in
+// case_texts.
 void write_scripts(const SolverCase &solver, const std::string &of, const std::string &run);
 // Writes orifice.json, from which beat_table.py takes the areas of the open valve.
 void write_orifice(const SolverCase &solver);
@@ -50,33 +51,35 @@ void announce_beat(const SolverCase &solver, const SolverCost &cost);
 std::string filled(std::string text, const std::map<std::string, std::string> &names);
 
 // Returns the texts of beat_table.py, of the files in the folders fenicsx, openfoam and svmultiphysics, and of uris_flow.py. A
-// key is a path from this folder, such as "openfoam/Allrun". CMake writes these texts into the program, so the program needs no
-// path to the files.
+// key is a path relative to the folder of this header, such as "openfoam/Allrun". CMake writes these texts into the program, so
+// the program needs no path to the files.
 const std::map<std::string, std::string> &case_texts();
 
 // The physiological defaults of one beat, in SI units: the pressures in a heart at rest, and the body behind the aorta.
 
 inline constexpr double mmHg = 133.322;      // Pa
 inline constexpr double usual_period = 0.8;  // s
-// The time between two files. The duration of a beat is a multiple of this time, so that the end of a run has a file.
+// The time between two files. The duration of a beat is a multiple of this time, so that a file is written at the end of a run.
 inline constexpr double seconds_between_files = 0.02;
 inline constexpr double motion_seconds = 0.04;  // in which a valve opens, and in which it closes
 // The dwell time of the law of opening. Closing leaflets push blood back, and the pressure of this blood must not open the valve
 // again. Each motion of the leaflets therefore ends before the next motion may begin, as in svMultiPhysics.
 inline constexpr double dwell_seconds = motion_seconds;
-// Pa. The opening pressure is larger than the rounding error of the difference between two equal pressures.
+// The opening pressure in Pa. It is larger than the rounding error of the difference between two equal pressures.
 inline constexpr double opening_pressure = 50;
-// m3/s. A mitral valve closes when the flow falls below this value, so that less blood returns.
+// A mitral valve closes when the flow falls below this value, in m3/s, so that less blood returns.
 inline constexpr double closing_flow_of_mitral = 1e-4;
 
-// The length of the systole in a beat of this period, as a share of its usual length. At N beats a minute, the time from the Q
-// wave to the second heart sound is 546 ms - 2.1 ms N (A. M. Weissler et al., Circulation 37, 1968, 149-159, for men).
+// Returns the length of the systole in a beat of the given period, divided by the length of the systole in a usual beat. At N
+// beats a minute, the time from the Q wave to the second heart sound is 546 ms - 2.1 ms N (A. M. Weissler et al., Circulation 37,
+// 1968, 149-159, for men).
 inline double systole_at(double period) {
   const auto seconds = [](double duration) { return 0.546 - 2.1e-3 * 60 / duration; };
   return seconds(period) / seconds(usual_period);
 }
 
-// A pressure as a function of time, which is linear between its keys. The function repeats, and its last time is its period.
+// A pressure as a function of time, which is linear between its keys. The function repeats, and the time of its last key is its
+// period.
 struct PressureCurve {
   struct Key {
     double time, pressure;  // s, mmHg

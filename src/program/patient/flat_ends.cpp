@@ -93,7 +93,7 @@ class EndChoice {
   }
 
   // Remarks on the largest flat part that counts as wall but may be an end. The parts are sorted by area, so this part is the
-  // first that find_if meets.
+  // first that find_if finds.
   void remark_unclear(PatientWall &wall) const {
     const auto is_unclear = [&](const FlatPart &part) {
       return part.is_large && part.is_disc() && !part.is_facet &&
@@ -369,7 +369,7 @@ WallFrame frame_with(const riis_surface *wall, const LandmarkFile &given, Unit u
   return frame;
 }
 
-// Returns the options that choose a frame's unit and axes, or words for the unit and the axes.
+// Returns the options that choose a frame's unit and axes. Leaves out an option whose value is the same in the other frame.
 std::string options_of(const WallFrame &frame, const WallFrame &other) {
   std::vector<std::string> options;
   if (frame.unit != other.unit) options.push_back(std::string("--wall-unit ") + name_of(frame.unit));
@@ -377,7 +377,8 @@ std::string options_of(const WallFrame &frame, const WallFrame &other) {
   return joined_by(options, " ");
 }
 
-// Returns all units and axes of the wall with the distances of the landmarks, the nearest first.
+// Tries all units and axes of the wall, and measures the distances of the landmarks from the wall. Returns the results, the
+// nearest first.
 std::vector<WallFrame> frames_of(const riis_surface *wall, const LandmarkFile &landmarks) {
   const std::string own = name_of(landmarks.axes);
   std::vector<WallFrame> all;

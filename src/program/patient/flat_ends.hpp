@@ -50,15 +50,16 @@ PatientWall read_patient_wall(const std::string &path, const EndPoints &points =
 // Multiplies all lengths by a factor, such as 0.001 from millimetres to metres.
 void scale_wall(PatientWall &wall, double factor);
 
-// Names the ends that have no name yet. The inlet is the end that a path along the wall reaches first from the place upstream of
-// the valve. All other ends are called outlet, outlet_2 and so on, beginning with the largest. `centre` is the middle of the
+// Names the ends that have no name yet. A path along the wall starts upstream of the valve. The inlet is the first end that this
+// path reaches. All other ends are called outlet, outlet_2 and so on, beginning with the largest. `centre` is the middle of the
 // valve's annulus, and `flow` is the direction of the blood through the open valve. Refuses a centre that is outside the wall.
 void name_ends(PatientWall &wall, const std::array<double, 3> &centre, const std::array<double, 3> &flow);
 
 // Writes all triangles as a binary .stl file.
 void write_wall(const PatientWall &wall, const std::string &path);
 
-// A file of a wall states neither a unit nor axes. The landmarks state both, and lie at the wall.
+// A file of a wall states neither a unit nor axes. The landmarks state both and lie at the wall, so they tell the unit and the
+// axes of the wall.
 struct WallFrame {
   Unit unit = Unit::millimetre;
   std::string axes;      // "LPS", "RAS" or "mesh"
@@ -67,7 +68,7 @@ struct WallFrame {
   std::string farthest;  // the landmark with this distance
 };
 
-// The lengths of the wall are in the unit of its file. `unit` and `axes` are given if the user stated them. Refuses landmarks
+// The lengths of the wall are in the unit of its file. `unit` and `axes` are set only if the user stated them. Refuses landmarks
 // that are not at the wall. If two units or axes fit about equally well, refuses to choose one of them.
 WallFrame frame_of_wall(const PatientWall &wall, const LandmarkFile &landmarks, std::optional<Unit> unit,
                         const std::string &axes);

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The files of the case, with the names of their texts.
+// The path of each file of the case, and the key of its text in case_texts.
 constexpr std::pair<const char *, const char *> foam_files[] = {
     {"0/U", "openfoam/U"},
     {"0/p", "openfoam/p"},
@@ -138,7 +138,7 @@ void write_openfoam_case(const SolverCase &the) {
   const Pressures pressures = pressures_of(the, ends);
   const std::string placed = (fs::path(the.folder) / "placed.json").string();
   const std::string valve = foam_valve_of(placed, parse_json_file(placed, "a placed valve"), the.skirt);
-  // No pressure reaches 1e9, so the law never opens a valve that is held.
+  // No pressure reaches 1e9. If the user holds the valve at an opening, the law therefore never opens it.
   const std::string never = "1e9; // never\n        closed ";
   // In a rigid ventricle, much blood flows back through a mitral valve. A mitral valve therefore begins to close before the flow
   // reverses.

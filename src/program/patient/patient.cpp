@@ -39,8 +39,8 @@ Words joined(std::initializer_list<Words> lists) {
 constexpr double aortic_half_thickness = 1, mitral_half_thickness = 1.5, usual_skirt = 6, usual_noise = 0.3;
 // Limits of the half thickness. A value beyond these limits has a wrong unit, or would close the open valve.
 constexpr double least_half_thickness_mm = 0.1, most_half_thickness_mm = 4, most_skirt_mm = 30;
-// Landmarks that a person sets are usually, on average, within the first distance from the wall. Beyond the second distance, the
-// landmarks are probably wrong.
+// The mean distance of landmarks from the wall is usually at most `usual_distance_mm` if a person has set them. Above
+// `doubtful_distance_mm`, the landmarks are probably wrong.
 constexpr double usual_distance_mm = 1, doubtful_distance_mm = 2;
 constexpr double usual_band_edge = 0.95, usual_largest_edge = 3;
 // svMultiPhysics spreads K over whole elements. In a coarser mesh, svMultiPhysics' closed valve would therefore leak much
@@ -49,7 +49,7 @@ constexpr double uris_band_edge = 0.55;
 constexpr double usual_resistance = 1e4;  // kg/(m s)
 // If an edge leaks, a second mesh with shorter edges is made.
 constexpr double shorter_by = 0.9;
-// The largest usual number of nodes for a flow solver on one computer.
+// The largest number of nodes that is usual for a flow solver on one computer.
 constexpr std::int64_t many_nodes = 40000;
 // The number of nodes grows with a power of 1 / (edge length in the band). The power was measured on meshes of a root and a
 // ventricle.
@@ -63,7 +63,7 @@ constexpr double least_open_share = 0.8;
 constexpr int n_marked_openings = 11;
 
 // The opening of a valve during a beat of 0.72 s. The times are in seconds, as in examples/demo. The text `times` has the times
-// to write.
+// for which files are written.
 struct Beat {
   const char *text, *times;
 };
@@ -289,7 +289,7 @@ class PatientRun {
   }
 
   // Refuses a direction of flow that contradicts the landmarks. Without --flow, the horns of a mitral annulus show the side of
-  // the atrium if their height clearly exceeds its error. riis place compares --flow with the other landmarks.
+  // the atrium if their height clearly exceeds the error of the landmarks. riis place compares --flow with the other landmarks.
   void check_flow() {
     if (!the_.is_mitral || !options_.flow) return;
     const char *const trial = "logs/flow_trial.json";
@@ -597,7 +597,7 @@ class PatientRun {
                          [&](const Boundary &boundary) { return boundary.name == name; });
   }
 
-  // Returns the options that choose the ends on the right sides of the valve.
+  // Returns the options that choose ends on the correct sides of the valve.
   std::string cure_of_ends(const ValveSides &sides) const {
     std::string text;
     if (options_.flow) text = ", according to --flow: reverse --flow if it points against the blood; otherwise";

@@ -30,7 +30,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The area of an end may change a little, because the rim of the new surface has longer edges.
+// The area of an end may change by at most this share, because the rim of the new surface has longer edges.
 constexpr double most_area_change = 0.05;
 // The edge length in the middle of an end, as a share of the end's radius. The rim of an end then has at least sixteen edges.
 constexpr double end_edge_share = 0.35;
@@ -198,7 +198,7 @@ std::string vtk_file_text(const std::vector<Vector3> &points, const std::vector<
          ">\n</VTKFile>\n";
 }
 
-// Returns the last error in gmsh's log, or "" if there is none. gmsh's summary has a frame, which is removed.
+// Returns the last error in gmsh's log, or "" if there is none. The frame that gmsh draws around its summary is left out.
 std::string last_error_in(const std::string &log) {
   std::string last;
   for (const std::string &line : split(log, "\n")) {
@@ -468,7 +468,7 @@ class PatientMesher {
                   in_gmsh("surface.log") + "); " + cure_of_surface());
   }
 
-  // Refuses a surface that lost an end, or whose size changed.
+  // Refuses a surface if an end was lost or has another area.
   void check_ends(const GmshMesh &mesh) const {
     std::vector<double> areas(groups_.size(), 0);
     for (const auto &[group, corner] : mesh.triangles) {

@@ -19,7 +19,7 @@ struct PatientMeshOptions {
   std::string folder;       // which exists; the files go here
   std::string field;        // the file of riis size-field
   double largest_edge = 0;  // edge length outside the field's grid: --largest-edge of riis size-field
-  // The function that is called with each command before the command runs. The words are the command as a user would type it.
+  // The function that is called with each command before the command runs. Its argument is the command as a user would type it.
   std::function<void(const std::string &command)> announce = [](const std::string &) {};
   double surface_seconds = 0;  // the time that gmsh has for the surface; 0: by the number of triangles
 };

@@ -49,7 +49,7 @@ void check_inputs(const fs::path &folder, const std::string &path, const std::ve
     }
 }
 
-// Returns words about the results that a solver has computed in the folder, or "". riis patient makes new cases without results.
+// Returns words about the results that a solver has computed in the folder. Returns "" without results, as in a new case.
 std::string computed_in(const fs::path &folder) {
   std::error_code error;
   double last = 0;

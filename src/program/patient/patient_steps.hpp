@@ -46,7 +46,7 @@ struct StepEnd {
   std::string reason() const { return messages.empty() ? "" : messages.back(); }
 };
 
-// The file with the commands of a run, which can be run again in the folder.
+// The file with the commands of a run. A user can run these commands again in the folder.
 inline constexpr const char *commands_file = "commands.sh";
 
 // Runs commands of riis in the working folder, and writes each command to `commands_file`. The output of the commands goes to the

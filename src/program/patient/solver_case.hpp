@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The inputs are a mesh with named boundaries of a patient, and a valve that is placed in the mesh. The result is a folder in
-// which a flow solver can run without changes. riis patient fills a SolverCase. For each solver, one function writes this
-// solver's folder from the SolverCase. Each folder must be new or empty, and the case must have one inlet, one wall and at least
-// one outlet.
+// The inputs are a patient's mesh with named boundaries, and a valve that is placed in the mesh. The result is a folder in which
+// a flow solver can run without changes. riis patient fills a SolverCase. For each solver, one function writes this solver's
+// folder from the SolverCase. Each folder must be new or empty, and the case must have one inlet, one wall and at least one
+// outlet.
 #pragma once
 
 #include <array>
@@ -79,8 +79,8 @@ void write_fenicsx_case(const SolverCase &solver);
 inline constexpr double longest_foam_skirt = 6e-3;
 // Returns the entries valve, placement, warp and skirt of OpenFOAM's dictionary of riisValve (examples/openfoam/README.md).
 // `root` is the content of the file of a placed valve. `longest` is the length of the longest skirt in metres, or 0 for no skirt.
-// The skirt ends at the patch `wall` of the mesh. A valve whose parameter skirt_length is set keeps its own skirt. If a kind of
-// valve cannot have a skirt, there is no skirt. Refuses a warp that changes in time.
+// The skirt ends at the patch `wall` of the mesh. A valve whose parameter skirt_length is set keeps its own skirt. A kind of
+// valve that cannot have a skirt gets none. Refuses a warp that changes in time.
 std::string foam_valve_of(const std::string &path, const Json &root, double longest);
 
 }  // namespace riis::program

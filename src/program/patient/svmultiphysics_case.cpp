@@ -86,8 +86,8 @@ ExportOptions export_of(std::vector<std::string> words) {
   return std::get<ExportOptions>(request.value());
 }
 
-// Returns the words of the command riis export. `folder` is the path of the case's folder. The block of the export names the
-// valve's files by paths from the solver's folder.
+// Returns the words of the command riis export. `folder` is the path of the case's folder. In the block that riis export prints,
+// the paths of the valve's files are relative to the solver's folder.
 std::vector<std::string> export_words(const SolverCase &solver, const std::string &folder) {
   std::vector<std::string> words = {"riis", "export", "valve", folder + "/mesh.vtu"};
   const auto add = [&words](const char *option, const std::string &value) {

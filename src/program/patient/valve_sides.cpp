@@ -102,7 +102,7 @@ ValveSides sides_of_valve(const std::string &mesh, const MarkOptions &marking, c
   const auto find = [&](double sign, double radius, double beyond, std::array<double, 3> &middle) {
     for (std::size_t i = 0; i < room.size(); ++i) {
       if (view(room)[i] < radius || sign * along_flow(place(i)) <= beyond) continue;
-      // The wall is closed, so a place is in the blood if a node is nearer to it than the wall.
+      // The wall is closed, so a place is in the blood if its distance to a node is smaller than its distance to the wall.
       const std::int64_t node = nearest_node(place(i));
       if (norm(at(node) - place(i)) >= radius || view(region)[node] < 0) continue;
       middle = place(i);

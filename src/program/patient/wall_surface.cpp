@@ -16,8 +16,8 @@
 namespace riis::program {
 namespace {
 
-// Two vertices of open sides are joined if their distance is below this share of the wall's size. In single precision, the
-// rounding errors of a root that is a metre away from the origin are a sixth of this share.
+// Two vertices of open sides are joined if their distance is below this share of the wall's size. If a root is a metre away from
+// the origin, its rounding errors in single precision are a sixth of this distance.
 constexpr double joined_share = 1e-5;
 // A piece is an island of the segmentation if its area is below this share of the largest piece's area.
 constexpr double island_share = 0.01;
@@ -335,8 +335,8 @@ class WallRepair {
     for (const std::int64_t id : corner) view(is_locked_)[id] = 1;
   }
 
-  // Returns the triangle whose side leads from a to b in this direction, or -1. Vertex a or vertex b must belong to a thin
-  // triangle.
+  // Returns the triangle that has a side from a to b, in this direction. Returns -1 if there is none. Vertex a or vertex b must
+  // belong to a thin triangle.
   std::int64_t of_side(std::int64_t a, std::int64_t b) const {
     const auto found = around_.find(around_.count(a) > 0 ? a : b);
     for (const std::int64_t i : found->second)
@@ -345,7 +345,7 @@ class WallRepair {
     return -1;
   }
 
-  // Moves one end of a side, b, to the other end, a. Returns whether the surface allows the move.
+  // Moves the end b of a side to the side's other end a. Returns whether the surface allows the move.
   bool join_side(std::int64_t a, std::int64_t b) {
     const std::int64_t left = of_side(a, b), right = of_side(b, a);
     if (left < 0 || right < 0) return false;

@@ -46,8 +46,7 @@ struct LawWithSpans {
 class Keys {
  public:
   explicit Keys(const OpeningTable &table) : table_(table) {}
-  // Returns the number of keys. With a period, counts the keys of two periods, in which a span leads from any key to any other
-  // key.
+  // Returns the number of keys. With a period, counts the keys of two periods, in which every key is followed by every other key.
   std::size_t size() const { return table_.times.size() * (table_.period > 0 ? 2 : 1); }
   double time(std::size_t i) const { return table_.times[i % n()] + (i < n() ? 0 : table_.period); }
   double opening(std::size_t i) const { return table_.openings[i % n()]; }
@@ -57,8 +56,8 @@ class Keys {
   const OpeningTable &table_;
 };
 
-// Finds the first key with the opening `to` that follows a key with the opening `from`. Returns the span that ends at this key,
-// and begins at the last key with the opening `from` before it.
+// Finds the first key with the opening `to` that follows a key with the opening `from`. Returns the span that ends at this key.
+// The span begins at the last earlier key with the opening `from`.
 std::optional<TimeSpan> way_between(const Keys &keys, double from, double to) {
   std::optional<double> start;
   for (std::size_t i = 0; i < keys.size(); ++i) {
@@ -92,7 +91,7 @@ std::vector<double> frames_of(const OpeningLaw &law, const TimeSpan &span, doubl
   if (step > length * (1 + 1e-9)) {
     refuse_usage("--time-step: " + shortest(step) + " is longer than the " + what + ", " + shortest(length));
   }
-  // Without the small subtractions, rounding could add a short step to a span that the step divides.
+  // If the step divides the span, rounding could add a short step. The small subtractions prevent this.
   const double n_steps = std::max(1.0, std::ceil(length / step * (1 - 1e-12) - 1e-9));
   if (n_steps >= static_cast<double>(most_times)) {
     refuse_usage("--time-step: " + shortest(step) + " makes " + shortest(n_steps + 1) + " frames of the " + what +

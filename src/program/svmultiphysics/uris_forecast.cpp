@@ -24,7 +24,7 @@ constexpr double band_end = 5;
 // The least sufficient drop, as a share of (R / eps) u. The second number is the largest half thickness that is tried, divided by
 // the given half thickness.
 constexpr double enough = 0.9, most_thickness = 2;
-// A drop above (R / eps) u divided by this share is no valid forecast.
+// The largest drop that is a valid forecast is (R / eps) u divided by this share.
 constexpr double least_of_sensible = 0.95;
 
 // Returns whether two corners are the ends of an edge.
@@ -208,7 +208,8 @@ class Forecaster {
            ", but it is about 1 to 1,000 in flows of blood: look at the unit of --resistance";
   }
 
-  // Finds the half thickness in steps of a quarter. The last step is halved twice for a finer result.
+  // Tries larger half thicknesses, in steps of a quarter of the given half thickness. The last step is halved twice for a finer
+  // result.
   std::string thickness_for(const SolverDistances &wide, const std::vector<double> &near) {
     bool are_found = true;
     const auto is_enough = [&](double factor) {

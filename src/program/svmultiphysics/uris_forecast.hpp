@@ -41,11 +41,11 @@ struct NoFlow {
   std::string reason;
 };
 
-// Solves the solver's own discrete equations for a slow and steady flow near the closed valve. Velocity and pressure have equal
-// order with the solver's stabilisation, and the blood does not slip at the mesh's boundary. `near` has the exact distance of
-// each node, or infinity. The region consists of the nodes up to the distance `reach`. `sides` has distances whose signs are
-// right up to the distance `reach`, also outside the solver's box. If `quiet` is false, shows the progress of the solution on the
-// terminal. Throws NoFlow.
+// Solves the solver's own discrete equations for a slow and steady flow near the closed valve. Velocity and pressure have shape
+// functions of equal order, with the solver's stabilisation. The blood does not slip at the mesh's boundary. `near` has the exact
+// distance of each node, or infinity. The region consists of the nodes up to the distance `reach`. `sides` has distances whose
+// signs are correct as far as the distance `reach`, also outside the solver's box. If `quiet` is false, shows the progress of the
+// solution on the terminal. Throws NoFlow.
 ClosedDrop closed_drop(const SolverMesh &mesh, const SolverDistances &distances, const SolverDistances &sides,
                        const std::vector<double> &near, double reach, double half_thickness, const SolverFluid &fluid,
                        bool quiet);

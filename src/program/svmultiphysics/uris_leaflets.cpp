@@ -140,8 +140,8 @@ void UrisLeaflets::part(const ExportOptions &options) {
   }
 }
 
-// Turns the triangles of the ring so that their normals point against the flow. In the solver, upstream nodes inside the ring are
-// then upstream of the valve.
+// Turns the triangles of the ring so that their normals point against the flow. The solver then takes upstream nodes inside the
+// ring for nodes on the upstream side of the valve.
 void UrisLeaflets::turn_ring(double opening) {
   const std::vector<double> xyz = vertices_at(opening);
   const auto middle_of = [&](const Corners &corners) {
@@ -165,8 +165,8 @@ void UrisLeaflets::turn_ring(double opening) {
   }
 }
 
-// Adds the triangles that widen the box. Of several equally near triangles the solver takes the first, so the face "box" comes
-// last.
+// Adds the triangles that widen the box. If several triangles are equally near, the solver takes the first. The face "box"
+// therefore comes last.
 void UrisLeaflets::add_box(const UrisMotion &motion) {
   std::vector<Corners> triangles;
   for (const auto &[corners, leaflet] : net_.triangles()) triangles.push_back(corners);
@@ -269,7 +269,7 @@ void FinerTriangles::measure(const std::vector<double> &xyz) {
 }
 
 bool FinerTriangles::halve_longer(double length) {
-  // Each halved edge has the number of the vertex in its middle, and each other edge has -1.
+  // For a halved edge, the list has the number of the vertex in the middle of the edge. For any other edge, it has -1.
   std::vector<std::int64_t> middle;
   for (const Edge &edge : edges_) {
     middle.push_back(edge.length > length ? n_given_ + view(middles_).size() : -1);

@@ -48,7 +48,7 @@ class FinerTriangles {
   // Returns the length of the longest edge, as measured since the last cut.
   double longest_edge() const;
 
-  // Appends the middles of the edges to the given vertices, xyz(3, n_given).
+  // Appends the middles of the halved edges to the given vertices, xyz(3, n_given).
   void append_middles(std::vector<double> &xyz) const;
   // Measures all edges. `xyz` has all vertices at one of the times. The length of an edge is its largest length at any time.
   void measure(const std::vector<double> &xyz);
@@ -133,7 +133,7 @@ class UrisLeaflets {
   double half_thickness() const { return half_thickness_; }
   double longest_edge() const { return longest_edge_; }
   std::int64_t n_triangles() const;
-  // Returns the number of triangles that were left out because they have no area in some frame.
+  // Returns the number of triangles that were left out because they have no area in at least one frame.
   std::int64_t n_left_out() const { return n_left_out_; }
 
  private:

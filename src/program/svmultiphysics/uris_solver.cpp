@@ -311,8 +311,8 @@ double exact_area(const SolverMesh &mesh, const riis_surface *surface, const std
   const SolverElement &element = *mesh.element;
   const std::vector<ReferencePoint> &points = at_solver_points ? element.gauss : element.fine;
   const std::vector<ShapeFunctions> &functions = at_solver_points ? element.at_gauss : element.at_fine;
-  // Most points of the elements near the band are outside the band, and the next bound finds them quickly. A point's distance
-  // from the leaflets is at least a node's distance minus the way from the node to the point.
+  // Most points of the elements near the band are outside the band, and the bound below finds them quickly. A point's distance
+  // from the leaflets is at least a node's distance from the leaflets minus the distance between node and point.
   const double reach = (1 + 1e-6) * half_thickness + error;  // rounding changes less
   const auto excludes = [&](std::int64_t node, const Vector3 &point) {
     const Vector3 off = point - mesh.point(node);

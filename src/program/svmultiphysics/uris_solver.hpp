@@ -106,7 +106,7 @@ struct SolverBand {
 SolverBand solver_band(const SolverMesh &mesh, const SolverDistances &distances, double from, double to,
                        const std::array<double, 3> &forward);
 
-// The largest speeds in a frame, from the vertices of this frame and of the previous frame.
+// The largest speeds in a frame, computed from the vertices of this frame and of the previous frame.
 struct SolverSpeeds {
   double of_leaflets = 0;  // of the leaflets' vertices
   // The largest velocity that the solver gives to a node within the half thickness. The solver extrapolates the velocity in the

@@ -74,11 +74,11 @@ class AreaTrials {
 
   bool seeks_opening() const { return sought_ == Sought::opening; }
 
-  // Returns whether each sample is the previous sample times a constant factor. Samples of the opening are evenly spaced instead,
-  // as in the tables of openings.
+  // Returns whether the samples form a geometric series, in which each sample is a constant factor times the previous one.
+  // Samples of the opening are evenly spaced instead, as in the tables of openings.
   bool grows(const Values &values) const { return !seeks_opening() && values.from > 0; }
 
-  // Returns the area at a value. While the search takes samples, a value that makes no valve or no orifice gives nothing. Later,
+  // Returns the area at a value. If a value makes no valve or no orifice, returns nothing while the search takes samples. Later,
   // such a value is an error.
   std::optional<double> area_at(double value) {
     ++n_surfaces;

@@ -45,9 +45,9 @@ enum class HandleKind : std::uint64_t {
 // other values.
 constexpr bool is_kind(HandleKind kind) noexcept { return static_cast<std::uint64_t>(kind) >> 32 == 0x72696973; }
 
-// The calls that use a handle now. While one thread's call writes a handle, a call of another thread fails if it uses this
-// handle. Without the check, it could crash (riis.h, "Threads"). Calls that only read are counted without a lock, so they never
-// wait.
+// Counts the calls that use a handle at the moment. While one thread's call writes a handle, a call of another thread fails if it
+// uses this handle. Without the check, the other call could crash (riis.h, "Threads"). Calls that only read are counted without a
+// lock, so they never wait.
 class Uses {
  public:
   // Returns false if a call of another thread excludes this call.
@@ -67,7 +67,8 @@ class Uses {
   bool is_readable() const noexcept { return !is_written_.load() || is_inherited(); }
 
  private:
-  // Returns true in a child of fork(). The child lacks the parent's other threads, so a call that they began never ends there.
+  // Returns true in a child of fork(). The child lacks the parent's other threads, so calls that these threads have begun never
+  // end in the child.
   bool is_inherited() const noexcept { return getpid() != maker_; }
   bool is_unread() const noexcept {
     const std::uint64_t n_ended = n_ended_.load(std::memory_order_acquire);

@@ -64,8 +64,8 @@ riis::InstructionSet instructions_asked_for(std::int32_t instructions) {
   return set;
 }
 
-// Returns the arrays of a list, with NULL for an empty array. The array of a field also stays NULL if the caller did not request
-// it, and it was only computed for K.
+// Returns the arrays of a list, with NULL for an empty array. The array of a field is also NULL if the field was computed only
+// for K, and the caller did not request it.
 riis_mark_list arrays_of(const riis::ListedNodes &list, const riis::WantedData &data) {
   const auto array = [](const auto &values) { return values.empty() ? nullptr : values.data(); };
   const auto field = [&](std::int32_t which, const auto &values) {

@@ -68,7 +68,7 @@ struct EarlierArguments {
 };
 
 riis::EarlierValve earlier_of(const EarlierArguments &given, const riis_surface_options &options_now) {
-  // No caller means a dt outside of these limits. Within the limits no velocity comes near overflow.
+  // A dt outside of these limits is a mistake of the caller. With a dt within the limits, no velocity comes near overflow.
   if (!(std::abs(given.dt) >= 1e-30 && std::abs(given.dt) <= 1e30))
     riis::fail(RIIS_INVALID_ARGUMENT, "dt is ", given.dt,
                "; it must be the time from valve_before to valve, from 1e-30 to 1e+30 in magnitude");

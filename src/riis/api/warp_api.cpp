@@ -29,7 +29,7 @@ Vec3 to_valve(const riis::Placement &placement, Vec3 p) {
   return (1 / placement.scale) * (d.x * turn.row_x + d.y * turn.row_y + d.z * turn.row_z);
 }
 
-// Converts the caller's points to the valve's coordinates, and calls take(i, point) with each.
+// Converts the caller's points to the valve's coordinates, and calls take(i, point) for each point.
 template <class Take>
 void for_each_point(const riis_points *given, const char *name, const char *prefix, const riis::Placement &placement,
                     std::int64_t wanted, const Take &take) {
@@ -55,7 +55,7 @@ riis::Vector<Vec3> &room_for_targets(riis_warp &warp) {
   return warp.targets;
 }
 
-// Fits the map to the warp's targets, and replaces the present map if it does not fold.
+// Fits a new map to the warp's targets. If the new map does not fold, it replaces the present map.
 void fit(riis_warp &warp) {
   riis::WarpQuality quality{};
   warp.landmarks.fit(warp.targets, warp.next_map, quality);

@@ -53,8 +53,8 @@ class Keyframes {
   Keyframes(Keyframes &&) = default;  // moving a vector keeps its elements, such as the times, in place
 
   // Writes positions and velocities (3, n_vertices). For dt == 0 the velocity is the derivative of the interpolation. Linear
-  // interpolation has two derivatives at a key, and the later one counts. For any other dt the velocity is the mean between the
-  // times time - dt and time.
+  // interpolation has two derivatives at a key: before and after the key. The derivative after the key counts. For any other dt
+  // the velocity is the mean velocity between the times `time - dt` and `time`.
   void at(double time, double dt, std::vector<double> &xyz, std::vector<double> &velocity) const;
 
   const UserFaces &faces() const { return faces_; }

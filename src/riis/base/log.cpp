@@ -29,7 +29,7 @@ Sink current_sink() noexcept {
 bool is_logging() noexcept { return current_sink().function != nullptr; }
 
 void log_message(std::int32_t level, const Message &message) noexcept {
-  // The log function is called without the lock, because it may take long, and may set another log function.
+  // The lock is not held while the log function runs, because this function may take long, and may set another log function.
   const Sink to = current_sink();
   if (to.function) to.function(to.user_data, level, message.text());
 }

@@ -41,8 +41,8 @@ constexpr int smallest_class = 6, largest_class = 22;
 constexpr std::size_t largest_block = std::size_t{1} << largest_class;
 
 // A thread first takes memory from its own pool, so threads seldom wait for each other. The thread that gives memory back may not
-// be the thread that took it, so one pool can run empty while others fill. A thread with an empty pool therefore looks into the
-// other pools before it asks the system.
+// be the thread that took it, so one pool can run empty while other pools fill up. A thread with an empty pool therefore looks
+// into the other pools before it asks the system.
 constexpr unsigned n_pools = 16;
 
 // A lock that threads hold only for a few instructions, so a thread that finds it locked just tries again. Locking a mutex would

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Arrays whose memory is kept for later arrays. An update of a surface makes and drops about a thousand short arrays. In a time
-// loop, their memory comes from the previous update, not from the system.
+// loop, the memory of these arrays comes from the previous update, not from the system.
 #pragma once
 
 #include <cstddef>

@@ -5,8 +5,8 @@
 
 namespace riis {
 
-// Adds numbers by Neumaier's method (1974), which also adds up the rounding errors. For any number of nodes, the leaflets' sums
-// thus add up to the sum over the surface to a few units in the last place.
+// Adds numbers by Neumaier's method (1974), which also adds up the rounding errors. The sums of the leaflets therefore add up to
+// the sum over the surface, with an error of a few units in the last place. The error does not depend on the number of nodes.
 class Sum {
  public:
   void add(double x) {

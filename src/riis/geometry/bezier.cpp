@@ -36,8 +36,8 @@ Two root(Two a) {
 #endif
 }
 
-// Computes |B'(t)| from the coefficients of B' in powers of t. The speed |B'(t)| is computed in the innermost loop of all arc
-// lengths.
+// Computes |B'(t)| from the coefficients of B' in powers of t. The innermost loop of every computation of a length evaluates this
+// speed.
 struct Speed {
   explicit Speed(const Bezier &curve) {
     const auto &q = curve.control;
@@ -125,8 +125,8 @@ double short_quadrature(const Speed &speed, double t0, double t1) {
   return half * (speed(middle - half * node) + speed(middle + half * node));
 }
 
-// Integrates the speed in steps of t of at most 1/12. In steps this short, the rule with 8 points is exact up to rounding if the
-// speed is nowhere nearly 0.
+// Integrates the speed in steps that are at most 1/12 long in t. In steps this short, the rule with 8 points is exact up to
+// rounding if the speed is nowhere nearly 0.
 double stepwise_quadrature(const Speed &speed, double t0, double t1) {
   constexpr double longest = 1.0 / 12;
   if (t1 - t0 <= longest) return quadrature(speed, t0, t1);
@@ -142,9 +142,9 @@ struct SpeedOnPart {
   double from, to, length, whole_length;
 };
 
-// Finds the parameters of given ascending lengths from the start of the part. Each parameter is found from the previous
-// parameter. Returns false if the lengths do not add up to the length of the part. Each step is one quadrature, which is
-// inaccurate where the speed is far from a polynomial, as at a cusp.
+// Finds the parameters at which the curve has given lengths from the start of the part. The lengths ascend. Each parameter is
+// found from the previous parameter. Returns false if the lengths do not add up to the length of the part. Each step is one
+// quadrature, which is inaccurate where the speed is far from a polynomial, as at a cusp.
 bool find_in_one_pass(const SpeedOnPart &part, const double *behind, std::size_t n, double *t) {
   const Speed &speed = part.speed;
   const double close_enough = 1e-14 * part.whole_length;
@@ -203,7 +203,8 @@ double arc_length(const Bezier &curve, double t0, double t1) {
   return length_between(Speed(curve), length_tolerance(curve), t0, t1);
 }
 
-// Each point is a variable of its own. The compiler would store the points of an array in memory, and load them again at once.
+// Each point is a separate variable. If the points were an array, the compiler would store them in memory, and load them again at
+// once.
 std::pair<Bezier, Bezier> split(const Bezier &curve, double t) {
   const auto &q = curve.control;
   const Vec3 a = mix(q[0], q[1], t), b = mix(q[1], q[2], t), ab = mix(a, b, t);
@@ -261,8 +262,8 @@ double rough_curvature(const Bezier &curve, double t0, double t1) {
 }
 
 double largest_curvature(const Bezier &curve) {
-  // Bounds each quarter of the curve separately. The bound from control points is tighter for a quarter, because its control
-  // points vary less.
+  // Bounds each quarter of the curve separately. The bound from control points is tighter for a quarter, because the control
+  // points of a quarter vary less.
   const auto [left, right] = split(curve, 0.5);
   const auto [first, second] = split(left, 0.5);
   const auto [third, fourth] = split(right, 0.5);
@@ -273,8 +274,8 @@ double parameter_at_length(const Bezier &curve, double curve_length, double behi
   if (!(curve_length > 0)) return 0;
   const Speed speed(curve);
   const double tolerance = length_tolerance(curve), close_enough = 1e-14 * curve_length;
-  // Newton's method finds the t at which the length from 0 to t is `behind`. The interval from below to above contains this t and
-  // shrinks.
+  // Newton's method finds the t at which the length from 0 to t is `behind`. The interval from `below` to `above` always contains
+  // this t, and shrinks in each step.
   double below = 0, above = 1, t = first_guess(speed, behind / curve_length);
   double excess = length_between(speed, tolerance, 0, t) - behind;
   for (int i = 0; i < 60 && !(std::abs(excess) <= close_enough); ++i) {

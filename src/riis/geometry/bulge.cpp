@@ -50,7 +50,7 @@ inline Ball operator*(double a, const Ball &b) { return {a * b.middle, std::abs(
 inline Ball operator*(Interval a, const Ball &b) {
   return {a.middle * b.middle, std::abs(a.middle) * b.radius + a.radius * b.largest_length()};
 }
-// The radius of the dot or cross products of the vectors of two balls.
+// The radius of a ball that holds the dot products, or the cross products, of all vectors of two balls.
 inline double radius_of_product(const Ball &a, const Ball &b) {
   return length(a.middle) * b.radius + a.radius * b.largest_length();
 }
@@ -70,9 +70,9 @@ inline Ball across(const Ball &a, const Ball &unit) {
   return {a.middle - dot(a.middle, unit.middle) * unit.middle, a.radius + length(a.middle) * unit.radius};
 }
 
-// Returns a ball of the unit vectors of all vectors in `a`. The least length in `a` must be positive. The angle between the
-// middle and a vector of the ball has a sine of at most radius / length. The distance between two unit vectors is less than the
-// tangent of the angle between them.
+// Returns a ball that holds the unit vectors of all vectors in `a`. The least length in `a` must be positive. The angle between
+// the middle and a vector of the ball has a sine of at most radius / length. The distance between two unit vectors is less than
+// the tangent of the angle between them.
 inline Ball unit(const Ball &a) {
   const double size = length(a.middle);
   return {(1 / size) * a.middle, a.radius / std::sqrt((size - a.radius) * (size + a.radius))};
@@ -156,13 +156,13 @@ std::optional<Along> along_end(const Bezier &span, double speed, bool at_end) {
   return along({(1 / size) * first, 0}, size, size, {d.second[at_end ? d.n - 2 : 0], 0}, d.third, speed);
 }
 
-// The derivatives of O (bulge.hpp) by u, from W and from both tangents.
+// The derivatives of O (bulge.hpp) by u, computed from W and from both tangents.
 class OffsetDerivatives {
  public:
   OffsetDerivatives(const Ball &w, const Along &base, const Along &edge, double factor)
       : w_(w), base_(base), edge_(edge), factor_(factor) {
     // E is the edge's tangent, and l and a are the speeds, so W' = l E - a T. M = W x T has the derivative M' = l E x T + W x T'.
-    // The product T x T is left out. It is 0, but the product of two balls would not be 0.
+    // The product T x T is left out. This product is 0, but the product of two balls would not be 0.
     m_ = cross(w, base.tangent);
     if (!(m_.least_length() > 0)) return;
     has_direction_ = true;
@@ -177,7 +177,7 @@ class OffsetDerivatives {
     across1_ = across(m1_, normal_);
   }
 
-  // Returns whether O has a direction. It has one if W is nowhere parallel to T.
+  // Returns whether O has a direction. This is so if W is nowhere parallel to T.
   bool has_direction() const { return has_direction_; }
 
   // O is factor |W| N with N = M / |M|, and N' is the part of M' across N, divided by |M|.
@@ -208,7 +208,7 @@ class OffsetDerivatives {
   Interval m_inverse_, w_size_, size1_;
 };
 
-// Returns O between two points of base and edge. Both points lie at the same share of their curve's length.
+// Returns O between two points of base and edge. Both points lie at the same fraction of the length along their curves.
 Vec3 offset_at(const Curve &base, const PointOnSpan &on_base, const Curve &edge, const PointOnSpan &on_edge,
                double factor) {
   const Curve::PointAndTangent there = base.with_tangent(on_base);
@@ -230,8 +230,8 @@ Bulge::Place Bulge::place(double u) const {
 OffsetBounds bound_offset(const ArcRange &range, double factor) {
   const Vec3 start = range.edge.front().first() - range.base.front().first();
   const Vec3 end = range.edge.back().last() - range.base.back().last();
-  // Along the range, a point moves on each curve by at most the length of that curve's part. The distance of W from its nearer
-  // end value is therefore at most half the sum of the two parts' lengths.
+  // From one end of the range to the other, a point moves along each curve by the length of the curve's part. W therefore differs
+  // from the nearer one of its two end values by at most half the sum of the two parts' lengths.
   const double w_ends = std::max(length(start), length(end));
   const double w_far = w_ends + 0.5 * range.du * (range.base_length + range.edge_length);
   const OffsetBounds unknown{infinity, 2 * std::abs(factor) * w_far};
@@ -294,8 +294,8 @@ double Bulge::sampled_error(const Place &from, const Place &to) const {
 double Bulge::error_between(double u0, double u1, int n, double second) const {
   const double step = (u1 - u0) / n;
   double between = 0.125 * step * step * second;
-  // O' may jump at a joint. The distances from the joint to the evaluated points before and after it are a and b. The jump adds a
-  // kink of height |jump| a b / (a + b).
+  // O' may jump at a joint. The nearest evaluated points before and after the joint are at the distances a and b from the joint.
+  // The jump adds a kink of height |jump| a b / (a + b).
   for (const double joint : joints_) {
     if (!(joint > u0 && joint < u1)) continue;
     const double behind = std::fmod(joint - u0, step);

@@ -37,8 +37,8 @@ Vector<double> errors_between(const Vector<GridLine> &lines, const Polyline &sid
 
 Vector<GridLine> lines_between(const Polyline &side0, const Polyline &side1, double max_merge_shift) {
   const double longer = std::max(side0.length, side1.length);
-  // A grid line that joins two vertices lies at the mean of their parameters. On each side, the point thus moves by at most half
-  // the difference of the parameters.
+  // A grid line that joins two vertices lies at the mean of their parameters. On each side, the end of the line thus moves by at
+  // most half the difference of the parameters.
   return merge_parameters(side0, side1, longer > 0 ? 2.0 * max_merge_shift / longer : 0.0);
 }
 
@@ -112,7 +112,7 @@ Vector<GridLine> merge_parameters(const Polyline &side0, const Polyline &side1, 
   lines.reserve(t0.size() + t1.size());
   lines.push_back({0.0, 0.0, 0.0, true, true});
   for (std::size_t i = 1, j = 1; i + 1 < t0.size() || j + 1 < t1.size();) {
-    // Infinity stands for the next parameter of a side without a further inner vertex.
+    // If a side has no further inner vertex, its next parameter is infinity.
     const double a = i + 1 < t0.size() ? t0[i] : std::numeric_limits<double>::infinity();
     const double b = j + 1 < t1.size() ? t1[j] : std::numeric_limits<double>::infinity();
     if (std::abs(a - b) <= tolerance) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Turns patches into grids of quads (paper, 3.3 "Surface structure", and the appendix, "Leaflet surfaces"). The four sides of a
-// patch are polylines that meet at their ends. The grid has a line at each parameter of a vertex on these sides.
+// patch are polylines that meet at their ends. The grid has a line at the parameter of every vertex of these sides.
 #pragma once
 
 #include <cstddef>
@@ -59,8 +59,8 @@ struct SideVectors {
 Vector<Vec3> coons_combination(const Vector<double> &u, const Vector<double> &v, const SideVectors &sides);
 
 // Makes the grid of the Coons patch. The grid represents the patch exactly, because the patch is bilinear inside every quad. Two
-// lines are merged unless this would move a point along a side by more than max_merge_shift. Unless `lines` is null, the lines
-// are written there.
+// lines are merged unless this would move a point along a side by more than max_merge_shift. If `lines` is not null, also writes
+// the grid's lines there.
 QuadGrid make_quad_grid(const PatchSides &sides, double max_merge_shift, GridLines *lines = nullptr);
 // Makes the grid on given lines, whose ends are vertices of the sides.
 QuadGrid make_quad_grid(const PatchSides &sides, const GridLines &lines);
@@ -80,9 +80,9 @@ struct ArcLimits {
   std::size_t max_lines;
 };
 
-// Returns the grid lines of the two sides side_v0 and side_v1. Adds lines until O is linear between neighbouring lines up to
-// max_error, or until there are more than max_lines. `offset_u0` and `offset_u1` are O at the two ends, with the same bits as in
-// the neighbouring patches. If O has no direction, fails with RIIS_INVALID_PARAMETER.
+// Returns the grid lines of the two sides side_v0 and side_v1. Adds lines until O deviates from a linear function between
+// neighbouring lines by at most max_error, or until there are more than max_lines. `offset_u0` and `offset_u1` are O at the two
+// ends, with the same bits as in the neighbouring patches. If O has no direction, fails with RIIS_INVALID_PARAMETER.
 ArcLines make_arc_lines(const PatchSides &sides, const Bulge &bulge, Vec3 offset_u0, Vec3 offset_u1,
                         const ArcLimits &limits);
 

@@ -32,7 +32,7 @@ class Flattening {
     flattened_.t.push_back(0);
   }
 
-  // Adds a part of one span. The part goes from share t0 to t1 of the whole curve.
+  // Adds a part of one span. The part goes from the fraction t0 to the fraction t1 of the whole curve's length.
   void add(const Bezier &part, double part_length, double t0, double t1, int depth) {
     const double distance_to_chord = flatness(part) * (part.degree == 2 ? 0.5 : 0.75);
     if (!is_bent(t0, t1) &&
@@ -46,7 +46,7 @@ class Flattening {
     add(right, 0.5 * part_length, middle, t1, depth + 1);
   }
 
-  // Adds a part of one or several spans. The part goes from share t0 to t1 of the whole curve.
+  // Adds a part of one or several spans. The part goes from the fraction t0 to the fraction t1 of the whole curve's length.
   void add(const Curve &part, double t0, double t1, int depth) {
     const Vector<Bezier> &spans = part.spans();
     if (spans.size() == 1) {
@@ -72,9 +72,10 @@ class Flattening {
     return bend_ && t1 - t0 > narrowest_for_velocity && bend_->off_linear(t0, t1) > max_bend_;
   }
 
-  // The error of a part is the largest distance between part and chord at equal shares of their lengths. As for linear
-  // interpolation, it is at most length^2 / 8 times the largest curvature. Joints do not change this bound, because the direction
-  // is continuous there. If the curve's derivative may be 0, the length bounds the error.
+  // A point of the part is compared with the point at the same fraction of the chord's length. The error is the largest distance
+  // between two such points. As for linear interpolation, the error is at most length^2 / 8 times the largest curvature. Joints
+  // do not change this bound, because the direction is continuous there. If the curve's derivative may be 0, the error is at most
+  // the part's length.
   template <class LargestCurvature>
   bool accept(Vec3 last, double distance_to_chord, double part_length, const LargestCurvature &largest_curvature,
               double t1) {
