@@ -9,8 +9,8 @@
 namespace riis {
 namespace {
 
-// Two doubles in one register. This file uses registers, because comparing one double at a time would take longer than reading
-// the memory.
+// Two doubles in one register, which are compared at once. Comparing one double at a time would take longer than reading the
+// memory.
 typedef double Two __attribute__((vector_size(16)));
 
 struct Spread {

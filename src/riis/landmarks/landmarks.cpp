@@ -31,10 +31,10 @@ std::string unit_in_brackets(double scale) {
   return "";
 }
 
-// Two landmarks are in one place if their distance is at most `same_place`, in centimetres.
+// Two landmarks count as one place if their distance is at most `same_place`, in centimetres.
 constexpr double same_place = 1e-4;
 
-// For two landmarks in the same place, returns whether `a` already tells the fit everything that `b` tells.
+// For two landmarks in the same place, returns whether `b` gives the fit nothing that `a` does not give.
 bool implies(const Landmark &a, const Landmark &b) {
   const auto is_one_of = [&](std::initializer_list<std::int32_t> roles) {
     return std::find(roles.begin(), roles.end(), a.role) != roles.end();

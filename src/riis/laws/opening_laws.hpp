@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Laws of opening: pure functions from time, pressure and flow to a valve's opening. The solver keeps the state, so a restarted
-// run continues with the same bits.
+// Laws of opening: pure functions from time, pressure and flow to a valve's opening. The state belongs to the solver, which can
+// save it. A restarted run therefore continues with the same bits.
 // Each law gives the present opening and its rate. Some laws need the previous state.
 #pragma once
 

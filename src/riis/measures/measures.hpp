@@ -23,17 +23,17 @@
 
 namespace riis {
 
-// The orifice of a valve: the part of an outline's area that no triangle covers, seen along the axis. The triangles come from a
+// The orifice of a valve is the part of an outline's area that no triangle covers, seen along the axis. The triangles come from a
 // valve or from arrays. The results are areas and a perimeter.
 
-// The factor c of the effective area A - c eps P. The band around the rim narrows an orifice by the distance c eps. A thin wall
-// whose rim extends c eps farther into the orifice would block the flow as much. Each number lies midway between the c of two
-// valves that docs/validation.md compares with walls in body-fitted meshes. For the open bileaflet valve, c is 0.98 (round rim)
+// The factor c of the effective area A - c eps P. The band around the rim narrows an orifice by the distance c eps: it blocks the
+// flow as much as a thin wall whose rim extends c eps farther into the orifice. Each number below is the mean of c for two
+// valves, which docs/validation.md compares with walls in body-fitted meshes. For the open bileaflet valve, c is 0.98 (round rim)
 // and 0.95 (cut rim). For the open trileaflet valve, c is 0.70 and 0.46.
 inline constexpr double rim_reach_round = 0.84;  // RIIS_RIM_ROUND
 inline constexpr double rim_reach_cut = 0.70;    // RIIS_RIM_CUT
 
-// The measured numbers. The caller computes the other fields of riis_orifice from these numbers and the valve.
+// The measured numbers. From them and the valve, the caller computes the other fields of riis_orifice.
 struct Orifice {
   double area, outline_area, perimeter, effective_area;
   Vec3 axis;             // of length 1, or 0 without an axis
@@ -46,8 +46,8 @@ struct OrificeLimits {
 };
 
 // Returns the factor c of a surface's band. An offset lowers c, because the flow then passes nearer to the leaflet. The offset at
-// which c reaches 0 was fitted to flows through trileaflet and mitral valves. In a bileaflet valve c stays the same, because
-// there is flow on both sides of its leaflets.
+// which c reaches 0 was fitted to computed flows through trileaflet and mitral valves. A bileaflet valve has flow on both sides
+// of its leaflets, so an offset does not change its c.
 double rim_reach(const Surface &surface, std::int32_t rim);
 
 // Measures the orifice. `source` is null for triangles from arrays, whose outline is their longest boundary.
@@ -99,11 +99,12 @@ struct Wall {
   const TriangleScene &scene;
 };
 
-// Returns the distance from a point to the nearest place at which the line through it meets the wall. The distance is negative if
-// this place lies opposite to `direction`, which has length 1. Returns nothing if the line misses the wall.
+// The line through `point` along `direction`, which has length 1, may meet the wall in several places. Returns the distance from
+// `point` to the nearest of them. The distance is negative if this place lies on the side opposite to `direction`. Returns
+// nothing if the line misses the wall.
 std::optional<double> distance_along(const Wall &wall, Vec3 point, Vec3 direction);
 
-// The gap at each end of each edge of an attachment.
+// The gap at both ends of every edge of an attachment.
 struct Gap {
   std::vector<double> distance;  // (2, n_edges); RIIS_FAR_DISTANCE where the line misses the wall
   riis_gap measures;
@@ -111,21 +112,21 @@ struct Gap {
 // Measures the gap. Fails with RIIS_INVALID_ARGUMENT if there are no edges or if the outward direction is undetermined.
 Gap gap_of(const Attachment &attachment, const Wall &wall, int n_threads);
 
-// Returns the lengths of a skirt that reaches the wall from a placed valve, whose patches have no skirt. Where the wall is
-// nearer than the shortest skirt's length, the skirt has the shortest length. Fails with RIIS_INVALID_ARGUMENT if the wall is
-// farther than `longest`, in placed units.
+// Returns the lengths of a skirt that reaches the wall from a placed valve, whose patches have no skirt. A skirt has a shortest
+// permitted length. Where the wall is nearer than this, the skirt has the shortest length. Fails with RIIS_INVALID_ARGUMENT if
+// the wall is farther than `longest`, in placed units.
 SkirtLengths lengths_to_wall(const PatchSet &set, const Placement &placement, const Wall &wall, double longest,
                              int n_threads);
 
 // Computes the volume that a surface sweeps. The volume is the integral of u . n over the surface and time, so motion along the
 // normals counts as positive.
-// The result has the volume of each leaflet of a valve between two openings.
+// The result is the volume that each leaflet of a valve sweeps between two openings.
 
 // Maps a leaflet_id to the volume that the leaflet sweeps. No placement is applied to the volumes.
 using SweptVolumes = std::map<std::int32_t, double>;
 
-// Computes the volumes between two openings. Fails if the patches cannot be made at an opening. An exchange of the two openings
-// only changes the sign of the result.
+// Computes the volumes between two openings. Fails if the patches cannot be made at an opening. If the two openings are
+// exchanged, only the sign of the result changes.
 SweptVolumes swept_volumes(const Valve &valve, double opening_from, double opening_to, int n_threads);
 
 // Estimates how many mesh edges fit across the band. Divides the band's thickness by the shortest, the mean and the longest of

@@ -25,7 +25,7 @@ namespace {
 // Memory from malloc, which realloc can shrink in place. The content must be plain data.
 class PlainMemory {
  public:
-  // Keeps the content up to the lesser of the old and the new size.
+  // Keeps as much of the content as fits in the new size.
   void resize(std::int64_t n_bytes) {
     if (n_bytes == 0) return memory_.reset();
     void *const moved = std::realloc(memory_.get(), static_cast<std::size_t>(n_bytes));
@@ -45,14 +45,14 @@ class PlainMemory {
   std::unique_ptr<void, Free> memory_;
 };
 
-// Makes the rows. An entry says that a node is in an item. The entries of a block of nodes are stored together, node by node.
-// Later the rows of the block overwrite the entries. Lists is a type with these members:
+// Makes the rows. An entry says that a node belongs to an item. The entries of a block of nodes are stored together, node by
+// node. Later the block's rows overwrite these entries. Lists is a type with these members:
 //   `n_nodes`, `n_items`: the numbers of nodes and items.
-//   `most_neighbors`: the largest number of different nodes that one call of for_each_neighbor visits.
-//   `for_each_entry(range, visit)`: calls visit(node, entry) for every node of every item in a range.
-//   `for_each_neighbor(entry, node, visit)`: calls visit(other) for the neighbours that an entry gives its node, in any order.
-//   `prefetch(entry)`: requests the memory that for_each_neighbor reads.
-// The type Entry can hold the number of all entries, and the type Column can hold the number of nodes.
+//   `most_neighbors`: the largest number of different nodes that one call of for_each_neighbor visits. `for_each_entry(range,
+//   visit)`: calls visit(node, entry) for every node of every item in a range. `for_each_neighbor(entry, node, visit)`: calls
+//   visit(other), in any order, for the neighbours that the node has in the entry's item. `prefetch(entry)`: requests the memory
+//   that for_each_neighbor reads.
+// The type Entry must be able to hold the number of all entries, and the type Column must be able to hold the number of nodes.
 template <class Entry, class Column, class Lists>
 class RowMaker {
  public:
@@ -72,7 +72,7 @@ class RowMaker {
 
  private:
   static constexpr std::int64_t nodes_per_block = 4096;
-  // Each part of the items has its own count for each node. More parts would save time, but need too much memory.
+  // Each part of the items has a count for every node. More parts would save time, but would need too much memory.
   static constexpr std::int64_t most_parts = 8;
   static constexpr std::int64_t items_ahead = 16, entries_ahead = 24;  // how far ahead memory is requested
   static constexpr std::int64_t most_inserted =
@@ -87,8 +87,8 @@ class RowMaker {
     return {block * nodes_per_block, std::min((block + 1) * nodes_per_block, lists_.n_nodes)};
   }
 
-  // Counts the entries of each part at each node. After that, replaces each count by the position, within the block, at
-  // which the part's entries begin.
+  // For each part of the items, counts the entries of each node. Then replaces each count by the position in the node's block at
+  // which these entries begin.
   void count() {
     resize(next_, n_parts_ * lists_.n_nodes);
     parallel_for(n_parts_, n_threads_, [&](std::int64_t part, int) {
@@ -111,7 +111,7 @@ class RowMaker {
     });
   }
 
-  // Writes the entries. Afterwards each position in next_ is the end of a part's entries.
+  // Writes the entries. This moves each position in next_ to the end of the entries that began there.
   void fill() {
     parallel_for(n_parts_, n_threads_, [&](std::int64_t part, int) {
       Entry *const next = next_of(part);
