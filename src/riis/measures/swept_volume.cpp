@@ -86,8 +86,8 @@ void add_swept(const PatchSet &from, const PatchSet &to, const Vector<double> &s
       const PatchImage &image = before.images[i];
       const double volume =
           swept_by_grid(placed(image, points_before), placed(now.images[i], points_now), shares.size());
-      // The normals of a mirror image point upstream, so its triangles are turned over. The sign of the volume that they sweep
-      // therefore changes.
+      // The normals of a mirror image would point upstream, so its triangles are turned over. The sign of the volume that they
+      // sweep therefore changes.
       sums[image.leaflet_id] += points_upstream(image) ? -volume : volume;
     }
   }

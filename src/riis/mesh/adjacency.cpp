@@ -241,7 +241,7 @@ void check_count(const char *field, std::int64_t n, std::int64_t least) {
          max_count);
 }
 
-// The lists of neighbouring cells. These lists have cells in place of nodes, and an entry is a face between two cells.
+// The lists from which the neighbours of cells are made. Cells take the place of nodes, and an entry is a face between two cells.
 struct InnerFaces {
   static constexpr std::int64_t most_neighbors = 1;
 
@@ -293,8 +293,8 @@ struct GridNodes {
 template <class Id>
 OwnAdjacency adjacency_from_cells_with(const riis_mesh_cells &given, int n_threads, const NarrowLimits &limits) {
   const Cells<Id> cells(given, n_threads);
-  // Code for cells of one shape takes three quarters of the time of the general code. It is compiled only for meshes that 32 bits
-  // can count, because hardly any mesh is larger.
+  // Code for cells of one shape takes three quarters of the time of the general code. This code is compiled only for meshes
+  // within NarrowLimits, because hardly any mesh is larger.
   if (given.offsets || cells.n_nodes() > limits.n_nodes || cells.n_listed() > limits.n_entries)
     return adjacency_of_lists(CellsOfAnyShape<Id>(cells), cells.n_listed(), n_threads, limits);
   const auto made_of = [&](const auto &lists) { return narrow_adjacency_of_lists(lists, n_threads); };
@@ -333,7 +333,7 @@ Adjacency checked_adjacency(const riis_csr &csr, std::int64_t n_nodes) {
     if (end < begin)
       fail(RIIS_INVALID_MESH, "row ", i, " of the adjacency ends at ", end, ", before it begins, at ", begin);
   }
-  // The offsets ascend, so no row goes beyond the columns that the last offset announces.
+  // The offsets ascend, so no row ends after the last offset, which is the number of columns.
   for (std::int64_t i = 0; i < csr.n_rows; ++i) {
     const std::int64_t begin = made.offsets[i], end = made.offsets[i + 1];
     if (end > begin) require(csr.columns, "csr.columns");
@@ -385,7 +385,7 @@ OwnAdjacency adjacency_from_faces(const riis_mesh_faces &faces, int n_threads) {
   }
   const IntegerArray owner{faces.owner, faces.id_bits == 64}, neighbor{faces.neighbor, faces.id_bits == 64};
   const std::int64_t base = faces.index_base;
-  // Compares the numbers before it subtracts the base, because a difference of unchecked numbers may overflow.
+  // Compares the numbers before the base is subtracted, because the difference of unchecked numbers may overflow.
   const auto check = [&](const char *which, std::int64_t face, const IntegerArray &ends, std::int64_t least) {
     const std::int64_t given = ends[face * faces.stride];
     if (given < least || given >= faces.n_cells + base)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A rectilinear grid: three ascending axes, and the place of each node in the caller's arrays. Nothing is stored for a node. The
-// axes, the first number and the strides give each node's coordinates, number and neighbours.
+// A rectilinear grid: three ascending axes, and the place of each node in the caller's arrays. No data are stored for a node: its
+// coordinates, number and neighbours are computed from the axes, the first number and the strides.
 #pragma once
 
 #include <array>
@@ -51,7 +51,7 @@ class Grid {
   std::int64_t number(const GridIndex &index) const {
     return first_ + index[0] * stride_[0] + index[1] * stride_[1] + index[2] * stride_[2];
   }
-  // Finds the node with a number. If the number has no node, returns false and the index of the first node.
+  // Finds the node with the given number. If no node has this number, returns false and the index of the first node.
   bool find(std::int64_t number, GridIndex &index) const {
     std::int64_t rest = number - first_;
     index = {0, 0, 0};
@@ -67,16 +67,16 @@ class Grid {
     GridIndex index;
     return find(number, index);
   }
-  // Returns the coordinates of the node with a number. A number without a node gives the first node's coordinates.
+  // Returns the coordinates of the node with the given number. If no node has this number, returns the first node's coordinates.
   Vec3 operator[](std::int64_t number) const {
     GridIndex index;
     find(number, index);
     return at(index);
   }
-  // Returns how many nodes have lower numbers than a node.
+  // Returns the number of nodes whose numbers are lower than that of the given node.
   std::int64_t rank(const GridIndex &index) const;
 
-  // Returns the nodes within a box of coordinates.
+  // Returns the nodes whose coordinates lie within the bounds.
   GridBox within(const Bounds &bounds) const;
   // Returns the length of the longest edge between two nodes of a box.
   double longest_edge(const GridBox &box) const;
@@ -89,7 +89,8 @@ class Grid {
   int long_axes_[3], n_long_axes_;
 };
 
-// Returns the strides if each number has at most one node. Fails with RIIS_INVALID_ARGUMENT or RIIS_LIMIT_EXCEEDED.
+// Checks that no two nodes have the same number, and returns the strides. Fails with RIIS_INVALID_ARGUMENT or
+// RIIS_LIMIT_EXCEEDED.
 //   `given`: the strides as the caller gave them; three zeros stand for the default.
 //   `n_numbers`: 0 is replaced by the least length.
 // The stride of an axis with one node becomes 0.

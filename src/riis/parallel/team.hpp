@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Threads for the loops of a time step on a busy machine. Between loops the threads wait, first awake and then asleep. The loop
-// does not wait for a thread that another process delays, because the calling thread does the work of this thread.
+// Threads for the loops of a time step on a busy machine. Between loops the threads wait, first awake and then asleep. A loop
+// does not wait for a thread that another process delays, because the calling thread does the delayed thread's work.
 #pragma once
 
 #include <algorithm>
@@ -12,18 +12,18 @@ namespace riis {
 
 // Calls work(context, 0) on the calling thread. Also calls work(context, thread), 0 < thread < n_threads, on each further thread
 // that arrives before the calling thread has finished. Returns after the calls of all threads have returned. Returns the number
-// of threads that took part. The number of threads is less than n_threads only if the system refuses a thread, a semaphore or
-// memory. No call may throw.
+// of threads that took part. This number is less than n_threads only if the system refuses a thread, a semaphore or memory.
+// `work` must not throw.
 int run_by_team(int n_threads, void (*work)(void *context, int thread), void *context);
 
-// Chooses between OpenMP's threads, a team and the calling thread. OpenMP's threads begin a loop sooner, and they also run the
-// caller's own loops. However, a loop of OpenMP waits for all its threads, even if another process occupies one of the processors
-// for long. After a long wait, teams run the loops for some time, and then OpenMP again. If the next long wait comes after only a
-// few loops, the machine is busy, and teams run the loops for twice the time. A team also waits if another process interrupts its
-// thread inside a block. The calling thread therefore begins a team's loop alone. It calls the team only after it has worked for
-// some time: the mean time that recent loops lost by calling their teams. Suppose that the team of this loop loses no more than
-// this mean time. Then the loop takes at most twice as long as on the calling thread alone, or as on a team from the beginning.
-// All times are in nanoseconds.
+// Chooses between OpenMP's threads, a team and the calling thread. OpenMP's threads begin a loop sooner than a team does, and
+// they also run the caller's own loops. However, a loop of OpenMP waits for all its threads, even if another process occupies one
+// of the processors for long. After a long wait, teams therefore run the loops for some time, and then OpenMP runs them again. If
+// OpenMP's next long wait comes after only a few loops, the machine is busy. Teams then run the loops for twice as long as
+// before. A team also loses time if another process interrupts one of its threads inside a block. The calling thread therefore
+// begins a team's loop alone. The time after which it calls the team is the mean time that recent loops lost by calling their
+// teams. If this loop's team loses no more than that mean time, the loop takes at most twice as long as with the better of two
+// choices. These choices are never to call the team, and to call it at the beginning. All times are in nanoseconds.
 class LoopChoice {
  public:
   static constexpr std::int64_t long_wait = 2'000'000, first_pause = 250'000'000, longest_pause = 2'000'000'000;
@@ -36,8 +36,8 @@ class LoopChoice {
     return pause_.load(std::memory_order_relaxed) > 0 || n_served_.load(std::memory_order_relaxed) > 0;
   }
   // Records that a loop of OpenMP ended now. `waited` is the time that the calling thread waited for the other threads, at the
-  // beginning and at the end of this loop. On a quiet machine it waits for one block at most, which takes less than a
-  // millisecond.
+  // beginning and at the end of this loop. On a quiet machine, the calling thread waits for one block at most, which takes less
+  // than a millisecond.
   void record(std::int64_t waited, std::int64_t now) noexcept {
     const int n_served = n_served_.load(std::memory_order_relaxed);
     if (waited < long_wait) {
