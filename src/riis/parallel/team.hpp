@@ -51,14 +51,14 @@ class LoopChoice {
     until_.store(now + pause, std::memory_order_relaxed);
   }
 
-  // Returns how long the calling thread works alone in a loop that begins now. While no losses are recorded, this time becomes
-  // shorter, so that teams are tried again.
+  // Returns how long the calling thread works alone in a loop that begins now. While no new losses are recorded, this time
+  // becomes shorter, so that teams are tried again.
   std::int64_t time_alone(std::int64_t now) const noexcept {
     const double mean = mean_loss(now);
     return mean < least_loss ? 0 : static_cast<std::int64_t>(mean);
   }
   // Records a loop that called a team and ended now. `lost` is the time that the calling thread waited at the end, minus the time
-  // that it would have needed for the other threads' work.
+  // that it would have needed to do the other threads' work itself.
   void record_team(std::int64_t lost, std::int64_t now) noexcept {
     const double before = mean_loss(now), more = static_cast<double>(std::max<std::int64_t>(lost, 0)) - before;
     mean_loss_.store(before + more / loops_in_mean, std::memory_order_relaxed);
@@ -70,7 +70,7 @@ class LoopChoice {
     const double mean = mean_loss_.load(std::memory_order_relaxed);
     if (mean < 1) return 0;
     const double n_halves = static_cast<double>(now - recorded_.load(std::memory_order_relaxed)) / half_life;
-    // The recorded loss is halved in each half life, and falls linearly within a half life.
+    // The recorded loss is halved after each half life. Within a half life it falls linearly.
     const double whole = std::clamp(std::floor(n_halves), 0.0, 64.0), rest = std::clamp(n_halves - whole, 0.0, 1.0);
     return std::ldexp(mean * (1 - 0.5 * rest), -static_cast<int>(whole));
   }
@@ -80,8 +80,8 @@ class LoopChoice {
   std::atomic<double> mean_loss_{0};
 };
 
-// The process's choice between OpenMP and a team. Several threads may record loops at the same time. It is enough if one of these
-// records is kept.
+// The process's choice between OpenMP and a team. Several threads may record loops at the same time. Of such records, only one
+// may be kept, which is enough.
 extern LoopChoice loop_choice;
 
 }  // namespace riis

@@ -10,8 +10,8 @@
 namespace riis {
 namespace {
 
-// Blocks are small, so that two threads get equal shares of a coarse mesh's band. They are large enough to be distributed in
-// little time.
+// Blocks are so small that two threads get equal shares of the band, even in a coarse mesh. They are so large that distributing
+// them takes little time.
 constexpr std::int64_t nodes_per_block = 2048;
 
 struct EveryPoint {
