@@ -119,8 +119,8 @@ struct Flattened {
 // Second, the part and its chord are at most max_error apart at equal shares of their lengths. With `bend`, a part is also halved
 // if its velocity is estimated to differ from a linear function by more than max_bend. Parts are halved by length, whereas the
 // paper (algorithm "Recursive de Casteljau subdivision") halves the parameter. The shares of any two curves are therefore binary
-// fractions: they agree to the last bit or differ by at least one part, so no slivers arise. A common point of two parts appears
-// once. Fails with RIIS_LIMIT_EXCEEDED for more than 2^20 parts.
+// fractions: they agree to the last bit or differ by at least one part, so no slivers arise. The common point of two successive
+// parts appears only once in the result. Fails with RIIS_LIMIT_EXCEEDED for more than 2^20 parts.
 Flattened flatten(const Curve &curve, double max_error, const VelocityBend *bend = nullptr, double max_bend = 0);
 
 // Points of a curve at many shares of its length, found in one pass.
@@ -139,8 +139,8 @@ class CurvePoints {
   // Returns the unit tangent, or 0 if the curve has no direction there.
   Vec3 tangent(std::size_t i) const;
 
-  // Returns the spans of the curve from share i to share j, i < j, in the order of the shares. The reference is valid until the
-  // next call.
+  // Returns the spans of the curve from share i to share j, i < j, in the order of the shares. The returned reference is valid
+  // until the next call.
   const Vector<Bezier> &between(std::size_t i, std::size_t j);
 
   // Bounds the distance between a curve and its chord from share i to share j, at equal shares of their lengths

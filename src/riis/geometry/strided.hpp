@@ -61,10 +61,10 @@ void check_pointers(const StridedReals<Real> &points, const char *what, const ch
 struct ComponentNames {
   const char *prefix, *names[3], *stride;
 };
-// Refuses components that overlap because the stride is wrong: one component begins inside another one, after its first stride.
-// Examples are one array xyz with the stride 1, and separate arrays with the stride 3. Equal components are allowed if
-// `may_be_equal`, because one array may serve two axes. The caller has already checked n and the stride. The stride counts
-// numbers of `size` bytes.
+// Refuses components that overlap because the stride is wrong: one component begins inside another component, but after the first
+// stride of this other component. Examples are one array xyz with the stride 1, and separate arrays with the stride 3. Equal
+// components are allowed if `may_be_equal`, because one array may serve two axes. The caller has already checked n and the
+// stride. The stride counts numbers of `size` bytes.
 void check_apart(std::int64_t n, const void *const (&components)[3], std::int64_t stride, std::int64_t size,
                  const ComponentNames &names, bool may_be_equal = true);
 

@@ -601,7 +601,7 @@ void make_groups(const GroupCorners *corners, int32_t n, TriangleGroup *groups, 
   alignas(64) float rounded[groups_at_once][9][triangles_per_group];
   alignas(64) double across[3][groups_at_once] = {}, along[3][groups_at_once] = {};
   for (int32_t g = 0; g < n; ++g) {
-    // A fine mesh's frames do not fit in the cache, so the memory of the next group is requested in advance.
+    // The frames of many fine triangles do not fit in the cache, so the memory of the next group is requested in advance.
     if (g + 1 < n)
       for (__SIZE_TYPE__ at = 0; at < sizeof *groups; at += 64)
         __builtin_prefetch(reinterpret_cast<const char *>(groups + g + 1) + at, 1);

@@ -27,9 +27,9 @@ struct ToGroup {
   Floats distance_sq, height;
 };
 
-// Measures a point. Up to rounding, every result is the distance to some point of the triangle. A point counts as inside the
-// triangle only if it is farther than a margin from every edge. A point within the margin of an edge gets its distance to this
-// edge, with an error of at most the margin.
+// Measures the distances from a point to the triangles of a group. Up to rounding, every result is the distance to some point of
+// the triangle. A point counts as inside the triangle only if it is farther than a margin from every edge. A point within the
+// margin of an edge gets its distance to this edge, with an error of at most the margin.
 RIIS_INLINE ToGroup measure_to_group(const TriangleGroup &group, Floats3 p, Floats margin) {
   const auto along = [&](const float(*axis)[16], const float *origin) RIIS_LAMBDA {
     const Floats3 unit = load(axis);
@@ -283,9 +283,9 @@ RIIS_INLINE void begin_leaf(const FilterTask &task, LeafTask &leaf, ClusterTask 
   leaf.may_be_near = cluster.n_listed > n_before;
 }
 
-// Lists the nodes of a leaf with their groups, from the group cluster.next_group on. A group is listed if it may be as near as
-// the nearest triangle found so far for the node. The node's first group is not listed again. Returns false if the list is full
-// before the last group.
+// Lists pairs of a node of the leaf and a group, beginning with the group cluster.next_group. A pair is listed if the group may
+// be as near to the node as the nearest triangle found so far. The node's first group is not listed again. Returns false if the
+// list is full before the last group.
 RIIS_INLINE bool list_others(const LeafTask &leaf, ClusterTask &cluster, const float *lower_bounds) {
   const int32_t first_node = first_node_of(leaf);
   Floats limit[halves], first_group[halves];

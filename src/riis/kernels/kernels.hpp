@@ -171,8 +171,8 @@ struct alignas(64) VertexNumbers {
 };
 constexpr int uv_in_numbers = 3;
 
-// Data of eight triangles: the unit normal, twice the area, and two dot products. Each product is that of the two edges that meet
-// at the first or at the second corner.
+// Data of eight triangles: the unit normal, twice the area, and two dot products. The first product is that of the two edges at
+// the first corner, and the second product is that of the two edges at the second corner.
 struct alignas(64) TriangleMeasures {
   double normal[3][pairs_at_once], twice_area[pairs_at_once], product_at_a[pairs_at_once], product_at_b[pairs_at_once];
 };
@@ -198,7 +198,8 @@ struct CubeSums {
 constexpr int32_t keys_at_once = 2 * nodes_per_leaf;
 
 struct FilterKernels {
-  // For each candidate group, writes a bit for each box within the group's reach. Returns false if no box is within any reach.
+  // For each candidate group, sets the bits of the boxes that are within reach of the group. Returns false if no box is within
+  // reach of any group.
   bool (*near_boxes)(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
                      uint16_t *near);
   // Takes the bits that near_boxes has written to `near`. Clears the bits of boxes that are out of reach of the group's box along
@@ -253,8 +254,8 @@ struct DecisionKernels {
   // Makes the frames and the bounds of up to eight groups of triangles from their corners in the surface's frame. Each
   // bounds[k].n must be set.
   void (*make_groups)(const GroupCorners *corners, int32_t n, TriangleGroup *groups, GroupBounds *bounds);
-  // Computes the square of the distance for each of n pairs of a point and a triangle. Points and triangles are given by index. A
-  // triangle has 9 doubles. The function may write up to 7 squares more than n.
+  // Computes the square of the distance for each of n pairs of a point and a triangle. Points and triangles are given by index.
+  // The corners of a triangle are 9 doubles. The function may write up to 7 numbers after the n squares.
   void (*decide)(int32_t n, const int32_t *point, const int32_t *triangle, const double *points, const double *corners,
                  double *distance_sq);
   // Finds the closest points of the pairs, with the same bits as closest_point_on_triangle.
@@ -274,7 +275,8 @@ struct DecisionKernels {
   // the normal.
   void (*find_sides)(const PointsAndTriangles &pairs, const PointsOnTriangles &located,
                      const double (&normal)[3][pairs_at_once], int32_t *side);
-  // Sums cubes of distances. Only sum_cubes_with_derivatives writes the derivatives. All instruction sets give the same bits.
+  // Computes the sum of CubeSums at the point `at`. Only sum_cubes_with_derivatives writes the derivatives. All instruction sets
+  // give the same bits.
   void (*sum_cubes)(const CubeSources &sources, const double *at, CubeSums &sums);
   void (*sum_cubes_with_derivatives)(const CubeSources &sources, const double *at, CubeSums &sums);
 };

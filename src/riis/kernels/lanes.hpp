@@ -323,8 +323,8 @@ RIIS_INLINE Mask opposite(Mask a) {
 RIIS_INLINE uint32_t bits(uint16x8_t mask) {
   return vaddvq_u16(vandq_u16(mask, uint16x8_t{1, 2, 4, 8, 16, 32, 64, 128}));
 }
-// Takes 0 or -1 in each of sixteen lanes, and returns one bit for each lane. A byte of each lane suffices. The bytes of lanes i
-// and i + 8 become neighbours.
+// Takes 0 or -1 in each of sixteen lanes, and returns one bit for each lane. One byte of each lane is enough. The bytes of lanes
+// i and i + 8 become neighbours.
 RIIS_INLINE uint32_t bits(uint16x8_t first, uint16x8_t last) {
   const uint8x16_t bytes = vtrn1q_u8(vreinterpretq_u8_u16(first), vreinterpretq_u8_u16(last));
   const uint16x8_t own_bits = {0x0101, 0x0202, 0x0404, 0x0808, 0x1010, 0x2020, 0x4040, 0x8080};
@@ -392,7 +392,7 @@ RIIS_INLINE uint32_t bits_different(Floats a, Floats b) {
 #endif
 }
 
-// Returns the distance of x from the interval -half..half. The result may have a minus sign.
+// Returns the distance from x to the interval from -half to half, possibly with a minus sign.
 RIIS_INLINE Floats beyond(Floats x, Floats half) {
 #if defined(__AVX512DQ__)
   // One instruction limits the magnitude of x and keeps the sign of x.
@@ -408,7 +408,7 @@ RIIS_INLINE Floats beyond(Floats x, Floats half) {
 #endif
 }
 
-// Converts whole numbers to integers.
+// Converts floats whose values are whole numbers to integers.
 RIIS_INLINE void to_integers(Floats x, int32_t *to) {
   for (int i = 0; i < Floats::n_registers; ++i) {
     const IntRegister integers = __builtin_convertvector(x.part[i], IntRegister);
@@ -460,8 +460,8 @@ struct LanesOfSets {
 constexpr LanesOfSets lanes_of_sets;
 #endif
 
-// Takes 16 integers, and copies the integers whose bits are set, without gaps. The function may write to all 16 places, even for
-// fewer integers.
+// Copies, without gaps, those of 16 integers whose bit in `lanes` is set. The function may write to all 16 places of `to`, even
+// if it copies fewer integers.
 RIIS_INLINE void compress(uint32_t lanes, const int32_t *from, int32_t *to) {
 #if defined(__AVX512F__)
   _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(static_cast<__mmask16>(lanes), _mm512_loadu_si512(from)));

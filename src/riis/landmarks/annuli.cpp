@@ -99,7 +99,7 @@ void check_outline(const Landmarks &landmarks, const std::vector<std::size_t> &r
     }
 }
 
-// Twice the area vector of a closed polygon.
+// Returns twice the area vector of a closed polygon.
 Vec3 area_of(const Landmarks &landmarks, const std::vector<std::size_t> &ring) {
   const Vec3 middle = landmarks.mean_of(ring);
   Vec3 area{0, 0, 0};
@@ -181,7 +181,7 @@ double lean_of(const LandmarkFit &fit, Vec3 normal) {
   return arc_cosine(std::min(1.0, std::abs((transposed(fit.pose.rotation) * normal).z))) * 180 / pi;
 }
 
-// Refuses a fitted valve that stands obliquely in the annulus.
+// Refuses a fitted valve whose axis is oblique to the annulus.
 void check_axis(const LandmarkFit &fit, Vec3 normal, const std::string &advice) {
   const double degrees = lean_of(fit, normal);
   constexpr double most_degrees = 20;
@@ -268,7 +268,7 @@ struct ShownDepth {
   bool has_posterior_horn;  // if false, the annulus point farthest from the anterior horn replaces it
 };
 
-// The heights of an annulus' two horns above its sides, along its normal.
+// The heights of the two horns of an annulus above its sides, measured along its normal.
 struct HornHeights {
   std::size_t anterior_landmark, posterior_landmark;
   double anterior, posterior;
@@ -276,8 +276,8 @@ struct HornHeights {
   double depth;             // the distance between the horns
 };
 
-// Returns words on why a fit contradicts the landmarks. If one horn is too high or the other too low, the annulus looks inclined.
-// The fitted valve is then also inclined, and the largest residual may belong to a correct landmark.
+// Returns the part of a message that says why a fit contradicts the landmarks. If one horn is too high or the other too low, the
+// annulus looks inclined. The fitted valve is then also inclined, and the largest residual may belong to a correct landmark.
 std::string cause_of(const LandmarkFit &fit, const Landmarks &landmarks, Vec3 normal, const HornHeights &heights) {
   const double degrees = lean_of(fit, normal);
   const double by_heights =
@@ -396,8 +396,8 @@ KindOfLandmarks mitral_landmarks(const Valve &valve, const Landmarks &landmarks)
   made.n_as_annulus = are_behind ? static_cast<std::int32_t>(trigones.size()) : 0;
   made.starts.push_back({rotation, middle + rotation * (origin_there - by)});
   if (!is_side_known) {
-    // The points of the annulus alone do not tell the atrium's side from the ventricle's side. In a healthy annulus, however, the
-    // horns are nearer to the atrium than the sides.
+    // The points of the annulus alone do not show on which side the atrium is. In a healthy annulus, however, the horns are
+    // nearer to the atrium than the annulus' sides are.
     const bool is_turned = horn_there.z + posterior_z < 2 * low_z;
     if (is_turned) {
       const Rotation other = rotation * rotation_about({0, 1, 0}, 180);

@@ -16,14 +16,14 @@
 namespace riis {
 namespace {
 
-// The limit of 900 leaves room for other landmarks, because a warp has at most 1000 landmarks.
+// A warp has at most 1000 landmarks. The limit of 900 leaves room for landmarks that are not along the attachment.
 constexpr std::size_t most_along_attachment = 900;
 // The names of three cusps are in the order of the leaflet ids, counter-clockwise about the valve's axis z.
 constexpr std::size_t n_of_three = 3;
 const char *const names_of_three[n_of_three] = {"right", "left", "non_coronary"};
 
-// Kinds whose cusps all begin on one circle at the root, and whose commissures all lie on another circle. The fields name their
-// sizes.
+// Kinds whose cusps all begin on one circle at the root, and whose commissures all lie on another circle. The members are the
+// names of the sizes.
 struct CuspsOnCircles {
   const char *kind;
   std::size_t n_cusps;
@@ -331,7 +331,7 @@ class CircleSizes {
     model.derived.push_back(mean);
   }
 
-  // Of the sectors that are not held, the last one is 360 degrees minus all others.
+  // The last sector that is not held is 360 degrees minus the sum of all other sectors.
   void add_sectors(CirclesModel &model, double commissure_radius) const {
     const std::vector<double> shown = shown_sectors(landmarks_, axes_);
     const double reach = 0.5 * commissure_radius * (pi / 180);  // a sector grows on both sides of its cusp's middle
@@ -391,7 +391,7 @@ void finish_aortic(const Valve &own, Valve &valve) {
     set_proportion(own, valve, of + "bending_radius_out", middle_radius(own), middle_radius(valve));
     valve.set(of + "rotation", 3, std::array{0.0, 0.0, turns[cusp]}.data());
     valve.set(of + "translation", 3, shift.data());
-    // Lowers the power until the free edge does not bulge into the next cusp, beyond the plane of the commissure.
+    // Lowers the power until the free edge no longer bulges into the next cusp, beyond the plane of the commissure.
     const double x = value_of(valve, of + "leaflet_radius_out") * sine_cosine_degrees(angle).cosine;
     const double radius_in = value_of(valve, of + "leaflet_radius_in");
     if (x > radius_in && value_of(valve, of + "leaflet_power") > x / (x - radius_in))

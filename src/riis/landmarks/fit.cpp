@@ -23,7 +23,7 @@ constexpr double determined_share = 1.0 / 15;
 constexpr double surely_more = 3;
 // If the residuals are below `exact_share` of the stated noise, the landmarks count as exact.
 constexpr double exact_share = 0.01;
-// Rounding of exact landmarks, as a share of the valve's radius.
+// The rounding error of exact landmarks, as a share of the valve's radius.
 constexpr double rounding_share = 1e-9;
 
 // The least-squares problem of the fit. The unknowns are the sizes that are not held, a rotation vector and a shift, all in
@@ -107,7 +107,7 @@ class Problem {
     return pose;
   }
   const std::vector<LandmarkModel::Offset> &offsets() const { return offsets_; }
-  // Returns the landmarks' places on the valve. A landmark without an offset is its own place.
+  // Returns the landmarks' places on the valve. The place of a landmark without an offset is the landmark itself.
   std::vector<Vec3> places() const {
     std::vector<Vec3> places = local_;
     for (std::size_t i = 0; i < offsets_.size(); ++i)
@@ -188,8 +188,8 @@ double LinearValue::at(const std::vector<double> &values) const {
 
 LandmarkFit fit(LandmarkModel &model, const Landmarks &landmarks, const std::vector<Pose> &starts) {
   const std::size_t n_landmarks = landmarks.list.size();
-  // In the first fit, every size has an additional residual that draws it to its expected value. Even if the landmarks say
-  // little, the first fit thus ends near a real valve.
+  // In the first fit, every size has an additional residual that draws it to its expected value. Even if the landmarks determine
+  // few sizes, the first fit thus ends near a real valve.
   Pose best{};
   std::vector<FittedSize> best_sizes;
   double least = std::numeric_limits<double>::infinity();

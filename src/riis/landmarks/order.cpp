@@ -16,7 +16,7 @@
 namespace riis {
 namespace {
 
-// Returns the names as in "right, left and non_coronary".
+// Joins the names to one text, such as "right, left and non_coronary".
 std::string listed(const std::vector<std::string> &names) {
   std::string text = names[0];
   for (std::size_t k = 1; k < names.size(); ++k) text += (k + 1 < names.size() ? ", " : " and ") + names[k];
@@ -115,7 +115,7 @@ void refuse_exchanged(Landmarks landmarks, const LeafletsAround &leaflets, const
          words_for(landmarks, found[0][1]), " are exchanged: all names fit if these two change places");
 }
 
-// Fails with a message that names the first landmark whose name does not fit the order.
+// Fails with a message about the first landmark whose leaflet ids do not fit the order.
 [[noreturn]] void refuse_names(const Landmarks &landmarks, const LeafletsAround &leaflets, const Order &order) {
   for (std::size_t k = 0; k < leaflets.n(); ++k) {
     if (!order.nadir.empty() && !fits_nadir(landmarks.list[order.nadir[k]], k))

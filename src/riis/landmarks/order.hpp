@@ -11,7 +11,7 @@
 
 namespace riis {
 
-// The leaflets of a kind, counter-clockwise seen from +z.
+// The leaflets of a kind of valve, in counter-clockwise order seen from +z.
 struct LeafletsAround {
   std::vector<std::string> names;  // in the order of leaflet ids
   const char *seen_along_flow;     // the direction from leaflet to leaflet: "clockwise" if blood flows along +z

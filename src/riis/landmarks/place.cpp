@@ -83,7 +83,7 @@ bool grows(const ParameterSpec &spec, const std::array<double, 3> &values) {
   return length == "length" && !is_shift && !is_flat_bump;
 }
 
-// Returns the axis and the angle in degrees, 0 to 180.
+// Returns the axis of a rotation, and its angle from 0 to 180 degrees.
 std::pair<Vec3, double> axis_and_angle(const Rotation &r) {
   const Vec3 twice{r.row_z.y - r.row_y.z, r.row_x.z - r.row_z.x, r.row_y.x - r.row_x.y};
   const double trace = r.row_x.x + r.row_y.y + r.row_z.z, sine = length(twice);
@@ -240,8 +240,8 @@ void slide_along_attachment(const Vector<AttachmentPart> &parts, const Landmarks
   }
 }
 
-// Separates different landmarks that have the same place. This happens near a commissure at which the patient differs from the
-// valve.
+// Separates landmarks that have the same place. Landmarks may have the same place near a commissure at which the patient differs
+// from the valve.
 void separate_places(const Vector<AttachmentPart> &parts, const Landmarks &landmarks,
                      const std::vector<std::size_t> &along, const std::vector<Vec3> &local, double radius,
                      std::vector<Vec3> &places) {

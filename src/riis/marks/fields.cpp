@@ -231,8 +231,8 @@ class TriangleFields {
     }
   }
 
-  // Returns the first position from `tie` on at which the ties of a node begin. After the last node, returns the number of all
-  // ties.
+  // Returns the first position from `tie` on at which the ties of a node begin. If no further node has ties, returns the number
+  // of all ties.
   std::int64_t next_node(std::int64_t tie) const {
     while (tie > 0 && tie < ties_.size() && ties_[tie].point == ties_[tie - 1].point) ++tie;
     return tie;

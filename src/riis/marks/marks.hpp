@@ -94,7 +94,7 @@ struct NodeFields {
   void resize(const FieldSet &fields, std::int64_t n);
 };
 
-// Memory that the next marking's fields reuse.
+// Memory that is reused for the fields of the next marking.
 struct FieldScratch {
   UnfilledVector<VertexNumbers> at_vertices;
   std::vector<Tie> ties;                           // by node, then by leaflet; a leaflet's closest triangle comes first
@@ -130,8 +130,8 @@ void select_fields(const FieldSet &fields, const NodeList &all, const NodeFields
 // within the limit. If the limit is wider than the half thickness, a second list has the marked nodes.
 
 // A set of nodes whose numbers lie in one range, a bin. The set has a bit for each number of the bin. The rank of a node is the
-// number of nodes in the set that have lower numbers. 64 words of bits form a stretch. Only stretches that contain nodes are
-// written and read.
+// number of nodes in the set that have lower numbers. A stretch consists of 64 words of bits. Only stretches that contain nodes
+// are written and read.
 class NodeRanks {
  public:
   // Makes room for bins of n_numbers. Only this function allocates memory.

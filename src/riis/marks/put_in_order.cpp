@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::int64_t bits_per_word = 64, words_per_stretch = 64;
 
-// Every bin has the same number of nodes' numbers, which is a power of two. One thread writes all nodes of a bin, so two threads
-// seldom write to the same cache line. With many more bins, it would take longer to gather the nodes.
+// A bin is a range of nodes' numbers. All bins have the same length, which is a power of two. One thread writes all nodes of a
+// bin, so two threads seldom write to the same cache line. With many more bins, it would take longer to gather the nodes.
 class Bins {
  public:
   explicit Bins(std::int64_t n_nodes) {

@@ -35,7 +35,7 @@ TriangleSet others(const TriangleSet &set, std::int32_t leaflet_id, const std::v
 // leaflets changes by at most the distance between the two points. The distance at the middle of a part therefore often tells
 // whether the whole part is within reach. If it does not, the part is halved, unless it is already small. On a small part, the
 // distance is approximated by a linear function. The radius of a small part is an eighth of the reach, but at least 1/2000 of the
-// surface's extent. The smallest radius limits the work for a tiny reach.
+// surface's extent. This lower limit bounds the work if the reach is tiny.
 class Measuring {
  public:
   Measuring(const TriangleScene &scene, double reach, double extent)
@@ -75,7 +75,8 @@ class Measuring {
     return area(tip, from, middle) + area(tip, middle, to);
   }
 
-  // Returns the distance from the other leaflets, or a value above reach + 2 * radius.
+  // Returns the distance from p to the other leaflets. If this distance is large, returns only some value above reach + 2 *
+  // radius.
   double distance_from(Vec3 p, double radius) const {
     const double limit = reach_ + 3 * radius;
     const ClosestTriangle closest = scene_.closest(p, limit);

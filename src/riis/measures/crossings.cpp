@@ -142,7 +142,7 @@ struct TriangleBoxes {
     for (int i = 0; i < 3; ++i) box.lower[i] = lower[i][lane], box.upper[i] = upper[i][lane];
     return box;
   }
-  // Returns a bit for each lane whose box overlaps the given box.
+  // Returns one bit for each lane, which is set if the lane's box overlaps the given box.
   std::uint32_t overlapping(const Box &box) const {
     std::uint8_t hit[triangles_per_group];  // an array, because compilers vectorise a loop over it
     for (int k = 0; k < triangles_per_group; ++k)

@@ -203,9 +203,9 @@ std::vector<std::size_t> nearest_of_other_pieces(const std::vector<PieceVertex> 
   return nearest;
 }
 
-// Leaflets with gaps between them have no common attachment. Returns the triangles after their pieces have grown about the
-// pieces' centroids until neighbouring pieces meet. Vertices that are then close together are moved to a common point. Returns
-// nothing if pieces already touch, or if the boundary has too many vertices to compare all pairs.
+// Leaflets with gaps between them have no common attachment. Returns the triangles after each piece has grown about its centroid,
+// until neighbouring pieces meet. Vertices that are then close together are moved to a common point. Returns nothing if pieces
+// already touch, or if the boundary has too many vertices to compare all pairs.
 std::optional<TriangleSet> joined_pieces(const TriangleSet &set, const std::vector<OpenEdge> &edges,
                                          const std::vector<std::int64_t> &piece, const LeafletBoundary &boundary) {
   constexpr double most_growth = 0.05, closeness = 1e-3;
@@ -277,7 +277,7 @@ LeafletBoundary boundary_of_leaflets(const TriangleSet &set) {
   }
   // In a file that does not name its leaflets, leaflets that touch are one piece with several sheets.
   const std::vector<std::int64_t> &part = n_pieces > 1 ? piece : wound.sheet;
-  // Leaflets may have opposite windings, so each sheet is tried with both windings. Only the last sheet keeps its winding.
+  // Leaflets may have opposite windings, so every sheet except the last is tried with both windings.
   constexpr std::int64_t most_sheets = 5;
   const std::int64_t n_windings = wound.n_sheets <= most_sheets ? std::int64_t{1} << (wound.n_sheets - 1) : 1;
   for (std::int64_t turned = 0; turned < n_windings; ++turned) {  // a bit for each sheet that is turned over

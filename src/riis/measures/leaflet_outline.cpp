@@ -60,7 +60,7 @@ class FarthestEdges {
     for (const Turn &turn : turns) add(turn);
   }
 
-  // Returns the parts. Returns nothing if a gap of more than half a turn has no edge.
+  // Returns the parts, or nothing if there is a gap of more than half a turn without an edge.
   std::vector<FarPart> parts() const {
     std::vector<FarPart> made;
     double gap = 0, widest = 0;
@@ -216,7 +216,7 @@ struct FoundView {
 constexpr int few_turns = 4, many_turns = 40;
 
 // Repeats two steps at most n_turns times: turns the axis to the vector area of the farthest edges, and moves the centre to the
-// middle of their outline. `about` is a first axis of length 1. With `keeps_axis` only the centre moves.
+// middle of their outline. `about`, of length 1, is the axis at the beginning. With `keeps_axis` only the centre moves.
 std::optional<FoundView> view_from(const LeafletBoundary &boundary, Vec3 about, Vec3 sideways, Vec3 centre, int n_turns,
                                    bool keeps_axis = false) {
   constexpr double least_roundness = 0.01, still = 1e-10;
@@ -330,7 +330,7 @@ void add_moments(const std::vector<Vec3> &points, double weight, std::vector<dou
 
 // Returns the axis of a line at which cusps are attached, or nothing if the line is no high crown. The axis is at right angles to
 // the plane of the lowest points of the cusps. Two cusps have only two lowest points, so the high points also help to determine
-// the plane. `axis` is a first axis, and `radius` is the line's radius.
+// the plane. `axis` is the axis at the beginning, and `radius` is the radius of the line.
 std::optional<Vec3> axis_of_crown(const std::vector<BoundaryEdge> &line, Vec3 axis, double radius) {
   constexpr double least_height = 0.5, weight_of_highs = 0.01, least_spread = 0.1, still = 1e-12;
   constexpr int most_turns = 10;

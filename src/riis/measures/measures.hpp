@@ -29,7 +29,7 @@ namespace riis {
 // The factor c of the effective area A - c eps P. The band around the rim narrows an orifice by the distance c eps: it blocks the
 // flow as much as a thin wall whose rim extends c eps farther into the orifice. Each number below is the mean of c for two
 // valves, which docs/validation.md compares with walls in body-fitted meshes. For the open bileaflet valve, c is 0.98 (round rim)
-// and 0.95 (cut rim). For the open trileaflet valve, c is 0.70 and 0.46.
+// and 0.95 (cut rim). For the open trileaflet valve, c is 0.70 (round rim) and 0.46 (cut rim).
 inline constexpr double rim_reach_round = 0.84;  // RIIS_RIM_ROUND
 inline constexpr double rim_reach_cut = 0.70;    // RIIS_RIM_CUT
 
@@ -52,7 +52,7 @@ double rim_reach(const Surface &surface, std::int32_t rim);
 
 // Measures the orifice. `source` is null for triangles from arrays, whose outline is their longest boundary.
 Orifice measure_orifice(const TriangleSet &set, const SourceValve *source, const OrificeLimits &limits);
-// Measures the orifice inside the outline of a wall. The wall's own triangles cover nothing.
+// Measures the orifice inside the outline of a wall. The wall's own triangles do not cover any part of the orifice.
 Orifice measure_orifice_in_wall(const TriangleSet &set, const SourceValve *source, const TriangleSet &wall,
                                 const OrificeLimits &limits);
 
@@ -60,7 +60,7 @@ Orifice measure_orifice_in_wall(const TriangleSet &set, const SourceValve *sourc
 // left out; -1 leaves out no triangles.
 double moved_area(const Surface &surface, double shift, std::int32_t left_out);
 
-// The coaptation of leaflets: their parts within a distance of another leaflet.
+// The coaptation of leaflets consists of their parts that are within a given distance of another leaflet.
 // The results are areas and lengths.
 
 struct Contact {
@@ -73,7 +73,7 @@ std::map<std::int32_t, Contact> contacts_of(const TriangleSet &set, const std::v
                                             std::int32_t wanted, const std::vector<std::int32_t> &omitted,
                                             int n_threads);
 
-// Self-intersections of a surface: pairs of triangles that go through each other.
+// Self-intersections of a surface are pairs of triangles that go through each other.
 // The result has the pairs in ascending order, with their depths and common segments.
 
 struct Crossings {
@@ -90,8 +90,8 @@ Crossings find_crossings(const TriangleSet &set, const TriangleGroups &groups, d
 // Returns the depth up to which the triangles of touching leaflets may cross (docs/theory/crossings.md).
 double depth_of_contacts(const Surface &surface);
 
-// The gap between the attachment of a valve and a wall, along the direction in which a skirt leads. The results are distances,
-// and the lengths of a skirt that reaches the wall.
+// This part measures the gap between the attachment of a valve and a wall, along the direction in which a skirt leads. The
+// results are distances, and the lengths of a skirt that reaches the wall.
 
 // The triangles of a wall, and the scene that finds them.
 struct Wall {
@@ -122,7 +122,7 @@ SkirtLengths lengths_to_wall(const PatchSet &set, const Placement &placement, co
 // normals counts as positive.
 // The result is the volume that each leaflet of a valve sweeps between two openings.
 
-// Maps a leaflet_id to the volume that the leaflet sweeps. No placement is applied to the volumes.
+// Maps a leaflet_id to the volume that the leaflet sweeps. The volumes are those of the valve before placement.
 using SweptVolumes = std::map<std::int32_t, double>;
 
 // Computes the volumes between two openings. Fails if the patches cannot be made at an opening. If the two openings are

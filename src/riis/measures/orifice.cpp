@@ -38,7 +38,7 @@ Orifice measured(const TriangleSet &set, const SeenOutline &from, std::int32_t k
   const Cover cover = cover_of(vertices, set.skirt < 0 ? set.vertex_id : without_leaflet(set, set.skirt));
   const double whole = area_of(from.outline);
   const UncoveredAreas open = uncovered_areas(from.outline, cover, limits.reach);
-  // In a closed valve, the only gaps between the triangles and the outline come from rounding.
+  // In a closed valve, all gaps between the triangles and the outline are rounding errors.
   const auto above_rounding = [&](double area) { return area > 1e-12 * whole ? area : 0; };
   return {above_rounding(open.outside),
           whole,

@@ -18,7 +18,7 @@ using PlaneSegment = std::array<PlanePoint, 2>;
 struct Outline {
   double radius = 0;  // > 0: the outline is this circle
   PlanePoint centre{};
-  // Used if radius is 0. A point is inside if the number of edges to its left is odd.
+  // These edges are used if radius is 0. A point is inside if the number of edges to its left is odd.
   std::vector<PlaneSegment> edges{};
 };
 
@@ -35,7 +35,7 @@ struct Cover {
   std::vector<PlaneSegment> rim;
 };
 
-// Makes the cover from the vertices of the triangles and from the three vertices of each triangle.
+// Makes the cover. `vertices` has the positions of all vertices, and `vertex_id` has three vertices for each triangle.
 Cover cover_of(const std::vector<PlanePoint> &vertices, const std::vector<std::int64_t> &vertex_id);
 
 // The number of lines along x that measure areas. The lines are evenly spaced over the outline. The uncovered length of each line

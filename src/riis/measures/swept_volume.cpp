@@ -19,7 +19,7 @@ namespace {
 // of adjacent intervals add up. Between two cuts, each point moves along a straight line.
 constexpr int n_steps = 64;
 
-// Each patch is cut into n by n quads. The number n is between `fewest` and `most`. The whole valve then has about
+// Each patch is cut into n by n quads. The number n is chosen between `fewest` and `most`, so that the whole valve has about
 // quads_wanted quads.
 constexpr double quads_wanted = 65536;
 constexpr int fewest = 8, most = 64;

@@ -19,7 +19,7 @@ struct Start {
 };
 
 // Returns where the line point + t * direction meets a triangle. The test compares the signs of three volumes, one for each edge.
-// Two triangles give their common edge exactly opposite volumes, so the line cannot pass between them.
+// For a common edge, two triangles have exactly opposite volumes, so the line cannot pass between the triangles.
 std::optional<double> meets(const std::array<Vec3, 3> &corners, Vec3 point, Vec3 direction) {
   const auto [a, b, c] = corners;
   const Vec3 oa = a - point, ob = b - point, oc = c - point;

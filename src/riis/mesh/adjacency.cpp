@@ -48,10 +48,10 @@ class PlainMemory {
 // Makes the rows. An entry says that a node belongs to an item. The entries of a block of nodes are stored together, node by
 // node. Later the block's rows overwrite these entries. Lists is a type with these members:
 //   `n_nodes`, `n_items`: the numbers of nodes and items.
-//   `most_neighbors`: the largest number of different nodes that one call of for_each_neighbor visits. `for_each_entry(range,
-//   visit)`: calls visit(node, entry) for every node of every item in a range. `for_each_neighbor(entry, node, visit)`: calls
-//   visit(other), in any order, for the neighbours that the node has in the entry's item. `prefetch(entry)`: requests the memory
-//   that for_each_neighbor reads.
+//   `most_neighbors`: the largest number of different nodes that one call of for_each_neighbor visits.
+//   `for_each_entry(range, visit)`: calls visit(node, entry) for every node of every item in a range.
+//   `for_each_neighbor(entry, node, visit)`: calls visit(other), in any order, for the neighbours that `node` has in the item.
+//   `prefetch(entry)`: requests the memory that for_each_neighbor reads.
 // The type Entry must be able to hold the number of all entries, and the type Column must be able to hold the number of nodes.
 template <class Entry, class Column, class Lists>
 class RowMaker {

@@ -18,8 +18,8 @@
 namespace riis {
 namespace {
 
-// Each node is marked from some half thickness on, and the nodes are ordered by it. Without an offset, this half thickness is the
-// node's distance.
+// For each node there is a least half thickness that marks it, and the nodes are ordered by this number. Without an offset, the
+// number is the node's distance.
 
 // Returns the least half thickness that marks all of these nodes. Refuses nodes in the band.
 double largest_thickness(const SearchRequest &request, const char *name, ArrayView<const std::int64_t> ids) {

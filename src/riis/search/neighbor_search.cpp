@@ -110,7 +110,7 @@ class NeighborSearch {
     std::sort(near.begin(), near.end(), [](const auto &a, const auto &b) { return a.ball < b.ball; });
   }
 
-  // In every near ball, the walk starts also at the first node that is not proved to be far from the surface.
+  // Starts the walk at one node of every near ball: the first node that is not proved to be far from the surface.
   void begin_in_near_balls(const NodeBalls &balls) {
     for (const NearBall &near : walked_.near_balls) {
       const Range range = balls.nodes_of(near.ball);
