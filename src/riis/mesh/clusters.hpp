@@ -45,7 +45,7 @@ struct Clusters {
   int n_nodes_of(std::int64_t leaf) const;
 };
 
-// The limit exists because a leaf stores the numbers of its nodes in 32 bits.
+// A leaf stores the numbers of its nodes in 32 bits, which limits the number of nodes.
 inline constexpr std::int64_t max_clustered_nodes = INT64_C(0xffffffff);
 
 // The next two functions fail with RIIS_INVALID_MESH for an unusable coordinate. Until clusters are made for the first time,

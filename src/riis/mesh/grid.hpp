@@ -27,7 +27,7 @@ struct GridBox {
   std::int64_t size(std::int64_t axis) const { return end[axis] - begin[axis]; }
   bool is_empty() const { return size(0) <= 0 || size(1) <= 0 || size(2) <= 0; }
   std::int64_t n_nodes() const { return is_empty() ? 0 : size(0) * size(1) * size(2); }
-  // Returns the index of node t of the box, where i changes fastest.
+  // Returns the index of node t of the box. The nodes are counted so that i changes fastest.
   GridIndex operator[](std::int64_t t) const {
     return {begin[0] + t % size(0), begin[1] + t / size(0) % size(1), begin[2] + t / size(0) / size(1)};
   }
@@ -37,7 +37,7 @@ class Grid {
  public:
   typedef std::array<std::vector<double>, 3> Axes;
 
-  // The axes must ascend. The strides are from checked_strides.
+  // The axes must ascend. The strides must come from checked_strides.
   Grid(Axes axes, std::int64_t first, const GridIndex &stride, std::int64_t n_numbers);
 
   std::int64_t size(std::int64_t axis) const { return size_[axis]; }
@@ -96,7 +96,7 @@ class Grid {
 // The stride of an axis with one node becomes 0.
 GridIndex checked_strides(const GridIndex &n, std::int64_t first, const GridIndex &given, std::int64_t &n_numbers);
 
-// The edges of a grid, with the functions of Adjacency. A number without a node has no edges.
+// The edges of a grid, with the same functions as Adjacency. A number without a node has no edges.
 struct GridEdges {
   static constexpr bool is_symmetric = true;
 
@@ -112,7 +112,7 @@ struct GridEdges {
       if (index[axis] + 1 < grid.size(axis)) visit(i + grid.stride(axis));
     }
   }
-  // Callers pass only neighbours, and a grid's edges are symmetric.
+  // The result is always true, because callers pass only neighbours, and a grid's edges are symmetric.
   bool has_neighbor(std::int64_t, std::int64_t) const { return true; }
 };
 

@@ -111,7 +111,7 @@ class Mesh {
 
   const MeshNodes &nodes() const { return nodes_; }
   const StridedPoints &points() const { return nodes_.points; }
-  // Returns the box around the nodes, as it was when the caller last gave the nodes.
+  // Returns the box around the nodes at the time when the caller last gave them.
   const Bounds &bounds() const { return bounds_; }
   const std::optional<Adjacency> &adjacency() const { return adjacency_; }
 

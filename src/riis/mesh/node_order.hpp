@@ -35,7 +35,7 @@ struct NodeFrame {
   Vec3 centre{0, 0, 0};
   double scale = 1;
 
-  // Takes a point that lies within the nodes' box.
+  // Takes a point that lies within the nodes' box to the frame.
   void place_inner(Vec3 p, float *x) const {
     const Vec3 q = scale * (p - centre);
     x[0] = static_cast<float>(q.x), x[1] = static_cast<float>(q.y), x[2] = static_cast<float>(q.z);
@@ -276,7 +276,8 @@ class NodeSorter {
   static NodeBox box_of(const Item *items, const Part &part) {
     typedef float Four __attribute__((vector_size(16)));
     static_assert(sizeof(Item) >= sizeof(Four));
-    // The loop keeps two separate boxes, because each comparison has to wait for the previous comparison of the same bounds.
+    // With two separate boxes, two comparisons can run at the same time. With one, each comparison would have to wait for the
+    // previous one.
     Four lower[2], upper[2];
     for (int k = 0; k < 2; ++k) lower[k] = Four{} + NodeBox::inf, upper[k] = Four{} - NodeBox::inf;
     const auto add = [&](const Item *item, int k) {

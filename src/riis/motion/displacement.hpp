@@ -111,17 +111,18 @@ class RestInside {
 };
 
 // The displacement S_now(u,v) - S_before(u,v) of a patch at the vertices of its grid and of its subdivided quads. Both states are
-// evaluated on the smooth patches. On the sides this is done directly, and inside by the patch's combination of its sides. A
-// point is identified in both states by its (u,v) alone, so the triangles of the two states may differ. SideMaterial matches the
-// points of a warped side. If the sides and the bulge did not change, the result is exactly 0.
+// evaluated on the smooth patches. On the sides, the curves are evaluated. Inside, the patch's combination of its sides is
+// evaluated. A point is identified in both states by its (u,v) alone, so the triangles of the two states may differ. SideMaterial
+// matches the points of a warped side. If the sides and the bulge did not change, the result is exactly 0.
 class PatchDisplacement {
  public:
-  // Computes the displacements at the grid's vertices. The grid must have kept its lines.
+  // Computes the displacements at the grid's vertices. The grid must still have its lines.
   PatchDisplacement(const MovedPatch &moved, const LevelledGrid &levelled);
 
   // Returns the displacement where two lines of the grid meet.
   Vec3 at_lines(std::size_t i, std::size_t j) const { return at(column_[i], row_[j]); }
-  // Returns the displacement inside the quad that begins at this point. The sides of the quad are halved `level` times.
+  // Returns the displacement inside the quad whose first corner is the grid point (i, j). The sides of the quad are halved
+  // `level` times.
   Vec3 in_quad(std::size_t i, std::size_t j, int level, int column, int row) const {
     return at(column_[i] + (static_cast<std::size_t>(column) << (column_levels_[i] - level)),
               row_[j] + (static_cast<std::size_t>(row) << (row_levels_[j] - level)));
@@ -151,7 +152,8 @@ class ImageVelocity {
                 const EarlierState &earlier);
 
   // Returns the mean velocity of a point over the time between the two states. In the patch's own coordinates, the point is now
-  // at p, and was at p - displacement in the earlier state. If image and placement are at rest, no cancellation occurs.
+  // at p, and was at p - displacement in the earlier state. If the image and the placement are at rest, no digits are lost by
+  // cancellation.
   Vec3 velocity(Vec3 p, Vec3 displacement) const {
     const Vec3 moved = now_.linear * displacement + difference_.linear * (p - displacement) + difference_.offset;
     return {moved.x / seconds_, moved.y / seconds_, moved.z / seconds_};
@@ -172,7 +174,7 @@ class ImageVelocity {
 // patches. At the two ends, O is computed from the shared sides, so that neighbouring patches agree.
 Vector<Vec3> arc_offsets(const PatchSet &set, const Patch &patch, const CurvePoints &base, const CurvePoints &edge);
 
-// Returns the joints of a side in the patch's parameter.
+// Returns the joints of a side, as values of the patch's parameter.
 Vector<double> joints_of(const PatchSet &set, const Side &side);
 // Moves each grid line together with the two joints on both sides of it. If the number of joints has changed, no line moves.
 Vector<double> moved_with_joints(const Vector<double> &lines, const Vector<double> &from, const Vector<double> &to);
@@ -185,8 +187,8 @@ bool have_same_build(const PatchSet &now, const PatchSet &before);
 PatchSet with_own_patches(const PatchSet &state, const PatchSet &like);
 // Fails with RIIS_INVALID_PARAMETER if the two states are built differently.
 void check_same_build(const PatchSet &now, const PatchSet &before);
-// Fails with RIIS_INVALID_PARAMETER if the images of the two states have different ids. States with the same ids can be brought
-// to one form by with_own_patches. The message names the states.
+// Fails with RIIS_INVALID_PARAMETER if the images of the two states have different ids. If the ids are the same, with_own_patches
+// can give both states the same structure. The message names the states.
 void check_same_ids(const PatchSet &now, const PatchSet &before, const StateNames &names = {"valve_before", "valve"});
 
 }  // namespace riis

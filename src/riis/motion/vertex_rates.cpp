@@ -77,7 +77,7 @@ class MovedCuts {
 Vector<GridLine> lines_in(const PatchSet &at, const PatchSet &state, std::size_t patch, const GridLines &lines) {
   Vector<GridLine> made = lines.u;
   if (lines.move_with_joints) {
-    // A skirt's strip beside a patch of arcs has its side v1 in common with this patch's base. The strip's lines move with this
+    // The side v1 of a skirt's strip beside a patch of arcs is also the base of that patch. The strip's lines move with this
     // base.
     const auto side = at.patches[patch].skirt_of_arcs != no_patch ? &Patch::v1 : &Patch::v0;
     const Vector<double> moved = moved_with_joints(middles(made), joints_of(at, at.patches[patch].*side),

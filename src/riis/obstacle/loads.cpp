@@ -59,7 +59,7 @@ class Holds {
     return hold;
   }
 
-  // Returns w(d) for a point: 1 on the edges, and 0 from the radius on.
+  // Returns the weight w(d) of a point at the distance d from the edges. w is 1 on the edges, and 0 from the radius on.
   double share(const Hold &hold, Vec3 point) const {
     const double radius_sq = loads_.radius * loads_.radius;
     if (!(hold.bounds.distance_sq_to(point) < radius_sq)) return 0;
@@ -73,7 +73,7 @@ class Holds {
   std::optional<NearestEdges> all_;  // all edges together, if the edges have leaflets
 };
 
-// Returns m w(d) of each node.
+// For each node, returns m w(d), where m is the node's area or volume.
 Vector<double> weights_of(const Holds &holds, const Hold &hold, const Tissue &tissue, int n_threads) {
   Vector<double> weights(static_cast<std::size_t>(tissue.nodes.size()));
   parallel_for_ranges(tissue.nodes.size(), nodes_per_block, n_threads, [&](const Range &range, int) {

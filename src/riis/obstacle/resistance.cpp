@@ -33,7 +33,7 @@ double slope_at(const Resistance &resistance, double distance) {
   return -(resistance.factor / (2 * eps)) * (pi / eps) * sine;
 }
 
-// Returns whether a node is left out by a cut rim. These are the nodes whose closest point is on the rim.
+// A cut rim leaves out the nodes whose closest point is on the rim. Returns whether entry i of the list is such a node.
 bool is_beyond_rim(const Resistance &resistance, const ListedNodes &list, std::int64_t i) {
   return resistance.cuts_rim && view(list.fields.rim)[i];
 }
@@ -126,8 +126,8 @@ void add_sums(const Vector<Wrench> &sums, double *force, double *moment) {
   }
 }
 
-// Compares n_leaflets with the leaflets of the surface. The surface's leaflets are used, not those of the marked nodes. A rank
-// may have no node of the last leaflet, but all ranks must refuse a wrong n_leaflets.
+// Compares n_leaflets with the leaflets of the surface, not with those of the marked nodes. A rank may have no node of the last
+// leaflet, but all ranks must refuse a wrong n_leaflets.
 void check_leaflets(const Marks &marks, const riis_reaction &to) {
   const std::int32_t last = marks.leaflet_ids.empty() ? -1 : marks.leaflet_ids.back();
   if (to.n_leaflets <= last)

@@ -117,7 +117,7 @@ std::unique_ptr<const PatchDistance> make_distance(const PatchSet &set, const Di
 // samples of a patch depends on its width and height (docs/theory/paper-distances.md).
 // A SampleSet makes the samples for an allowed error, and finds the nearest sample.
 
-// The most samples that the library accepts. Each sample takes 24 bytes, and the boxes of the tree take a little more.
+// The most samples that the library accepts. Each sample takes 24 bytes, and the boxes of the tree need some more memory.
 inline constexpr std::int64_t max_samples = 16'777'216;
 
 // The numbers of steps between samples. The samples lie at all pairs of u = 0, 1/s_u, ..., 1 and v = 0, 1/s_v, ..., 1. The member

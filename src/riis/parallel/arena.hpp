@@ -29,8 +29,8 @@ struct PooledArena {
 };
 
 // Returns an arena of n_threads threads, which the caller must give back. The arena comes from the pool. A new arena is made only
-// if no idle arena has this number of threads. The number of arenas of one size is therefore the largest number that were
-// borrowed at the same time.
+// if no idle arena has this number of threads. There are therefore never more arenas of one size than were borrowed at the same
+// time.
 PooledArena *borrow_arena(int n_threads);
 void give_back(PooledArena *arena) noexcept;
 

@@ -31,7 +31,7 @@ inline Threads threads_for(std::int32_t n_threads, std::int64_t n_items, std::in
                        : Threads::by_default(n_items, per_thread, has_lost_threads() ? 1 : default_thread_count());
 }
 
-// Refers to a function object body(block, thread) of any type, which must live as long as the loop. The loops take this
+// Refers to a function object body(block, thread) of any type. The object must live as long as the loop. The loops take this
 // reference, so that they are compiled once, and not once for each body. Each block costs one call through a pointer.
 class LoopBody {
  public:
@@ -47,7 +47,7 @@ class LoopBody {
   void (*call_)(const void *of, std::int64_t block, int thread);
 };
 
-// Returns the time of a steady clock in nanoseconds, as a LoopChoice takes it.
+// Returns the time of a steady clock in nanoseconds, for a LoopChoice.
 std::int64_t nanoseconds() noexcept;
 
 // The times at which the calling thread begins its work in a loop, and ends it.
@@ -61,12 +61,12 @@ struct TimesOfCaller {
 // `of_caller` is not null and OpenMP runs the loop, the times of the calling thread are written to it.
 int openmp_for(std::int64_t n_blocks, int n_threads, LoopBody body, TimesOfCaller *of_caller = nullptr);
 
-// Runs the same loop on a team (team.hpp), without waiting for a thread that another process delays. The calling thread first
-// works alone, for as long as `choice` says. Even if the loop ends within this time, the function returns n_threads.
+// Runs a loop as openmp_for does, but on a team (team.hpp), without waiting for a thread that another process delays. The calling
+// thread first works alone, for as long as `choice` says. Even if the loop ends within this time, the function returns n_threads.
 int team_for(std::int64_t n_blocks, int n_threads, LoopBody body, LoopChoice &choice);
 
-// Runs the same loop on the threads that loop_choice chooses. In two cases OpenMP's threads are always chosen: the call is inside
-// a caller's parallel region, or the user binds OpenMP's threads to places.
+// Runs a loop as openmp_for does, but on the threads that loop_choice chooses. In two cases OpenMP's threads are always chosen:
+// the call is inside a caller's parallel region, or the user binds OpenMP's threads to places.
 int parallel_for(std::int64_t n_blocks, int n_threads, LoopBody body);
 
 // Calls body(range, thread) for the ranges of per_block numbers in [0, n). The last range may be shorter.

@@ -41,7 +41,7 @@ void pause_briefly() {
 #endif
 }
 
-// Waits without sleeping until the condition holds or the time is over, and returns whether the condition holds.
+// Waits without sleeping, at most for longest_awake, until the condition holds. Returns whether the condition holds.
 template <class Condition>
 bool wait_awake(const Condition &holds) {
   const auto start = std::chrono::steady_clock::now();
@@ -144,8 +144,8 @@ class Team {
   void wait_for_place(std::uint32_t last_loop) {
     const auto has_place = [&] { return State{state_.load()}.has_place_after(last_loop); };
     if (waits_awake_.load(std::memory_order_relaxed) && wait_awake(has_place)) return;
-    // If a loop began just before this worker was counted as sleeping, nobody wakes the worker. The worker therefore looks again.
-    // If take_asleep fails here, the calling thread has already counted this worker, and posts for it.
+    // If a loop began just before this worker was counted as sleeping, nobody wakes the worker. The worker therefore checks once
+    // more. If take_asleep fails here, the calling thread has already counted this worker, and posts for it.
     n_asleep_.fetch_add(1);
     if (has_place() && take_asleep(1) == 1) return;
     may_start_.wait();

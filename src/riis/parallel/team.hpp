@@ -22,8 +22,8 @@ int run_by_team(int n_threads, void (*work)(void *context, int thread), void *co
 // OpenMP's next long wait comes after only a few loops, the machine is busy. Teams then run the loops for twice as long as
 // before. A team also loses time if another process interrupts one of its threads inside a block. The calling thread therefore
 // begins a team's loop alone. The time after which it calls the team is the mean time that recent loops lost by calling their
-// teams. If this loop's team loses no more than that mean time, the loop takes at most twice as long as with the better of two
-// choices. These choices are never to call the team, and to call it at the beginning. All times are in nanoseconds.
+// teams. If this loop's team loses no more than that mean time, the loop takes at most twice as long as without the team, and at
+// most twice as long as with the team from the beginning. All times are in nanoseconds.
 class LoopChoice {
  public:
   static constexpr std::int64_t long_wait = 2'000'000, first_pause = 250'000'000, longest_pause = 2'000'000'000;
@@ -80,8 +80,8 @@ class LoopChoice {
   std::atomic<double> mean_loss_{0};
 };
 
-// The process's choice between OpenMP and a team. Several threads may record loops at the same time. Of such records, only one
-// may be kept, which is enough.
+// The process's choice between OpenMP and a team. Several threads may record loops at the same time. It is then enough that one
+// of their records is kept.
 extern LoopChoice loop_choice;
 
 }  // namespace riis

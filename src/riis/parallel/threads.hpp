@@ -37,7 +37,7 @@ class Threads {
 
 // Returns whether this process may use several threads, and records the use. A child of fork() may not use several threads if the
 // library did so before the fork. The child lacks the threads of its parent, and the run-times of OpenMP and TBB would wait for
-// them for ever.
+// these threads for ever.
 bool begin_threads() noexcept;
 
 // Returns whether this process is a child of fork() that may not use several threads.

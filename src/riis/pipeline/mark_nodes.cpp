@@ -139,7 +139,7 @@ void take_marked(const Band &band, const FieldSet &fields, const ListedNodes &fr
   };
   to.fields.resize(fields, n_from);
   std::int64_t n = 0;
-  // Copies neighbouring nodes together.
+  // Copies each run of successive marked nodes at once.
   for (std::int64_t begin = 0, end = 0; begin < n_from; begin = end + 1) {
     for (end = begin; end < n_from && is_marked(end);) ++end;
     copy_nodes(from.nodes, {begin, end}, to.nodes, n);

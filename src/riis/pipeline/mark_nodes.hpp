@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A marking leads from the request to the marks: the code runs the search and then makes the lists.
+// Makes the marks for a request: runs the search, and then makes the lists.
 #pragma once
 
 #include <cstdint>

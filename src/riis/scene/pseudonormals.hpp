@@ -53,7 +53,7 @@ class Pseudonormals {
   // -1 and -1.
   const std::array<std::int64_t, 2> &disagreeing() const { return disagreeing_; }
 
-  // Each edge of the rim and each vertex has a sum of normals. These are the rates of the sums while the vertices move.
+  // Each edge of the rim and each vertex has a sum of normals. This struct has the rates of these sums while the vertices move.
   struct Rates {
     Vector<Vec3> rim_edge;  // three for each triangle; 0 for edges off the rim
     Vector<Vec3> corner;    // one for each distinct position

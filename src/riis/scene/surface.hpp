@@ -50,8 +50,8 @@ class Surface {
   // Returns the patches that the triangles come from, or null for a surface from arrays.
   const PatchSet *patches() const { return patches_ ? &*patches_ : nullptr; }
 
-  // Adds a direction in which the patches change. The two states of the direction must have the ids of patches()
-  // (check_same_ids).
+  // Adds a direction in which the patches change. The images in the direction's two states must have the same ids as those of
+  // patches() (check_same_ids).
   void add_direction(const Direction &direction, int n_threads);
   std::int64_t n_directions() const { return n_directions_; }
   // Returns the rates of the vertices in a direction, (3, n_vertices).

@@ -56,7 +56,7 @@ void TriangleGroups::make(const TriangleSet &set, const SurfaceFrame &surface_fr
     enclose(by_place_, n_threads);
     are_same = false;
   }
-  // Finds the longest edge only after the groups have been made for the last time.
+  // Finds the longest edge only now, because the groups may have been made a second time above.
   longest_edge = 0;
   for (const GroupBounds &pack : packs) longest_edge = std::max(longest_edge, pack.longest_edge);
   are_as_before = are_same && size() <= much * size_at_first_;

@@ -54,7 +54,7 @@ std::shared_ptr<std::remove_pointer_t<RTCDevice>> shared_device() {
 }
 
 // A point more than `far_away` half extents from the centre is compared with all triangles, because single precision cannot
-// separate triangles there.
+// distinguish the triangles at this distance.
 constexpr double far_away = 1e6;
 
 // Returns the radius, in the frame's units, that makes Embree visit every triangle whose computed distance from q is at most

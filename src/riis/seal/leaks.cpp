@@ -31,7 +31,7 @@ double length_that_cannot_leak(const Surface &surface, const Marks &marks) {
   return 2 * surface.band().sure_distance() * (1 - 0x1p-40) - 4 * surface.scene().rounding();
 }
 
-// The search of one thread and its memory.
+// The search of one thread, with its memory.
 template <class Edges>
 struct alignas(64) Finder {
   const SearchRequest *request = nullptr;

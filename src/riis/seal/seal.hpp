@@ -96,7 +96,7 @@ class OpenSets {
       b = root(b);
       if (a == b) return;
       if (replace(a < b ? b : a, a < b ? b : a, a < b ? a : b)) return;
-      // Another thread has given the higher root a parent meanwhile, so the loop tries again.
+      // Meanwhile another thread has given the higher root a parent, so the loop tries again.
     }
   }
 

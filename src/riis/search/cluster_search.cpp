@@ -351,8 +351,8 @@ class ClusterSearch {
     }
   }
 
-  // The pairs of a cluster's nodes and of triangles that the filter did not dismiss. The pairs are stored until double precision
-  // decides them.
+  // Pairs of a node of the cluster and a triangle, which the filter did not dismiss. The pairs are stored until double precision
+  // decides between the triangles.
   struct Pairs {
     const Open &cluster;
     Ties *ties;  // or null
@@ -361,7 +361,7 @@ class ClusterSearch {
     std::uint32_t nodes[leaves_per_cluster] = {};  // for each leaf, a bit for each node that has or had pairs
   };
 
-  // Sets the limits of a filter, for a limit in the surface's frame. Returns the filter's error.
+  // Computes the filter's limits for a distance limit in the surface's frame. Returns the filter's error.
   double limits_within(double limit, FilterLimits &limits) const {
     const double scale = groups_.frame.scale;
     // The first term is the filter's own error. The second term covers the rounding of the distances in double precision. The
@@ -374,8 +374,8 @@ class ClusterSearch {
     return error;
   }
 
-  // Prepares the filter for a band with an offset, so that it leaves out nodes on the other side (docs/theory/clusters.md, "One
-  // side").
+  // Prepares the filter for a band with an offset. The filter then leaves out nodes far behind the surface
+  // (docs/theory/clusters.md, "One side").
   void look_at_one_side(const Band &band, double error) {
     const double half_thickness = band.half_thickness * groups_.frame.scale;
     if (!(half_thickness <= large)) return;
@@ -439,7 +439,7 @@ class ClusterSearch {
                      .point);
   }
 
-  // One number for each of 16 boxes: the upper bound of its nodes' distances, in the surface's frame.
+  // For each of 16 boxes, an upper bound on the distances of the nodes in the box, in the surface's frame.
   struct UpperBounds {
     double of_box[leaves_per_cluster];
   };

@@ -125,11 +125,11 @@ struct SearchReport {
   std::int64_t n_unreached;  // the nodes that the neighbour search found only by its proof
 };
 
-// Every search fills FoundNodes in any order. A search that reads an unusable coordinate fails with RIIS_INVALID_MESH.
+// Every search fills FoundNodes, in no particular order. A search that reads an unusable coordinate fails with RIIS_INVALID_MESH.
 
 // Queries every node (paper, 4.2.1 "Exhaustive node iteration").
 SearchReport search_exhaustively(const SearchRequest &request, FoundNodes &found);
-// Queries the nodes of a grid's box.
+// Queries every node in a box of a grid.
 SearchReport search_exhaustively(const NodeSearch &request, const Grid &grid, const GridBox &box, FoundNodes &found);
 
 // A search measures distances in one of two ways: to a surface's triangles, or by another method of the surface. The code of
