@@ -171,7 +171,7 @@ struct Polyline {
 Polyline make_polyline(const Vector<Vec3> &points);
 
 // Returns a polyline that replaces a curve. Every segment is within max_error (> 0) of the curve. The t of a vertex is the
-// fraction of the curve's length up to the vertex, whereas the paper takes the fraction of the polyline's length. The vertex at t
+// fraction of the curve's length up to the vertex. The paper takes the fraction of the polyline's length instead. The vertex at t
 // is therefore the curve's point at t, whatever the tolerance.
 Polyline make_polyline(const Curve &curve, double max_error);
 // Makes the polyline of a curve that moves. On each segment, the velocity is estimated to be within max_bend of a linear

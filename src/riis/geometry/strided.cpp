@@ -21,7 +21,8 @@ struct Spread {
   }
 };
 
-// Takes two points at once, in three registers: x and y of the first point, x and y of the second point, and z of both points.
+// Takes two points at once, in three registers. These hold x and y of the first point, x and y of the second point, and z of
+// both.
 struct PairSpread {
   Spread xy[2], z;
   Two sum{};

@@ -180,9 +180,9 @@ void nearest_groups(const FilterTask &task, const Boxes &boxes, const int32_t *c
   for (int i = 0; i < 16; ++i) nearest[i] = static_cast<int32_t>(positions[i]);
 }
 
-// For a place p, let f(p) be the squared distance from p to a group's box, minus the squared distance from p to the point. f is
-// concave, and a sum with one term for each axis. The least f in a box is therefore the sum of the terms' least values. Each term
-// is least at one of the two ends of the box along its axis.
+// For a place p, let f(p) be the squared distance from p to a group's box, minus the squared distance from p to the point. The
+// function f is concave, and a sum with one term for each axis. The least f in a box is therefore the sum of the terms' least
+// values. Each term is least at one of the two ends of the box along its axis.
 void competing_groups(const FilterTask &task, const Boxes &boxes, const PointsOfBoxes &points,
                       const int32_t *candidates, int32_t n_candidates, uint16_t *competes) {
   const Floats zero = Floats::all(0), tolerance = Floats::load(points.tolerance);

@@ -17,12 +17,12 @@ constexpr int triangles_per_group = 16, nodes_per_leaf = 32, leaves_per_cluster 
 constexpr int groups_at_once = 8;
 constexpr int nodes_per_cluster = nodes_per_leaf * leaves_per_cluster;
 
-// Up to 16 neighbouring triangles abc, each in its own frame. The frame's axes are unit vectors: e along ab, f in the triangle's
-// plane at right angles to e, and g at right angles to the plane. A point p has the coordinates p.e + e_origin, p.f + f_origin
-// and p.g + g_origin, and the frame's origin is the middle of ab. In (e, f), the edge ac has the unit direction (ac_e, ac_f). A
-// point (e, f) has the coordinate e ac_e + f ac_f + ac_middle along ac, which is 0 at the middle of ac. Its coordinate across ac
-// is e ac_f - f ac_e + ac_side, which is positive on the triangle's side. Its coordinate across bc is f bc_e - e bc_f + bc_side.
-// Lanes without a triangle repeat the first triangle, except that their g_origin is beyond_limits.
+// Up to 16 neighbouring triangles abc, each in its own frame. The frame's axes are unit vectors. e is along ab, f is in the
+// triangle's plane at right angles to e, and g is at right angles to the plane. A point p has the coordinates p.e + e_origin, p.f
+// + f_origin and p.g + g_origin, and the frame's origin is the middle of ab. In (e, f), the edge ac has the unit direction (ac_e,
+// ac_f). A point (e, f) has the coordinate e ac_e + f ac_f + ac_middle along ac, which is 0 at the middle of ac. Its coordinate
+// across ac is e ac_f - f ac_e + ac_side, which is positive on the triangle's side. Its coordinate across bc is f bc_e - e bc_f +
+// bc_side. Lanes without a triangle repeat the first triangle, except that their g_origin is beyond_limits.
 struct alignas(64) TriangleGroup {
   float e[3][triangles_per_group], f[3][triangles_per_group], g[3][triangles_per_group];
   float e_origin[triangles_per_group], f_origin[triangles_per_group], g_origin[triangles_per_group];
@@ -171,8 +171,8 @@ struct alignas(64) VertexNumbers {
 };
 constexpr int uv_in_numbers = 3;
 
-// Data of eight triangles: the unit normal, twice the area, and two dot products. The first product is that of the two edges at
-// the first corner, and the second product is that of the two edges at the second corner.
+// Data of eight triangles: the unit normal, twice the area, and two dot products. The first product is of the two edges at the
+// first corner, and the second is of the two edges at the second corner.
 struct alignas(64) TriangleMeasures {
   double normal[3][pairs_at_once], twice_area[pairs_at_once], product_at_a[pairs_at_once], product_at_b[pairs_at_once];
 };

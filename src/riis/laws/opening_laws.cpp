@@ -125,8 +125,7 @@ riis_opening_switch_state advance(const riis_opening_switch &law, const riis_ope
     now.phase = opens ? RIIS_PHASE_OPENING : RIIS_PHASE_CLOSING;
     now.turn_time = time;
   }
-  // During a step, the valve moves in the phase that it had at the start of the step, because a change of phase becomes known
-  // only at the end.
+  // The phase at the start of a step holds for the whole step, because a change of phase becomes known only at the end.
   const bool is_opening = before.phase == RIIS_PHASE_OPENING;
   const double per_second = is_opening ? 1 / law.opening_duration : -1 / law.closing_duration;
   now.progress = std::clamp(before.progress + step * per_second, 0.0, 1.0);

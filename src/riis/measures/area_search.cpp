@@ -55,8 +55,8 @@ void AreaSearch::sample(double from, double to, std::int32_t n_samples, bool gro
   }
 }
 
-// If the area at this point is larger or smaller than at both neighbours, finds the extreme area between the neighbours, and adds
-// it to the points. Otherwise does nothing.
+// If the area here is larger or smaller than at both neighbours, finds the extreme area between them, and adds it to the points.
+// Otherwise does nothing.
 void AreaSearch::add_extreme(std::size_t at) {
   if (at == 0 || at + 1 == points_.size() || is_after_refused_[at] || is_after_refused_[at + 1]) return;
   const Point before = points_[at - 1], here = points_[at], after = points_[at + 1];

@@ -211,8 +211,8 @@ struct FoundView {
 };
 
 // Limits on the number of turns of the axis. From a good first axis, few turns suffice. More turns would do harm if a free edge
-// reaches as far out as the attachment, because each turn may choose the other of the two as the farthest edge. A bad first axis
-// needs many turns.
+// is as far out as the attachment: each turn may then take one or the other as the farthest edge. A bad first axis needs many
+// turns.
 constexpr int few_turns = 4, many_turns = 40;
 
 // Repeats two steps at most n_turns times: turns the axis to the vector area of the farthest edges, and moves the centre to the
@@ -377,9 +377,9 @@ std::optional<FoundView> view_of_arrays(const LeafletBoundary &boundary, const B
 
 // Returns the factor by which the pieces must grow about their centroids until the first two neighbours meet. If a factor above
 // 1.05 would be needed, the gaps are probably intended. The result then falls as the needed factor rises, and is 1 if that factor
-// is at least 1.1. Where the angle between the outline and a ray from the centre is below 45 degrees, the outline follows the end
-// of a piece, not its attachment. A ray through the gap between two neighbours may meet a third piece, which is nearer to the
-// centre. The end of a piece is therefore joined to the end that is closest after the growth.
+// is at least 1.1. Where the outline is at less than 45 degrees to a ray from the centre, it follows the end of a piece, not its
+// attachment. A ray through the gap between two neighbours may meet a third piece, which is nearer to the centre. The end of a
+// piece is therefore joined to the end that is closest after the growth.
 double growth_of(const LeafletBoundary &boundary, const SeenParts &from) {
   constexpr double most = 0.05, closeness = 0.15, widest_gap = 0.25;  // shares, and the tangent of an angle
   struct Run {

@@ -26,8 +26,8 @@ namespace riis {
 // The orifice of a valve is the part of an outline's area that no triangle covers, seen along the axis. The triangles come from a
 // valve or from arrays. The results are areas and a perimeter.
 
-// The factor c of the effective area A - c eps P. The band around the rim narrows an orifice by the distance c eps: it blocks the
-// flow as much as a thin wall whose rim extends c eps farther into the orifice. Each number below is the mean of c for two
+// The factor c of the effective area A - c eps P. The band around the rim narrows an orifice by the distance c eps. A thin wall
+// would block the flow as much if its rim reached c eps farther into the orifice. Each number below is the mean of c for two
 // valves, which docs/validation.md compares with walls in body-fitted meshes. For the open bileaflet valve, c is 0.98 (round rim)
 // and 0.95 (cut rim). For the open trileaflet valve, c is 0.70 (round rim) and 0.46 (cut rim).
 inline constexpr double rim_reach_round = 0.84;  // RIIS_RIM_ROUND

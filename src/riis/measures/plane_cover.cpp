@@ -71,8 +71,8 @@ double length_along(double dx, double dy, bool counts_equal) {
   return std::sqrt(1 + slope * slope);
 }
 
-// Calls visit(i, x) for each line that the edge meets, except for a line through the upper end. x does not depend on the order of
-// the edge's ends. Two triangles with a common edge therefore leave no gap.
+// Calls visit(i, x) for each line that the edge meets, except for a line through the upper end. The value of x does not depend on
+// the order of the edge's ends. Two triangles with a common edge therefore leave no gap.
 template <class Visit>
 void for_each_cut(const ScanLines &lines, PlanePoint a, PlanePoint b, const Visit &visit) {
   if (b[1] < a[1]) std::swap(a, b);

@@ -182,8 +182,8 @@ Through<Vec3> rest_of_offsets(const MovedPatch &moved, const SideMaterial &base,
     const Vec3 move_of_base = now.mapped_base[k] - before.mapped_base[k],
                move_of_edge = now.mapped_edge[k] - before.mapped_edge[k];
     // The mapped middle lies beside the middle of the warped arc. The difference between the displacements of these two points is
-    // computed from the slope of the displacement. For an arc at a side of the patch, only steps of v are used, because the
-    // neighbouring patch has the same arc but other steps of u.
+    // computed from the slope of the displacement. An arc at a side of the patch also belongs to the neighbouring patch, which
+    // has other steps of u. For such an arc, only steps of v are used.
     const Vec3 across = now.edge[k] - now.base[k], beside = now.mapped_middle[k] - now.middle(k);
     const bool is_side = k == 0 || k == last;
     const StepsBeside steps =

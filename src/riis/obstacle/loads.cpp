@@ -59,7 +59,7 @@ class Holds {
     return hold;
   }
 
-  // Returns the weight w(d) of a point at the distance d from the edges. w is 1 on the edges, and 0 from the radius on.
+  // Returns the weight w(d) of a point at the distance d from the edges. The weight is 1 on the edges, and 0 from the radius on.
   double share(const Hold &hold, Vec3 point) const {
     const double radius_sq = loads_.radius * loads_.radius;
     if (!(hold.bounds.distance_sq_to(point) < radius_sq)) return 0;

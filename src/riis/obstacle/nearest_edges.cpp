@@ -105,8 +105,8 @@ std::int64_t NearestEdges::of(std::int32_t leaflet_id, Vec3 point) const {
   if (!tree) return -1;
   double least = std::numeric_limits<double>::infinity();
   std::int64_t nearest = -1;
-  // Rounding may make a box seem slightly farther than an edge inside it. The bound is therefore made slightly smaller, so that
-  // the search never skips a box whose edge is as near as the nearest edge so far.
+  // Rounding may make a box seem slightly farther than an edge inside it. The bound is therefore made slightly smaller. The
+  // search thus never skips a box with an edge that is as near as the nearest edge so far.
   const auto bound = [&](std::int64_t box) { return (1 - 1e-12) * view(boxes_)[box].bounds.distance_sq_to(point); };
   std::array<std::int64_t, 64> open;  // boxes still to be visited: at most one on each of fewer than 64 levels
   std::size_t n_open = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Minimises a function of (u,v) in [0,1]^2 by Powell's method: M. J. D. Powell, "An efficient method for finding the minimum of a
-// function of several variables without calculating derivatives", The Computer Journal 7 (1964) 155-162, with the modified rule
-// of this paper for the direction that is dropped. Lines are searched by Brent's method: R. P. Brent, "Algorithms for
+// function of several variables without calculating derivatives", The Computer Journal 7 (1964) 155-162. The direction that is
+// dropped follows from the modified rule of Powell's paper. Lines are searched by Brent's method: R. P. Brent, "Algorithms for
 // Minimization without Derivatives" (1973), chapter 5.
 // The result is a local minimum whose value is at most the value at the start.
 #pragma once

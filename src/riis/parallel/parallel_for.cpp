@@ -99,8 +99,8 @@ std::int64_t nanoseconds() noexcept {
 }
 
 // A loop on one thread does not use OpenMP, because OpenMP's run-time ends the process if memory is lacking. If there are fewer
-// blocks than threads, some threads stay idle. A loop on fewer threads would be slower in the end: GCC's run-time ends the
-// threads that a loop leaves out, so the next loop has to wait for new threads.
+// blocks than threads, some threads stay idle. A loop on fewer threads would delay the next loop, because GCC's run-time ends the
+// threads that a loop leaves out, and later has to start new ones.
 int openmp_for(std::int64_t n_blocks, int n_threads, LoopBody body, TimesOfCaller *of_caller) {
   if (n_blocks <= 1 || n_threads == 1 || !begin_threads()) return run_alone(n_blocks, body);
   Blocks blocks(n_blocks, n_threads, body);
@@ -156,8 +156,8 @@ int parallel_for(std::int64_t n_blocks, int n_threads, LoopBody body) {
   return team_for(n_blocks, n_threads, body, loop_choice);
 #else
   const std::int64_t begin = nanoseconds();
-  // If there are more threads than processors, some thread waits for a processor in every loop of OpenMP, and all other threads
-  // wait for that thread.
+  // If there are more threads than processors, some thread has to wait for a processor in every loop of OpenMP. All other threads
+  // then wait for it.
   if (n_threads > processors_of_machine() || loop_choice.takes_team(begin))
     return team_for(n_blocks, n_threads, body, loop_choice);
   TimesOfCaller of_caller{begin, begin};

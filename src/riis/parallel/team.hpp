@@ -22,8 +22,8 @@ int run_by_team(int n_threads, void (*work)(void *context, int thread), void *co
 // OpenMP's next long wait comes after only a few loops, the machine is busy. Teams then run the loops for twice as long as
 // before. A team also loses time if another process interrupts one of its threads inside a block. The calling thread therefore
 // begins a team's loop alone. The time after which it calls the team is the mean time that recent loops lost by calling their
-// teams. If this loop's team loses no more than that mean time, the loop takes at most twice as long as without the team, and at
-// most twice as long as with the team from the beginning. All times are in nanoseconds.
+// teams. Suppose that this loop's team loses no more than that mean time. The loop then takes at most twice as long as without
+// the team, or as with the team from the beginning. All times are in nanoseconds.
 class LoopChoice {
  public:
   static constexpr std::int64_t long_wait = 2'000'000, first_pause = 250'000'000, longest_pause = 2'000'000'000;
@@ -58,7 +58,7 @@ class LoopChoice {
     return mean < least_loss ? 0 : static_cast<std::int64_t>(mean);
   }
   // Records a loop that called a team and ended now. `lost` is the time that the calling thread waited at the end, minus the time
-  // that it would have needed to do the other threads' work itself.
+  // that it would have needed for the work of the other threads.
   void record_team(std::int64_t lost, std::int64_t now) noexcept {
     const double before = mean_loss(now), more = static_cast<double>(std::max<std::int64_t>(lost, 0)) - before;
     mean_loss_.store(before + more / loops_in_mean, std::memory_order_relaxed);

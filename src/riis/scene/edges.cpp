@@ -104,8 +104,8 @@ class Cancelling {
     }
   };
 
-  // Looks for an edge in the opposite direction that covers a part of edge i, from one end of edge i to a point on it. Removes
-  // the found edge, and shortens edge i to the remaining part. Returns false if there is no such edge.
+  // Looks for an edge in the opposite direction that covers edge i from one end up to some point of edge i. Removes the found
+  // edge, and shortens edge i to the remaining part. Returns false if there is no such edge.
   bool shorten(std::size_t i, Ends &here, const Ends &there) {
     const OpenEdge edge = edges_[i];
     for (auto [at, last] = there.with.equal_range(edge.*here.end); at != last; ++at) {

@@ -49,8 +49,8 @@ struct TriangleGroups {
   std::vector<TriangleGroup> groups;
   Bounds of_all;  // bounds of all corners, in the set's own coordinates
   std::vector<GroupBounds> bounds;
-  // A pack consists of groups_per_pack successive groups, or of fewer at the end. Of the bounds of a pack, only these are set:
-  // the box along the coordinate axes, the longest edge, and the corner, which is the corner of one of the groups.
+  // A pack consists of groups_per_pack successive groups, or of fewer at the end. Only these bounds of a pack are set: the box
+  // along the coordinate axes, the longest edge, and the corner, which is the corner of one group.
   std::vector<GroupBounds> packs;
   float longest_edge = 0;
   // True if the groups have the same triangles as before, and are not much larger than before. A tree over the groups can then be

@@ -60,10 +60,10 @@ constexpr double far_away = 1e6;
 // Returns the radius, in the frame's units, that makes Embree visit every triangle whose computed distance from q is at most
 // `distance`. Embree works in single precision. It compares the square of the radius with the squared distance from the rounded
 // point to a box, which is rounded outwards. The unit roundoff is e = 2^-24. Rounding moves the point by at most sqrt(3) e
-// max|q|. The subtractions, squares and sums together have a relative error of at most 6 e, and the square of the radius has one
-// of at most e. The factor 1 + 2^-20 = 1 + 16 e and the term 4 e max|q| cover all these errors, and this function's own rounding.
-// `rounding` covers the rounding of the decision kernel. The term 2^-60 keeps the square of the radius in the range of normal
-// floats.
+// max|q|. The subtractions, squares and sums together have a relative error of at most 6 e. The square of the radius has a
+// relative error of at most e. The factor 1 + 2^-20 = 1 + 16 e and the term 4 e max|q| cover all these errors, and this
+// function's own rounding. `rounding` covers the rounding of the decision kernel. The term 2^-60 keeps the square of the radius
+// in the range of normal floats.
 float inflated_radius(double distance, Vec3 q, double rounding) {
   const double largest = largest_coordinate(q);
   return round_up(distance * (1.0 + 0x1p-20) + largest * 0x1p-22 + rounding + 0x1p-60);

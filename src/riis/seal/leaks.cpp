@@ -21,8 +21,8 @@ struct Edge {
   bool operator==(const Edge &other) const { return a == other.a && b == other.b; }
 };
 
-// Returns a length up to which no edge can leak. If an edge of at most this length meets the surface, one of its nodes is at most
-// half the length away from the point where they meet. This node is thus within the half thickness, and therefore marked. With an
+// Returns a length up to which no edge can leak. If an edge of at most this length meets the surface in a point, one of its nodes
+// is at most half the length away from this point. This node is thus within the half thickness, and therefore marked. With an
 // offset, the length is smaller, because only nodes within a smaller distance are certainly in the band. The length includes
 // margins of several times the rounding error, so it also holds for computed distances. Returns -1, so that no edge counts as
 // short, in two cases: marks may be missing, or the distances were not measured to the triangles.

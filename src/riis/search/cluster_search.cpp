@@ -188,8 +188,8 @@ class ClusterSearch {
     n_threads_ = std::max(n_threads_, n_ran);
   }
 
-  // Searches with a limit that excludes few or no triangles. Instead of the limit, each box of nodes has its own bound, the
-  // distance from a point of the surface near the box (docs/theory/clusters.md, "Every distance").
+  // Searches with a limit that excludes few or no triangles. Each box of nodes has its own bound instead: the distance from a
+  // point of the surface near the box (docs/theory/clusters.md, "Every distance").
   void search_every_cluster() {
     const auto n = nodes_.n_clusters();
     // If several threads share the clusters of a region, each thread has to compare the region with the groups.

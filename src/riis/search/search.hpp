@@ -41,9 +41,9 @@ struct FoundNode {
 };
 static_assert(sizeof(FoundNode) == 16);
 
-// The list of each thread gets room for twice the length of the longest list, because the threads' shares of the nodes differ
-// from step to step. The room is rounded up to a power of two. A step that finds slightly more nodes than all previous steps thus
-// allocates no memory.
+// Each thread's list gets room for twice the length of the longest list, because a thread finds more nodes in one step than in
+// another. The room is rounded up to a power of two. A step that finds slightly more nodes than all previous steps thus allocates
+// no memory.
 template <class Threads, class ListOf>
 void make_room(Threads &threads, const ListOf &list_of) {
   std::size_t largest = 0, room = 1;
