@@ -73,8 +73,8 @@ class Flattening {
   }
 
   // The error of a part is the largest distance between part and chord at equal shares of their lengths. As for linear
-  // interpolation, it is at most length^2 / 8 times the largest curvature. Joints do not change this bound, because the direction
-  // is continuous there. If the curve's derivative may be 0, the length bounds the error.
+  // interpolation, this error is at most length^2 / 8 times the largest curvature. Joints do not change this bound, because the
+  // direction is continuous there. If the curve's derivative may be 0, the length bounds the error.
   template <class LargestCurvature>
   bool accept(Vec3 last, double distance_to_chord, double part_length, const LargestCurvature &largest_curvature,
               double t1) {

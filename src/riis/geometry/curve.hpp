@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Curves of one or several Bézier spans, parametrised by the share of the length.
+// Curves of one or several Bézier spans, parametrised by the share of the length: 0 at the first point, 1 at the last.
 // This file finds points and parts of a curve by share, and makes polylines that approximate a curve.
 #pragma once
 
@@ -59,7 +59,7 @@ class Curve {
   // to the end of the span. Otherwise the part leads from the start of the span to this point.
   Bezier span_beside(double share, bool after) const;
 
-  // Returns the part from share0 to share1, share0 < share1.
+  // Returns the part from share0 to share1, where share0 < share1.
   Curve between(double share0, double share1) const { return Curve(spans_between(on_span(share0), on_span(share1))); }
   // Returns the spans of the part from one point to a later point.
   Vector<Bezier> spans_between(const PointOnSpan &from, const PointOnSpan &to) const;

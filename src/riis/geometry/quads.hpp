@@ -25,7 +25,7 @@ struct Quad {
 // bounds the distance between the quad and its two triangles at the same (u,v).
 inline double quad_flatness(const Quad &quad) { return 0.25 * length((quad.p00 - quad.p10) + (quad.p11 - quad.p01)); }
 
-// Bounds the distance between the bilinear quad and its two triangles as surfaces. The bound is kappa_quad in general. Take a
+// Bounds the distance between two surfaces, the bilinear quad and its two triangles. The bound is kappa_quad in general. Take a
 // plane parallel to both diagonals. If the quad and the triangles are graphs over this plane, half the twist's component normal
 // to the plane is a bound (docs/theory/triangles.md).
 double split_error(const Quad &quad);

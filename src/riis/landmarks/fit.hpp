@@ -135,7 +135,8 @@ struct LandmarkFit {
   std::size_t n_unknowns;  // sizes that are not held, and the pose
 };
 
-// Fits the model's sizes and the pose. Starts with the model's sizes, once from each of the poses, and keeps the best result.
+// Fits the model's sizes and the pose. Runs the fit once from each of the poses, always beginning with the model's sizes, and
+// keeps the best result.
 LandmarkFit fit(LandmarkModel &model, const Landmarks &landmarks, const std::vector<Pose> &starts);
 
 // Returns whether the simple model is as good as the general model, which means that the general model fits the landmarks better

@@ -102,8 +102,8 @@ Minimum minimize(const Residuals &residuals, std::size_t n_residuals, double siz
       gradient[i] = std::inner_product(columns[i].begin(), columns[i].end(), r.begin(), 0.0);
       largest = std::max(largest, matrix[i * n + i]);
     }
-    // An unknown that is at its bound and would move outwards is left out of the step. It thus does not change the steps of the
-    // other unknowns.
+    // An unknown that is at its bound and would move beyond it is left out of the step. This unknown thus does not change the
+    // steps of the others.
     for (std::size_t i = 0; i < n; ++i) {
       const bool rests = gradient[i] > 0 ? x[i] <= bounds.lower[i] : x[i] >= bounds.upper[i];
       if (!rests) continue;

@@ -194,7 +194,7 @@ double area_of_corners(const std::vector<PlanePoint> &corners) {
   return area;
 }
 
-// Returns the area of a polygon around (0, 0), divided by the area of a circle with the same length.
+// Returns the area of a polygon around (0, 0), divided by the area of a circle with the same perimeter.
 double roundness_of(const std::vector<PlanePoint> &corners) {
   double whole = 0;
   for (std::size_t i = 0; i < corners.size(); ++i) {

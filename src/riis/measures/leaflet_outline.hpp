@@ -49,8 +49,8 @@ struct ValveDirections {
   bool keeps_axis;      // whether the outline is seen along `axis`, or else along the vector area of its edges
 };
 
-// Returns the outline, with the axis on the side of the valve's axis. Triangles from arrays have no valve, so their axis is on
-// the side of the boundary's normal. Returns nothing if the edges do not surround a centre, or enclose no area.
+// Returns the outline and its axis, which points to the side of the valve's axis. Triangles from arrays have no valve, so their
+// axis points to the side of the boundary's normal. Returns nothing if the edges do not surround a centre, or enclose no area.
 std::optional<SeenOutline> outline_of_leaflets(const LeafletBoundary &boundary,
                                                const std::optional<ValveDirections> &valve);
 

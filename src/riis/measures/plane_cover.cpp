@@ -147,7 +147,7 @@ class Covered {
  private:
   static constexpr bool has_edges = std::is_same_v<AnEnd, End>;
 
-  // Returns an end on an edge in the direction (dx, dy).
+  // Returns the end of an interval at x, where an edge with the direction (dx, dy) crosses the line.
   AnEnd end_at(double x, double dx, double dy) const {
     if constexpr (has_edges)
       return {x, length_along(dx, dy, counts_equal_)};

@@ -137,7 +137,7 @@ class RowMaker {
     UnfilledVector<Column> columns;     // columns of one block
   };
 
-  // Makes the rows of each block in the memory of its entries. Writes the lengths of the rows into `offsets`.
+  // Makes the rows of each block, in the memory that holds the block's entries. Writes the lengths of the rows into `offsets`.
   void make_rows(UnfilledVector<std::int64_t> &offsets) {
     resize(offsets, lists_.n_nodes + 1);
     view(offsets)[0] = 0;
@@ -241,7 +241,8 @@ void check_count(const char *field, std::int64_t n, std::int64_t least) {
          max_count);
 }
 
-// The lists from which the neighbours of cells are made. Cells take the place of nodes, and an entry is a face between two cells.
+// The type Lists from which the neighbours of cells are made. Cells take the place of nodes, and an entry is a face between two
+// cells.
 struct InnerFaces {
   static constexpr std::int64_t most_neighbors = 1;
 
@@ -266,7 +267,7 @@ struct InnerFaces {
   void prefetch(std::int64_t) const {}
 };
 
-// The lists of a grid, in which each node has one entry.
+// The type Lists for a grid, in which each node has one entry.
 struct GridNodes {
   static constexpr std::int64_t most_neighbors = 6;
 

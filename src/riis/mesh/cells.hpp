@@ -72,7 +72,7 @@ struct CellNodes {
   std::int64_t nodes_per_cell, base, first_offset;
 
   std::int64_t begin(std::int64_t cell) const { return offsets ? offsets[cell] - first_offset : cell * nodes_per_cell; }
-  // Returns the node at a position in the cells' lists.
+  // Returns the node at a position in the list of all cells' nodes.
   std::int64_t node_at(std::int64_t position) const { return ids[position] - base; }
   void prefetch(std::int64_t position) const { __builtin_prefetch(ids + position); }
 };
@@ -146,7 +146,8 @@ class Cells {
   CellNodes<Id> nodes_;
 };
 
-// The lists that RowMaker takes (adjacency.cpp), for cells of one shape. An entry is a position in the cells' lists.
+// The type Lists that RowMaker needs (adjacency.cpp), for cells of one shape. An entry is a position in the list of all cells'
+// nodes.
 template <class Id, const CellShape &shape>
 struct CellsOfOneShape {
   static constexpr std::int64_t most_neighbors = neighbors_in<shape>.most;
@@ -171,7 +172,7 @@ struct CellsOfOneShape {
   void prefetch(std::int64_t entry) const { nodes.prefetch(entry); }
 };
 
-// The lists of cells of any shapes. An entry is a cell.
+// The type Lists that RowMaker needs, for cells of any shapes. An entry is a cell.
 template <class Id>
 struct CellsOfAnyShape {
   static constexpr std::int64_t most_neighbors = 7;  // a node listed twice in a cell may be joined to all other nodes

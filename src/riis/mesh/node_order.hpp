@@ -35,7 +35,7 @@ struct NodeFrame {
   Vec3 centre{0, 0, 0};
   double scale = 1;
 
-  // Takes a point that lies within the nodes' box to the frame.
+  // Takes a point to the frame. The point must lie within the nodes' box.
   void place_inner(Vec3 p, float *x) const {
     const Vec3 q = scale * (p - centre);
     x[0] = static_cast<float>(q.x), x[1] = static_cast<float>(q.y), x[2] = static_cast<float>(q.z);

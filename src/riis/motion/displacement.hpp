@@ -112,8 +112,9 @@ class RestInside {
 
 // The displacement S_now(u,v) - S_before(u,v) of a patch at the vertices of its grid and of its subdivided quads. Both states are
 // evaluated on the smooth patches. On the sides, the curves are evaluated. Inside, the patch's combination of its sides is
-// evaluated. A point is identified in both states by its (u,v) alone, so the triangles of the two states may differ. SideMaterial
-// matches the points of a warped side. If the sides and the bulge did not change, the result is exactly 0.
+// evaluated. A point is identified in both states by its (u,v) alone, so the triangles of the two states may differ. On a warped
+// side, SideMaterial finds where each point was in the earlier state. If the sides and the bulge did not change, the result is
+// exactly 0.
 class PatchDisplacement {
  public:
   // Computes the displacements at the grid's vertices. The grid must still have its lines.

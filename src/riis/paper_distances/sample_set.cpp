@@ -32,12 +32,12 @@ double covering_radius(const QuadGrid &grid, double h_u, double h_v) {
 }
 
 SampleCounts samples_within(const QuadGrid &grid, double radius) {
-  // Where grid lines meet at right angles, samples with these steps form squares. A negligible width or height of a patch is
-  // spanned by one step.
+  // Where grid lines meet at right angles, samples with these steps form squares. If the width or height of a patch is
+  // negligible, one step spans it.
   const Speeds speeds = largest_speeds(grid);
   const double h_u = std::min(1.0, radius / speeds.u), h_v = std::min(1.0, radius / speeds.v);
   const double of_squares = covering_radius(grid, h_u, h_v);
-  // If both steps are multiplied by a factor, so is the covering radius. The right factor thus makes the covering radius equal to
+  // If both steps are multiplied by a factor, so is the covering radius. The factor is chosen so that the covering radius equals
   // `radius`. A step above 1 counts as a step of 1.
   const double factor = of_squares > 0 ? radius / of_squares : 1;
   return {n_steps(factor * h_u), n_steps(factor * h_v)};

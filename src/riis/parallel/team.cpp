@@ -101,8 +101,8 @@ class Team {
     const State closed{state_.load(std::memory_order_relaxed)};
     const auto n = static_cast<std::uint64_t>(n_places);
     state_.store(closed.word + State::one_loop + n * State::one_place);
-    // Workers that are awake notice the new loop by themselves. Only as many sleeping workers are woken as are needed in
-    // addition.
+    // Workers that are awake notice the new loop by themselves. If the loop has places for more workers, sleeping workers are
+    // woken.
     const int n_awake = n_workers_ - n_asleep_.load();
     for (int n_to_wake = take_asleep(n_places - n_awake); n_to_wake > 0; --n_to_wake) may_start_.post();
     work(context, 0);

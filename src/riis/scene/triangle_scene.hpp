@@ -70,8 +70,8 @@ struct Ties {
     candidates.push_back({point, other});
   }
 
-  // Keeps only the candidates that are ties, after the search has decided all points. The function closest_to(point) returns the
-  // closest triangle, or the position -1 if there is no triangle. The function node_of(point) returns the node.
+  // After the search has decided all points, keeps only the candidates that are ties. The function closest_to(point) returns the
+  // closest triangle, or a triangle with the position -1 if there is none. The function node_of(point) returns the node.
   template <class ClosestTo, class NodeOf>
   void settle(const ClosestTo &closest_to, const NodeOf &node_of) {
     for (const Tie &tie : candidates) {

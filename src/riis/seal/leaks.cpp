@@ -188,7 +188,8 @@ Leaks listed(const SearchRequest &request, const std::vector<Edge> &edges) {
       view(list.node_id)[2 * i] = edge.a;
       view(list.node_id)[2 * i + 1] = edge.b;
       view(list.length)[i] = edge.length;
-      // The least half thickness at which at least one end of the edge is marked. It has the same bits as in a marking.
+      // The least half thickness at which at least one end of the edge is marked. The computed number has the same bits as in a
+      // marking.
       view(list.distance)[i] =
           std::min(places.of(nodes[edge.a]).half_thickness, places.of(nodes[edge.b]).half_thickness);
     }

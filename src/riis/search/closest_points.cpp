@@ -219,7 +219,7 @@ class ClosestPoints {
     return blocks;
   }
 
-  // Makes items of those points of a range that are searched over clusters. Returns whether there are also far points.
+  // Makes items from those points of a range that are searched over clusters. Returns whether there are also far points.
   bool gather(const Range &all, int n_threads, Batch &batch) const {
     const std::int64_t n = all.end - all.begin;
     resize(batch.items, n);

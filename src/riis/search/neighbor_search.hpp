@@ -62,7 +62,8 @@ class NeighborScratch {
 SearchReport search_neighbors(const SearchRequest &request, const std::vector<std::int64_t> &last,
                               NeighborScratch &scratch, FoundNodes &found);
 
-// Runs exactly the algorithm of the paper, which has no proof that the remaining nodes are far. The mesh must have an adjacency.
+// Runs exactly the algorithm of the paper, which does not prove that the remaining nodes are far. The mesh must have an
+// adjacency.
 SearchReport search_as_the_paper(const SearchRequest &request, NeighborScratch &scratch, FoundNodes &found);
 
 }  // namespace riis
