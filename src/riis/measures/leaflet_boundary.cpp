@@ -45,7 +45,7 @@ struct TriangleSide {
   bool begins_at(std::int64_t end) const { return (end == low) == is_upwards; }
 };
 
-// A triangle beside another triangle of its piece.
+// A neighbour of a triangle. Both triangles belong to the same piece.
 struct Neighbour {
   std::int64_t triangle;
   bool is_turned;  // has the other winding

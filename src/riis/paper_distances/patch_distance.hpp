@@ -40,7 +40,8 @@ struct PlacedPatches {
   // max_error times the scale.
   std::vector<double> errors;
 
-  // max_error is in the units of the patches before their placement. Fails with RIIS_LIMIT_EXCEEDED if make_grids does.
+  // max_error is in the units of the patches before their placement. Fails with RIIS_LIMIT_EXCEEDED in the same cases as
+  // make_grids.
   PlacedPatches(const PatchSet &set, double max_error, const Placement &placement, bool flip_normals);
   double largest_error() const;
 };
