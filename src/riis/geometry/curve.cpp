@@ -72,10 +72,9 @@ class Flattening {
     return bend_ && t1 - t0 > narrowest_for_velocity && bend_->off_linear(t0, t1) > max_bend_;
   }
 
-  // A point of the part is compared with the point at the same fraction of the chord's length. The error is the largest distance
-  // between two such points. As for linear interpolation, the error is at most length^2 / 8 times the largest curvature. Joints
-  // do not change this bound, because the direction is continuous there. If the curve's derivative may be 0, the error is at most
-  // the part's length.
+  // The error of a part is the largest distance between part and chord at equal shares of their lengths. As for linear
+  // interpolation, this error is at most length^2 / 8 times the largest curvature. Joints do not change this bound, because the
+  // direction is continuous there. If the curve's derivative may be 0, the length bounds the error.
   template <class LargestCurvature>
   bool accept(Vec3 last, double distance_to_chord, double part_length, const LargestCurvature &largest_curvature,
               double t1) {
@@ -94,7 +93,7 @@ class Flattening {
            ": tolerance * half_thickness is too small for it");
   }
 
-  // A Bézier curve is no farther from a segment than the farthest of its control points.
+  // No point of a Bézier curve is farther from a segment than the farthest control point of the curve.
   static double distance_to_chord(const Curve &part) {
     double largest = 0;
     for (const Bezier &span : part.spans())
@@ -234,14 +233,14 @@ VelocityBend::VelocityBend(const Curve &curve, const Vector<Bezier> &velocity) {
   const double curve_length = curve.length();
   const auto bend_at = [&](const Sample &at, double u) {
     if (!(at.speed > 0)) return 0.0;
-    // The rate of change of the parameter that belongs to a fixed share u of the length.
+    // While the curve moves, the parameter of the point at a fixed share u of the length changes at this rate.
     const double t_rate = -(at.rate_behind - u * rate_total) / at.speed;
     const Vec3 first_rate = at.rate_first + t_rate * at.second, second_rate = at.rate_second + t_rate * at.third;
     const double speed_rate = dot(at.tangent, first_rate), inverse = 1 / at.speed;
     const Vec3 tangent_rate = inverse * (first_rate - speed_rate * at.tangent);
     const double along = dot(at.tangent, at.second);
     // The curvature vector and its rate of change with the opening. The curvature vector times the squared length of the curve is
-    // the second derivative of the point by the share.
+    // the second derivative of the point with respect to the share.
     const Vec3 curvature = inverse * inverse * (at.second - along * at.tangent);
     const Vec3 curvature_rate = inverse * inverse *
                                     (second_rate - along * tangent_rate -
@@ -277,7 +276,7 @@ Flattened flatten(const Curve &curve, double max_error, const VelocityBend *bend
 
 namespace {
 
-// Returns the part of a span from t0 to t1.
+// Returns the part of a span between the parameters t0 and t1.
 Bezier part_of(const Bezier &span, double t0, double t1) {
   const Bezier left = t1 < 1 ? split(span, t1).first : span;
   return t0 > 0 ? split(left, t0 / t1).second : left;
@@ -364,7 +363,7 @@ Polyline make_polyline(const Vector<Vec3> &points) {
   Polyline polyline{{points.front()}, {0.0}, {}, 0.0};
   for (const Vec3 &point : points) {
     const double step = distance(polyline.points.back(), point);
-    // A step too short to change the sum would give two points the same t, so it is left out.
+    // If a step is too short to change the sum, its two ends would have the same t. The second end is therefore left out.
     if (!(polyline.length + step > polyline.length)) continue;
     polyline.length += step;
     polyline.points.push_back(point);
@@ -372,7 +371,7 @@ Polyline make_polyline(const Vector<Vec3> &points) {
     polyline.errors.push_back(0.0);
   }
   if (polyline.length > 0) {
-    // Neighbours share the last point. It is therefore kept to the last bit, even if the step to it was left out.
+    // Neighbouring curves share the last point, so the polyline ends exactly there, even if the loop left this point out.
     polyline.points.back() = points.back();
     for (double &t : polyline.t) t /= polyline.length;
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Curves of one or several Bézier spans, parametrised by the share of the length.
+// Curves of one or several Bézier spans, parametrised by the share of the length: 0 at the first point, 1 at the last.
 // This file finds points and parts of a curve by share, and makes polylines that approximate a curve.
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace riis {
 
-// A share of a curve's length that counts as 0.
+// Shares of a curve's length up to this number count as 0.
 inline constexpr double negligible_share = 1e-14;
 
 // A point of a curve: the index of its span, and the parameter on that span.
@@ -59,14 +59,15 @@ class Curve {
   // to the end of the span. Otherwise the part leads from the start of the span to this point.
   Bezier span_beside(double share, bool after) const;
 
-  // Returns the part from share0 to share1, share0 < share1.
+  // Returns the part from share0 to share1, where share0 < share1.
   Curve between(double share0, double share1) const { return Curve(spans_between(on_span(share0), on_span(share1))); }
   // Returns the spans of the part from one point to a later point.
   Vector<Bezier> spans_between(const PointOnSpan &from, const PointOnSpan &to) const;
 
   Curve reversed() const;
 
-  // Returns the curve with its ends moved to the ends of neighbouring curves, to which they are equal except for rounding.
+  // Returns the curve with its ends moved exactly to `first` and `last`. These are ends of neighbouring curves, and differ from
+  // the curve's own ends only by rounding.
   Curve through(Vec3 first, Vec3 last) const;
 
  private:
@@ -80,14 +81,14 @@ void reverse(Vector<Bezier> &spans);
 // Returns whether both curves have exactly the same control points.
 bool are_equal(const Curve &a, const Curve &b);
 
-// Estimates how far the velocity of a curve's points deviates from its linear interpolation along the curve. Each point keeps
-// its share of the length while the curve moves.
+// Estimates how far the velocity of a curve's points deviates from its linear interpolation along the curve. While the curve
+// moves, each point stays at the same fraction of the length.
 class VelocityBend {
  public:
   // The control points of `velocity` are the velocities of the control points of the curve's spans.
   VelocityBend(const Curve &curve, const Vector<Bezier> &velocity);
 
-  // Estimates how far the velocity is from linear interpolation between u0 and u1, which are shares of the curve.
+  // Estimates how far the velocity deviates from its linear interpolation between the shares u0 and u1 of the length.
   double off_linear(double u0, double u1) const;
 
  private:
@@ -114,12 +115,12 @@ struct Flattened {
 };
 
 // Halves the curve until two conditions hold for every part. First, the part's flatness shows that the part lies within max_error
-// (> 0) of its chord. A Bézier span is at most 3/4 (cubic) or 1/2 (quadratic) of its flatness away from its chord. Second, the
-// part and its chord are at most max_error apart at equal shares of their lengths. With `bend`, a part is also halved if its
-// velocity is estimated to differ from a linear function by more than max_bend. Parts are halved by length, whereas the paper
-// (algorithm "Recursive de Casteljau subdivision") halves the parameter. The shares of any two curves are therefore binary
-// fractions: they agree to the last bit or differ by at least one part, so no slivers arise. A common point of two parts appears
-// once. Fails with RIIS_LIMIT_EXCEEDED for more than 2^20 parts.
+// (> 0) of its chord. The distance of a Bézier span from its chord is at most 3/4 (cubic) or 1/2 (quadratic) of the flatness.
+// Second, the part and its chord are at most max_error apart at equal shares of their lengths. With `bend`, a part is also halved
+// if its velocity is estimated to differ from a linear function by more than max_bend. Parts are halved by length, whereas the
+// paper (algorithm "Recursive de Casteljau subdivision") halves the parameter. The shares of any two curves are therefore binary
+// fractions: they agree to the last bit or differ by at least one part, so no slivers arise. The common point of two successive
+// parts appears only once in the result. Fails with RIIS_LIMIT_EXCEEDED for more than 2^20 parts.
 Flattened flatten(const Curve &curve, double max_error, const VelocityBend *bend = nullptr, double max_bend = 0);
 
 // Points of a curve at many shares of its length, found in one pass.
@@ -138,8 +139,8 @@ class CurvePoints {
   // Returns the unit tangent, or 0 if the curve has no direction there.
   Vec3 tangent(std::size_t i) const;
 
-  // Returns the spans of the curve from share i to share j, i < j, in the order of the shares. The reference is valid until the
-  // next call.
+  // Returns the spans of the curve from share i to share j, i < j, in the order of the shares. The returned reference is valid
+  // until the next call.
   const Vector<Bezier> &between(std::size_t i, std::size_t j);
 
   // Bounds the distance between a curve and its chord from share i to share j, at equal shares of their lengths
@@ -169,9 +170,9 @@ struct Polyline {
 // repeated points, so that t ascends strictly. Needs at least one point.
 Polyline make_polyline(const Vector<Vec3> &points);
 
-// Returns a polyline that replaces a curve. Every segment is within max_error (> 0) of the curve. The t of a vertex is its share
-// of the curve's length, whereas the paper takes the share of the polyline's length. The vertex at t is therefore the curve's
-// point at t, whatever the tolerance.
+// Returns a polyline that replaces a curve. Every segment is within max_error (> 0) of the curve. The t of a vertex is the
+// fraction of the curve's length up to the vertex. The paper takes the fraction of the polyline's length instead. The vertex at t
+// is therefore the curve's point at t, whatever the tolerance.
 Polyline make_polyline(const Curve &curve, double max_error);
 // Makes the polyline of a curve that moves. On each segment, the velocity is estimated to be within max_bend of a linear
 // function. `velocity` has the velocities of the spans' control points.

@@ -26,7 +26,7 @@ inline Rotation transposed(const Rotation &a) {
 // rotation. The result is exact for multiples of 90 degrees about a coordinate axis.
 Rotation rotation_about(Vec3 axis, double degrees);
 
-// Rotates by degrees about x, then about y, then about z. The rotation [x, y, z] of a cusp in the paper has this meaning.
+// Rotates by degrees about x, then about y, then about z. The paper states the rotation of a cusp in this form, as [x, y, z].
 Rotation rotation_xyz(Vec3 degrees);
 
 struct Placement {

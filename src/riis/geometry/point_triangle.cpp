@@ -11,7 +11,7 @@ struct Weights {
   double b, c;  // weights of the second and the third corner; the first has 1 - b - c
 };
 
-// Returns the weights of the point in the triangle's plane that is closest to a + r, with n = ab x ac.
+// Returns the weights of the foot of the perpendicular from a + r onto the triangle's plane. `n` is ab x ac.
 Weights plane_weights(Vec3 r, Vec3 ab, Vec3 ac, Vec3 n, double inverse_nn) {
   return {dot(cross(r, ac), n) * inverse_nn, dot(cross(ab, r), n) * inverse_nn};
 }
@@ -49,7 +49,7 @@ PointOnTriangle closest_point_on_triangle(Vec3 p, Vec3 a, Vec3 b, Vec3 c) {
   Weights w = plane_weights(ap, ab, ac, n, inverse_nn);
   if (inside(w)) {
     // In a needle-shaped triangle, the weights have an error of about one rounding divided by the sine of the smallest angle.
-    // Each further projection, of the vector that remains, multiplies the error by this ratio. Other triangles need only the
+    // Each further step projects the vector that remains, and multiplies the error by this ratio. Other triangles need only the
     // first projection.
     for (int repeat = 0; repeat < 6; ++repeat) {
       const Weights rest = plane_weights(ap - (w.b * ab + w.c * ac), ab, ac, n, inverse_nn);

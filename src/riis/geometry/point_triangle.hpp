@@ -17,10 +17,10 @@ struct PointOnTriangle {
   std::array<double, 3> barycentric;  // >= 0; for a point on an edge or a vertex, exactly 0 for the other corners
 };
 
-// The triangle must have an area (has_zero_area in triangulate/triangle_set.hpp). The result is the best of up to four
-// candidates: the closest point of each edge and, if it is inside, the foot of the perpendicular. Up to rounding, each candidate
-// lies on the triangle. A wrong decision about "inside" therefore adds only a rounding error, and the distance never becomes too
-// small.
+// The triangle must have an area (has_zero_area in triangulate/triangle_set.hpp). The result is the best of three or four
+// candidates. Three are the closest points of the edges. The fourth is the foot of the perpendicular, if this foot is inside. Up
+// to rounding, each candidate lies on the triangle. A wrong decision about "inside" therefore adds only a rounding error, and the
+// distance never becomes too small.
 PointOnTriangle closest_point_on_triangle(Vec3 p, Vec3 a, Vec3 b, Vec3 c);
 
 // The closest of several triangles. Among triangles at the same distance, the triangle with the lowest position counts as the

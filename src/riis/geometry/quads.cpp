@@ -14,8 +14,8 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Bounds the distance between a quad and its triangles at a level of subdivision. The function refines the bound only as far as
-// `enough` requires.
+// Bounds the distance between a quad and its triangles at a level of subdivision. The function stops refining the bound as soon
+// as the bound is at most `enough`.
 double split_error_at(const Quad &quad, int level, double enough) {
   // Below the level `few`, all parts of the quad are checked, because their number is small. From the level `few` on, the bound
   // follows from the twist alone, which each level divides by exactly 4.
@@ -64,7 +64,7 @@ Quad without_shortest_edge(const Quad &quad, double &shortest) {
 }
 
 // Returns the quad's planned level, with the error at this level. At some openings, rounding folds a quad at a collapsed side.
-// The bound for the quad without the collapsed edge does not see this fold.
+// Such a fold raises the bound for the quad, but not the bound for the quad without the collapsed edge.
 Level planned_level(const QuadGrid &grid, std::size_t i, std::size_t j, double max_error, int level) {
   const Quad quad = quad_of(grid, i, j);
   const double left = max_error - grid.error(i, j);

@@ -25,9 +25,9 @@ struct Quad {
 // bounds the distance between the quad and its two triangles at the same (u,v).
 inline double quad_flatness(const Quad &quad) { return 0.25 * length((quad.p00 - quad.p10) + (quad.p11 - quad.p01)); }
 
-// Bounds the distance between the bilinear quad and its two triangles as surfaces. The bound is kappa_quad in general. Take a
-// plane parallel to both diagonals. If quad and triangles are graphs over this plane, half the component of the twist across it
-// is a bound (docs/theory/triangles.md).
+// Bounds the distance between two surfaces, the bilinear quad and its two triangles. The bound is kappa_quad in general. Take a
+// plane parallel to both diagonals. If the quad and the triangles are graphs over this plane, half the twist's component normal
+// to the plane is a bound (docs/theory/triangles.md).
 double split_error(const Quad &quad);
 
 inline Quad quad_of(const QuadGrid &grid, std::size_t i, std::size_t j) {
@@ -53,12 +53,12 @@ struct LevelledGrid {
   double error_bound = 0;  // bounds the distance between the triangles and the smooth patch
 };
 
-// Gives each quad the lowest level that keeps max_error.
+// Gives each quad the lowest level at which its error is at most max_error.
 LevelledGrid with_levels(QuadGrid grid, double max_error);
-// Gives the quads the levels of a plan. The bounds of errors are only refined as far as max_error requires.
+// Gives the quads the levels of a plan. The bounds on the errors are refined only until they are at most max_error.
 LevelledGrid with_planned_levels(QuadGrid grid, double max_error, const Vector<int> &planned);
 
-// Raises the levels of quads that need higher levels to keep max_error. An empty list stands for levels of 0.
+// Raises the level of each quad until its error is at most max_error. An empty list stands for levels of 0.
 void raise_levels(const QuadGrid &grid, double max_error, Vector<int> &levels);
 
 }  // namespace riis

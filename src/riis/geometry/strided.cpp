@@ -9,8 +9,8 @@
 namespace riis {
 namespace {
 
-// Two doubles in one register. This file uses registers, because comparing one double at a time would take longer than reading
-// the memory.
+// Two doubles in one register, which are compared at once. Comparing one double at a time would take longer than reading the
+// memory.
 typedef double Two __attribute__((vector_size(16)));
 
 struct Spread {
@@ -21,8 +21,8 @@ struct Spread {
   }
 };
 
-// Takes two points at once. One register has the x and y of the first point, a second has those of the second point, and a third
-// has both z.
+// Takes two points at once, in three registers. These hold x and y of the first point, x and y of the second point, and z of
+// both.
 struct PairSpread {
   Spread xy[2], z;
   Two sum{};
@@ -47,7 +47,8 @@ struct PairSpread {
 Bounds bounds_of(const StridedPoints &points, double &sum) {
   const double *const x = points.x, *const y = points.y, *const z = points.z;
   const std::int64_t stride = points.stride;
-  // The loop keeps two separate bounds, because each comparison has to wait for the previous comparison of the same bounds.
+  // With two separate bounds, two comparisons can run at the same time. With one, each comparison would have to wait for the
+  // previous one.
   PairSpread pairs[2];
   std::int64_t i = 0;
   for (; i + 4 <= points.n; i += 4)

@@ -37,7 +37,8 @@ auto with_points(std::int64_t n, const void *const (&xyz)[3], std::int64_t strid
   return real_bits == 32 ? use(of(0.0f)) : use(of(0.0));
 }
 
-// Distances need fourth powers of coordinates and edges. Within these limits, the powers stay within the range of doubles.
+// Distances are computed with fourth powers of coordinates and edges. Within these limits, the powers stay within the range of
+// doubles.
 inline constexpr double max_coordinate = 1e60, min_edge = 1e-60;
 
 // Returns whether a coordinate is finite and not too large. Returns false for NaN.
@@ -60,9 +61,10 @@ void check_pointers(const StridedReals<Real> &points, const char *what, const ch
 struct ComponentNames {
   const char *prefix, *names[3], *stride;
 };
-// Refuses components that overlap because the stride is wrong: one begins inside another, beyond the first stride of the other.
-// Examples are one array xyz with the stride 1, and separate arrays with the stride 3. Equal components are allowed if
-// `may_be_equal`, because one array may serve two axes. The caller has checked n and the stride, in numbers of `size` bytes.
+// Refuses components that overlap because the stride is wrong: one component begins inside another component, but after the first
+// stride of this other component. Examples are one array xyz with the stride 1, and separate arrays with the stride 3. Equal
+// components are allowed if `may_be_equal`, because one array may serve two axes. The caller has already checked n and the
+// stride. The stride counts numbers of `size` bytes.
 void check_apart(std::int64_t n, const void *const (&components)[3], std::int64_t stride, std::int64_t size,
                  const ComponentNames &names, bool may_be_equal = true);
 

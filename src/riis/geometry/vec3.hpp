@@ -54,8 +54,8 @@ struct Bounds {
     return std::max(riis::largest_coordinate(lower), riis::largest_coordinate(upper));
   }
 
-  // Returns the square of the distance from p to the box. The result is at most dot(q - p, q - p) for any point q in the box.
-  // This also holds for the rounded numbers, because rounding keeps the order of differences, squares and sums.
+  // Returns the square of the distance from p to the box. The result is at most dot(q - p, q - p) for any point q in the box. The
+  // computed numbers obey this bound also, because rounding never reverses the order of two differences, squares or sums.
   double distance_sq_to(Vec3 p) const {
     const auto outside = [](double x, double least, double most) { return std::max({least - x, x - most, 0.0}); };
     const Vec3 away{outside(p.x, lower.x, upper.x), outside(p.y, lower.y, upper.y), outside(p.z, lower.z, upper.z)};

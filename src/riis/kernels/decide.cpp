@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computations in double precision for eight triangles at a time. The decision kernel repeats geometry/point_triangle.cpp
-// operation by operation, so every lane has the bits of that function. Here are also the functions that make the triangles'
-// frames for the filter. This file is compiled for each instruction set, and never with contracted multiplications and additions.
+// operation by operation, so every lane gives the same bits as that function. This file also makes the triangles' frames for the
+// filter. This file is compiled for each instruction set, always without fused multiplications and additions.
 #include "kernels/lanes.hpp"
 #include "kernels/table.hpp"
 
@@ -69,10 +69,10 @@ RIIS_INLINE Doubles root(Doubles a) {
 }
 
 // Returns 1 / sqrt(a) with an error of a few units in the last place. `a` must be a normal positive number. The last bits depend
-// on the instruction set. The callers' results must therefore not depend on them.
+// on the instruction set, so no result of a caller may depend on these bits.
 RIIS_INLINE Doubles inverse_root(Doubles a) {
 #if defined(__AVX512F__)
-  // The estimate has 14 correct bits. Each of two steps of Newton's method doubles this number, and both steps take less time
+  // The estimate has 14 correct bits. Each step of Newton's method doubles the number of correct bits. Two steps take less time
   // than a root and a division.
   count(&Counts::operations, Doubles::n);
   Doubles r{{(DoubleRegister)_mm512_rsqrt14_pd((__m512d)a.part[0])}};
@@ -213,7 +213,7 @@ void differentiate(const PointsAndTriangles &pairs, const PointsOnTriangles &loc
   const Doubles::Mask is_away = size > zero;
   // The unit vectors from the points to the surface.
   const Doubles3 unit = choose(is_away, (Doubles::all(-1) / choose(is_away, size, one)) * away, {zero, zero, zero});
-  // The unit vectors, weighted for the three vertices.
+  // The unit vectors, multiplied by the weights of the three vertices.
   alignas(64) double weighted[3][3][pairs_at_once];
   for (int k = 0; k < 3; ++k) {
     const Doubles weight = Doubles::load(located.barycentric[k]);
@@ -330,7 +330,8 @@ void frame_group(const PlainFrame &frame, const double *corners, const int32_t *
 
 typedef float HalfRegister __attribute__((vector_size(register_bytes / 2)));
 
-// Converts numbers to double precision. GCC's own conversion would convert two halves and join them.
+// Converts numbers to double precision. GCC's own conversion would convert each half of the register alone, and then join the
+// halves.
 RIIS_INLINE DoubleRegister widened(HalfRegister x) {
 #if defined(__AVX512F__)
   return (DoubleRegister)_mm512_cvtps_pd((__m256)x);
@@ -354,8 +355,8 @@ RIIS_INLINE void put(Doubles3 v, float (*to)[triangles_per_group], int from) {
   put(v.z, to[2] + from);
 }
 
-// Stores an axis in single precision, and the origin at which `middle` has the coordinate 0. The origin is computed for the
-// rounded axis. The rounding error of a coordinate is therefore proportional to the distance from `middle`.
+// Stores an axis in single precision, and an origin that gives `middle` the coordinate 0. The origin is computed for the rounded
+// axis, so that the rounding error of a coordinate is proportional to the distance from `middle`.
 RIIS_INLINE void put_axis(Doubles3 axis, Doubles3 middle, float (*to)[triangles_per_group], float *origin, int from) {
   put(axis, to, from);
   const auto rounded = [](Doubles x) RIIS_LAMBDA {
@@ -381,15 +382,16 @@ RIIS_INLINE Direction direction(Doubles3 v, Doubles3 otherwise) {
 
 constexpr int halves = triangles_per_group / Doubles::n;
 
-// Lowers a lower bound by slightly more than the largest rounding error of single precision. The result is therefore also a lower
-// bound of rounded numbers.
+// Lowers a lower bound by slightly more than the largest rounding error of single precision. The result is therefore a lower
+// bound even for numbers that were rounded to single precision.
 RIIS_INLINE float round_down(double x) {
   const double unit = (x < 0 ? -x : x) * 0x1p-22 + 0x1p-120;
   return static_cast<float>(x - unit);
 }
 
 void frame_leaf(const PlainFrame &frame, const double *xyz, Leaf &leaf, float *lower, float *upper) {
-  // The centre is subtracted from three registers at a time, which hold the x, y, z of eight nodes one after another.
+  // The centre is subtracted from three registers at a time. These registers hold x, y, z of the first node, then of the second,
+  // up to the eighth.
   constexpr int n_in_turn = 3;
   alignas(64) double turn[n_in_turn * Doubles::n];
   for (int i = 0; i < n_in_turn * Doubles::n; ++i) turn[i] = frame.centre[i % 3];
@@ -453,8 +455,8 @@ struct Axes {
 };
 
 // Chooses the axes of eight groups: one across a group's triangles, one along its first edge, and one at right angles to both.
-// Any three axes at right angles would be correct, but these give a small box. `across` is the sum of the triangles' normals.
-// Each normal is as long as twice its triangle's area.
+// Any three perpendicular axes would be correct, but the chosen axes give a small box. `across` is the sum of the triangles'
+// normals. Each normal is as long as twice its triangle's area.
 RIIS_INLINE void choose_axes(Doubles3 across, Doubles3 along, Axes &axes) {
   const Doubles zero = Doubles::all(0), one = Doubles::all(1);
   // Divides by the largest component, so that the squares do not underflow for small triangles.
@@ -468,7 +470,8 @@ RIIS_INLINE void choose_axes(Doubles3 across, Doubles3 along, Axes &axes) {
   const Doubles::Mask has_edge = normalize(along);
   const Doubles::Mask steep = magnitude(across.x) < Doubles::all(0.6);
   along = choose(has_edge, along, {choose(steep, one, zero), choose(steep, zero, one), zero});
-  // Rounding has left a part along `across`, which is large if the edge runs nearly along `across`. This loop removes it.
+  // Rounding has left a component along `across`. If the edge is nearly parallel to `across`, this component is large. The loop
+  // removes it.
   for (int i = 0; i < 2; ++i) {
     along = take_across_away(along);
     normalize(along);
@@ -502,7 +505,7 @@ RIIS_INLINE void bound_group(const float (*rounded)[triangles_per_group], GroupB
   }
   float end[12];
   for (int i = 0; i < 3; ++i) least_lanes(ends[i], end + 4 * i);
-  // The error of a product is at most 9 units of rounding, because coordinates are at most 1.
+  // Coordinates are at most 1, so the error of a dot product is at most 9 units of rounding.
   constexpr double products = 0x1p-20;
   for (int i = 0; i < 3; ++i) {
     bounds.lower[i] = round_down(end[2 * i]);
@@ -548,11 +551,10 @@ RIIS_INLINE void make_frames(const GroupCorners &corners, TriangleGroup &group,
     const Doubles3 middle = one_half * (a + b);
     put_axis(e.unit, middle, group.e, group.e_origin, from);
     put(half_ab, group.half_ab + from);
-    // Returns the part of v at right angles to e. For a needle-shaped triangle, rounding leaves a part along e. A second call
-    // removes it.
+    // Returns the part of v at right angles to e. For a needle-shaped triangle, the rounded result still has a component along e.
+    // A second call removes this component.
     const auto across = [&](Doubles3 v) RIIS_LAMBDA { return v - dot(v, e.unit) * e.unit; };
-    // If the triangle's height is lost in rounding, the part at right angles to e is only rounding error. It may again run along
-    // e.
+    // If the triangle's height is lost in rounding, `over` is only a rounding error, which may even be parallel to e.
     Doubles3 over = across(ac);
     const Doubles over_sq = dot(over, over);
     const Doubles::Mask has_height = both(over_sq > Doubles::all(0x1p-88) * dot(ac, ac), over_sq > Doubles::all(1e-59));
@@ -566,8 +568,8 @@ RIIS_INLINE void make_frames(const GroupCorners &corners, TriangleGroup &group,
     put_axis(f, middle, group.f, group.f_origin, from);
     put_axis(g, middle, group.g, group.g_origin, from);
     sum = sum + (e.length * c_f) * g;
-    // Stores the edge with the direction `along`. The edge leads from the place `start` on ab to the third corner. Places on ab
-    // are counted from its middle.
+    // Stores the edge with the direction `along`. The edge leads from the coordinate `start` on ab to the third corner. The
+    // coordinate on ab is 0 at the middle of ab.
     const auto put_edge = [&](Doubles start, Doubles3 along, float *unit_e, float *unit_f, float *to_middle,
                               float *side, float *half_length) RIIS_LAMBDA {
       const Direction edge = direction(along, {one, zero, zero});
@@ -599,7 +601,7 @@ void make_groups(const GroupCorners *corners, int32_t n, TriangleGroup *groups, 
   alignas(64) float rounded[groups_at_once][9][triangles_per_group];
   alignas(64) double across[3][groups_at_once] = {}, along[3][groups_at_once] = {};
   for (int32_t g = 0; g < n; ++g) {
-    // The frames of fine triangles do not fit in the cache. The memory of the next group is therefore requested here.
+    // The frames of many fine triangles do not fit in the cache, so the memory of the next group is requested in advance.
     if (g + 1 < n)
       for (__SIZE_TYPE__ at = 0; at < sizeof *groups; at += 64)
         __builtin_prefetch(reinterpret_cast<const char *>(groups + g + 1) + at, 1);

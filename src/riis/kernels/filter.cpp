@@ -27,9 +27,9 @@ struct ToGroup {
   Floats distance_sq, height;
 };
 
-// Measures a point. Up to rounding, every result is the distance to some point of the triangle. A point counts as inside the
-// triangle only if all edges are farther than a margin. A point nearer to an edge gets its distance to this edge, which is wrong
-// by at most the margin.
+// Measures the distances from a point to the triangles of a group. Up to rounding, every result is the distance to some point of
+// the triangle. A point counts as inside the triangle only if it is farther than a margin from every edge. A point within the
+// margin of an edge gets its distance to this edge, with an error of at most the margin.
 RIIS_INLINE ToGroup measure_to_group(const TriangleGroup &group, Floats3 p, Floats margin) {
   const auto along = [&](const float(*axis)[16], const float *origin) RIIS_LAMBDA {
     const Floats3 unit = load(axis);
@@ -40,8 +40,8 @@ RIIS_INLINE ToGroup measure_to_group(const TriangleGroup &group, Floats3 p, Floa
   const Floats past_ab = beyond(e, Floats::load(group.half_ab));
   Floats in_plane = multiply_add(past_ab, past_ab, f * f), inside = f;
 
-  // Includes the distance to an edge. Given are the edge's direction, the coordinate of its middle along this direction, its
-  // coordinate across, and its half length.
+  // Includes the distance to an edge. The arguments are the edge's direction, the coordinate of its middle along this direction,
+  // the edge's coordinate across this direction, and its half length.
   const auto offer_edge = [&](Floats x, Floats y, const float *unit_x, const float *unit_y, const float *middle,
                               const float *side, const float *half) RIIS_LAMBDA {
     const Floats to_x = Floats::load(unit_x), to_y = Floats::load(unit_y);
@@ -89,8 +89,8 @@ bool near_boxes(const FilterTask &task, const Boxes &boxes, const int32_t *candi
   return found != 0;
 }
 
-// The half extent of a box along an axis is a sum over its half sides. Each half side is multiplied by the axis's component along
-// this side.
+// The half extent of a box along an axis is a sum over its half sides. Each half side is multiplied by the component of the axis
+// along this side.
 template <bool is_one_sided>
 RIIS_INLINE bool near_rotated_boxes(const FilterTask &task, const Boxes &boxes, const int32_t *candidates,
                                     int32_t n_candidates, uint16_t *near) {
@@ -139,16 +139,16 @@ bool near_own_boxes(const FilterTask &task, const Boxes &boxes, const int32_t *c
 }
 
 int32_t select(const int32_t *numbers, const uint16_t *marks, int32_t n, int32_t bit, int32_t *to) {
-  // Each step writes a whole register. It stays within the first n places, because the loop never writes more numbers than it has
-  // read.
+  // Each step writes a whole register of 16 places. The register ends within the first n places, because no more numbers have
+  // been written than read.
   int32_t n_selected = 0, k = 0;
   for (; k + 16 <= n; k += 16) {
     const uint32_t lanes = lanes_with_bit(marks + k, bit);
     compress(lanes, numbers + k, to + n_selected);
     n_selected += __builtin_popcount(lanes);
   }
-  // Writes every number, but advances only after a number that is kept. Writing every number avoids a branch that the processor
-  // could not predict.
+  // The loop writes every number, but moves to the next place only after a number that is kept. This avoids a branch that the
+  // processor could not predict.
   for (; k < n; ++k) {
     to[n_selected] = numbers[k];
     n_selected += marks[k] >> bit & 1;
@@ -180,9 +180,9 @@ void nearest_groups(const FilterTask &task, const Boxes &boxes, const int32_t *c
   for (int i = 0; i < 16; ++i) nearest[i] = static_cast<int32_t>(positions[i]);
 }
 
-// For a place, let f be the square of its distance from a group's box, minus the square of its distance from the point. f is a
-// concave function of the place, and a sum over the axes. The least f among the places of a box is therefore also a sum over the
-// axes. Along each axis, the least value is at one of the box's two ends.
+// For a place p, let f(p) be the squared distance from p to a group's box, minus the squared distance from p to the point. The
+// function f is concave, and a sum with one term for each axis. The least f in a box is therefore the sum of the terms' least
+// values. Each term is least at one of the two ends of the box along its axis.
 void competing_groups(const FilterTask &task, const Boxes &boxes, const PointsOfBoxes &points,
                       const int32_t *candidates, int32_t n_candidates, uint16_t *competes) {
   const Floats zero = Floats::all(0), tolerance = Floats::load(points.tolerance);
@@ -222,7 +222,7 @@ RIIS_INLINE uint32_t leaf_of(int32_t node) { return static_cast<uint32_t>(node) 
 
 // Takes a leaf to the surface's frame. For every pair of a group and a node, computes the square of a lower bound on the
 // distance. Lists each node that may be within reach, with the group that has the least bound. If only one side of the surface
-// counts, a node is listed only if a group within reach keeps it.
+// counts, a node is listed only if some group within reach can hold the node in the band.
 template <bool is_one_sided>
 RIIS_INLINE void begin_leaf(const FilterTask &task, LeafTask &leaf, ClusterTask &cluster, float *lower_bounds) {
   const int32_t first_node = first_node_of(leaf), n_before = cluster.n_listed;
@@ -283,8 +283,9 @@ RIIS_INLINE void begin_leaf(const FilterTask &task, LeafTask &leaf, ClusterTask 
   leaf.may_be_near = cluster.n_listed > n_before;
 }
 
-// Lists the nodes of a leaf with their groups, from the group cluster.next_group on. A group is listed if it may be as near as
-// the node's best triangle so far, and is not the node's first group. Returns false if the list is full before the last group.
+// Lists pairs of a node of the leaf and a group, beginning with the group cluster.next_group. A pair is listed if the group may
+// be as near to the node as the nearest triangle found so far. The node's first group is not listed again. Returns false if the
+// list is full before the last group.
 RIIS_INLINE bool list_others(const LeafTask &leaf, ClusterTask &cluster, const float *lower_bounds) {
   const int32_t first_node = first_node_of(leaf);
   Floats limit[halves], first_group[halves];
@@ -292,7 +293,7 @@ RIIS_INLINE bool list_others(const LeafTask &leaf, ClusterTask &cluster, const f
     limit[h] = Floats::load(cluster.best + first_node + 16 * h) + Floats::all(leaf.limits.tolerance);
     first_group[h] = Floats::load(cluster.first_group + first_node + 16 * h);
   }
-  // Local variables are used instead of members, because the compiler must assume that a store to the list changes members.
+  // Local variables replace members, because the compiler must assume that each store to the list may change a member.
   int32_t n = cluster.n_listed, k = cluster.next_group;
   for (; k < leaf.n_groups && n <= most_listed - nodes_per_leaf; ++k) {
     const int32_t group = leaf.near_groups[k];
@@ -311,7 +312,7 @@ RIIS_INLINE bool list_others(const LeafTask &leaf, ClusterTask &cluster, const f
   return k == leaf.n_groups;
 }
 
-// Returns a bit for each triangle of a group that keeps the point in a band with an offset.
+// Returns one bit for each triangle of a group. The bit is 1 if the point is in the triangle's band, which has an offset.
 RIIS_INLINE uint32_t bits_in_band(const OneSide &one_side, int32_t group, const ToGroup &to) {
   if (one_side.end_of_band[group] == __builtin_inff()) return 0xffff;
   const Floats depth = Floats::all(one_side.behind) * to.height;
@@ -385,8 +386,8 @@ void begin_cluster(const FilterTask &task, ClusterTask &cluster) {
   task.one_side.end_of_band ? begin_leaves<true>(task, cluster) : begin_leaves<false>(task, cluster);
 }
 
-// Drops a node if it is out of the band at every triangle that may be its closest one. Only the first n_leaves leaves are judged,
-// because all groups near their nodes are in the list.
+// Drops a node if it is outside the band of every triangle that may be the closest. Judges only nodes of the first n_leaves
+// leaves, because the list has all groups near these nodes.
 RIIS_INLINE void leave_out(ClusterTask &cluster, int32_t n_leaves) {
   uint32_t stays[leaves_per_cluster] = {};
   for (int32_t i = 0; i < cluster.n_listed; ++i) {
@@ -406,8 +407,8 @@ RIIS_INLINE void leave_out(ClusterTask &cluster, int32_t n_leaves) {
   }
 }
 
-// Compares the nodes with their first groups, unless an earlier call has done so. Then lists other groups until the list is full,
-// and compares the nodes with these groups.
+// Computes the nodes' distances to their first groups, unless an earlier call has done so. Then lists other groups until the list
+// is full, and computes the distances to these groups.
 template <bool is_one_sided>
 RIIS_INLINE void compare_all(const FilterTask &task, ClusterTask &cluster) {
   const bool is_first = cluster.next_leaf < 0;
@@ -449,8 +450,8 @@ int32_t filter_nodes(const FilterTask &task, ClusterTask &cluster, const PairArr
     compare_all<is_one_sided>(task, cluster);
     cluster.next_listed = 0;
   }
-  // Once the whole list is compared, writes those listed nodes whose group is still near. The position to write advances only
-  // after a node whose group is near. Writing every node avoids a branch that the processor could not predict.
+  // Once the whole list is compared, this loop keeps those listed nodes whose group is still near. The loop writes every node,
+  // but moves to the next place only after a node that is kept. This avoids a branch that the processor could not predict.
   const GroupBounds *const bounds = task.bounds;
   int32_t *const node_of_pair = pairs.node, *const triangle_of_pair = pairs.triangle;
   const int32_t n_listed = cluster.n_listed;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// This file computes with sixteen floats or eight doubles at once. The code uses the registers of the instruction set for which
-// the including file is compiled. Everything has internal linkage. Files for different instruction sets must not share a
-// function, because the linker could take the function from the wrong file. For the same reason, this file includes no header
-// with inline functions that the compiler may emit as separate functions.
+// This file computes with sixteen floats or eight doubles at once. The file that includes this header is compiled for one
+// instruction set, and the code uses the registers of this set. Everything has internal linkage. Files for different instruction
+// sets must not share a function, because the linker could take the function from the wrong file. For the same reason, this file
+// includes no header with inline functions that the compiler may emit as separate functions.
 #pragma once
 
 // RIIS_PORTABLE_LANES selects the code for processors without SSE2 or NEON. Tests also run this code on processors with SSE2 or
@@ -18,8 +18,8 @@
 
 namespace riis {
 
-// Counts the operations of kernels that are compiled with RIIS_COUNT_OPERATIONS. Only ./run bench roofline links such kernels.
-// In all other kernels, counting compiles to nothing. `operations` counts arithmetic instructions and comparisons in one lane. A
+// Counts of operations, in kernels that are compiled with RIIS_COUNT_OPERATIONS. Only ./run bench roofline links such kernels. In
+// all other kernels, counting compiles to nothing. `operations` counts arithmetic instructions and comparisons in one lane. A
 // multiply-add counts as one operation. `pairs` counts the pairs of a node and a triangle whose distance the filter computed.
 struct Counts {
   int64_t operations, pairs;
@@ -62,8 +62,8 @@ struct ComparisonOf<DoubleRegister> {
   typedef LongRegister type;
 };
 
-// Returns a < b ? a : b. If `a` is NaN, the result is therefore b. NEON gives another result in two cases: only b is NaN, or a
-// and b are zeros of different signs. The first case does not occur, and nothing reads the sign of a zero.
+// Returns a < b ? a : b, which is b if `a` is NaN. NEON gives another result in two cases: only b is NaN, or a and b are zeros of
+// different signs. The first case does not occur. The second case does no harm, because nothing reads the sign of a zero.
 RIIS_INLINE FloatRegister least(FloatRegister a, FloatRegister b) {
 #if defined(__AVX512F__)
   return (FloatRegister)_mm512_min_ps((__m512)a, (__m512)b);
@@ -169,7 +169,7 @@ struct Lanes {
     return lanes;
   }
   // load and store need memory aligned to 64 bytes. Both functions move one register at a time. GCC would copy a whole object in
-  // parts of another size. Reading a register that spans two parts has to wait until both parts are written.
+  // parts of another size. A register could then span two parts, and reading it would have to wait until both parts are written.
   static RIIS_INLINE Lanes load(const Scalar *from) {
     Lanes lanes;
     for (int i = 0; i < n_registers; ++i) lanes.part[i] = reinterpret_cast<const InMemory *>(from)[i];
@@ -265,8 +265,8 @@ RIIS_INLINE Row high_halves(Row a, Row b) { return _mm256_permute2f128_pd(a, b, 
 template <int n, class Address>
 RIIS_INLINE void gather_points(const Address &address, Doubles (&xyz)[n][3]) {
 #if defined(__AVX2__)
-  // A load takes four numbers, but a point has three. The fourth number is the one after the point, or, for the last point, the
-  // one before it. A single point has neither, so a mask leaves the fourth number out.
+  // A load reads four numbers, but a point has three. The load also reads the number after the point, or, for the last point, the
+  // number before it. A single point has no such neighbour, so a mask leaves the fourth number out.
   constexpr int last = n - 1;
   const auto load = [](const double *from, int k) __attribute__((always_inline)) {
     if constexpr (n == 1) return _mm256_maskload_pd(from, _mm256_setr_epi64x(-1, -1, -1, 0));
@@ -318,13 +318,13 @@ RIIS_INLINE Mask opposite(Mask a) {
 }
 
 #if defined(RIIS_NEON)
-// Takes 0 or -1 in each of eight lanes, and returns one bit for each. NEON has no instruction for this conversion. Each lane
+// Takes 0 or -1 in each of eight lanes, and returns one bit for each lane. NEON has no instruction for this conversion. Each lane
 // therefore keeps a different bit, and the sum of the lanes combines all bits.
 RIIS_INLINE uint32_t bits(uint16x8_t mask) {
   return vaddvq_u16(vandq_u16(mask, uint16x8_t{1, 2, 4, 8, 16, 32, 64, 128}));
 }
-// Takes 0 or -1 in each of sixteen lanes, and returns one bit for each. A byte of each lane suffices. The bytes of lanes i and i
-// + 8 become neighbours.
+// Takes 0 or -1 in each of sixteen lanes, and returns one bit for each lane. One byte of each lane is enough. The bytes of lanes
+// i and i + 8 become neighbours.
 RIIS_INLINE uint32_t bits(uint16x8_t first, uint16x8_t last) {
   const uint8x16_t bytes = vtrn1q_u8(vreinterpretq_u8_u16(first), vreinterpretq_u8_u16(last));
   const uint16x8_t own_bits = {0x0101, 0x0202, 0x0404, 0x0808, 0x1010, 0x2020, 0x4040, 0x8080};
@@ -383,7 +383,7 @@ RIIS_INLINE uint32_t bits_at_most(Floats a, Floats b) {
 #endif
 }
 
-// Returns one bit for each lane. A bit is set if a and b differ in its lane.
+// Returns one bit for each lane. The bit is set if a and b differ in this lane.
 RIIS_INLINE uint32_t bits_different(Floats a, Floats b) {
 #if defined(__AVX512F__)
   return _mm512_cmp_ps_mask((__m512)a.part[0], (__m512)b.part[0], _CMP_NEQ_UQ);
@@ -392,7 +392,7 @@ RIIS_INLINE uint32_t bits_different(Floats a, Floats b) {
 #endif
 }
 
-// Returns the distance of x from the interval -half..half. The result may have a minus sign.
+// Returns the distance from x to the interval from -half to half, possibly with a minus sign.
 RIIS_INLINE Floats beyond(Floats x, Floats half) {
 #if defined(__AVX512DQ__)
   // One instruction limits the magnitude of x and keeps the sign of x.
@@ -408,7 +408,7 @@ RIIS_INLINE Floats beyond(Floats x, Floats half) {
 #endif
 }
 
-// Converts whole numbers to integers.
+// Converts floats whose values are whole numbers to integers.
 RIIS_INLINE void to_integers(Floats x, int32_t *to) {
   for (int i = 0; i < Floats::n_registers; ++i) {
     const IntRegister integers = __builtin_convertvector(x.part[i], IntRegister);
@@ -428,10 +428,10 @@ RIIS_INLINE Floats zero_where_at_least(Floats a, Floats b, Floats x) {
 #endif
 }
 
-// Returns bit number `bit` of each of 16 integers.
+// Reads 16 integers, and returns bit number `bit` of each one.
 RIIS_INLINE uint32_t lanes_with_bit(const uint16_t *from, int32_t bit) {
 #if defined(RIIS_SSE2)
-  // The bit becomes the sign, which is kept when integers are packed to bytes.
+  // The shift moves the bit to the sign. Packing the integers to bytes keeps their signs.
   const __m128i shift = _mm_cvtsi32_si128(15 - bit);
   const __m128i first = _mm_sll_epi16(_mm_loadu_si128(reinterpret_cast<const __m128i *>(from)), shift);
   const __m128i last = _mm_sll_epi16(_mm_loadu_si128(reinterpret_cast<const __m128i *>(from + 8)), shift);
@@ -460,8 +460,8 @@ struct LanesOfSets {
 constexpr LanesOfSets lanes_of_sets;
 #endif
 
-// Takes 16 integers, and copies the integers whose bits are set, without gaps. The function may write to all 16 places, even for
-// fewer integers.
+// Copies, without gaps, those of 16 integers whose bit in `lanes` is set. The function may write to all 16 places of `to`, even
+// if it copies fewer integers.
 RIIS_INLINE void compress(uint32_t lanes, const int32_t *from, int32_t *to) {
 #if defined(__AVX512F__)
   _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(static_cast<__mmask16>(lanes), _mm512_loadu_si512(from)));
@@ -484,11 +484,12 @@ RIIS_INLINE void fill(int32_t x, int32_t *to) {
 
 RIIS_INLINE bool any(Doubles::Mask mask) { return bits(mask) != 0; }
 
-// Writes the least number in the lanes of each of four Floats.
+// For each of four Floats, writes the least number in its lanes.
 RIIS_INLINE void least_lanes(const Floats (&of)[4], float *least_lane) {
   count(&Counts::operations, 4 * (Floats::n - 1));
 #if defined(__AVX512F__)
-  // Each step compares two quarters of a register, or two lanes of a quarter, and keeps the lesser numbers.
+  // The first steps compare two quarters of a register, and the later steps compare two lanes of a quarter. Each step keeps the
+  // lesser numbers.
   constexpr int first_half = 0x44, last_half = 0xee, even = 0x88, odd = 0xdd, neighbours = 0xb1, pairs = 0x4e;
   const auto halves = [&](int i) __attribute__((always_inline)) {
     const __m512 a = (__m512)of[i].part[0], b = (__m512)of[i + 1].part[0];
@@ -510,7 +511,7 @@ RIIS_INLINE void least_lanes(const Floats (&of)[4], float *least_lane) {
     m[i] = (__m128)least(least(of[i].part[0], of[i].part[1]), least(of[i].part[2], of[i].part[3]));
 #endif
   }
-  // Combines neighbouring halves twice, and keeps the lesser number of two lanes each time.
+  // Twice joins neighbouring halves, and keeps the lesser number of two lanes each time.
   const __m128 first = _mm_min_ps(_mm_unpacklo_ps(m[0], m[1]), _mm_unpackhi_ps(m[0], m[1]));
   const __m128 last = _mm_min_ps(_mm_unpacklo_ps(m[2], m[3]), _mm_unpackhi_ps(m[2], m[3]));
   _mm_storeu_ps(least_lane, _mm_min_ps(_mm_movelh_ps(first, last), _mm_movehl_ps(last, first)));

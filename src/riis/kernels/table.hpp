@@ -5,8 +5,8 @@
 #include "kernels/kernels.hpp"
 
 // RIIS_INSTRUCTION_SET names the instruction set that the file is compiled for: baseline, avx2 or avx512. The baseline is SSE2 on
-// x86-64 and NEON on 64-bit ARM. Two more names exist. `portable` is the table of the code for processors without any of these
-// sets. Only tests link it. `counted` is the table of the code that counts operations. Only ./run bench roofline links it.
+// x86-64 and NEON on 64-bit ARM. Two more names exist. Only tests link the table `portable`, whose code is for processors without
+// any of these sets. Only ./run bench roofline links the table `counted`, whose code counts operations.
 #define RIIS_JOIN(a, b) a##_##b
 #define RIIS_JOINED(a, b) RIIS_JOIN(a, b)
 #define RIIS_KERNELS(name) RIIS_JOINED(name, RIIS_INSTRUCTION_SET)

@@ -48,7 +48,7 @@ Vec3 nearest_on(const std::array<Bezier, n> &curve, Vec3 p) {
       if (least >= 0 && dot(d, d) >= least) continue;
       least = dot(d, d), span = &tried, t = at;
     }
-  // Applies Newton's method to the derivative of the squared distance, within the span.
+  // Finds, by Newton's method and within the span, where the derivative of the squared distance is 0.
   const auto index = static_cast<std::size_t>(span - curve.data());
   const auto refined = [&](const Bezier &on, double from, double &squared) {
     double at = from;
@@ -99,7 +99,7 @@ void check_outline(const Landmarks &landmarks, const std::vector<std::size_t> &r
     }
 }
 
-// Twice the area vector of a closed polygon.
+// Returns twice the area vector of a closed polygon.
 Vec3 area_of(const Landmarks &landmarks, const std::vector<std::size_t> &ring) {
   const Vec3 middle = landmarks.mean_of(ring);
   Vec3 area{0, 0, 0};
@@ -123,7 +123,7 @@ Outline outline_of(const Landmarks &landmarks) {
   return {ring, landmarks.mean_of(ring), unit(area_of(landmarks, ring)), spread.deviation[0]};
 }
 
-// The points of an annulus, turned to the coordinates of a valve, and the range of their coordinates.
+// The points of an annulus in the coordinates of a valve, and the range of these coordinates.
 struct TurnedOutline {
   std::vector<Vec3> points;
   Vec3 lower{0, 0, 0}, upper{0, 0, 0};  // z is not used
@@ -150,7 +150,7 @@ Vec3 checked_forward(const Landmarks &landmarks, const Outline &outline, std::si
   return forward;
 }
 
-// Returns the direction towards the atrium, which the flow or the commissures show. The vector is 0 if the landmarks show no
+// Returns the direction towards the atrium, found from the flow or the commissures. The vector is 0 if the landmarks show no
 // direction.
 Vec3 atrial_side(const Landmarks &landmarks, Vec3 normal, Vec3 forward) {
   const auto medial = landmarks.with_role(RIIS_LANDMARK_POSTEROMEDIAL),
@@ -168,7 +168,7 @@ Vec3 atrial_side(const Landmarks &landmarks, Vec3 normal, Vec3 forward) {
   return by_commissures;
 }
 
-// Returns the words with which a message names the landmark with the largest residual.
+// Returns the part of a message that names the landmark with the largest residual.
 std::string advice_for(const LandmarkFit &fit, const Landmarks &landmarks) {
   const auto worst = std::max_element(fit.residuals.begin(), fit.residuals.end());
   return std::string("the worst residual is ") + Message(rounded(landmarks.scale * *worst, 3)).text() + " at " +
@@ -181,7 +181,7 @@ double lean_of(const LandmarkFit &fit, Vec3 normal) {
   return arc_cosine(std::min(1.0, std::abs((transposed(fit.pose.rotation) * normal).z))) * 180 / pi;
 }
 
-// Refuses a fitted valve that stands obliquely in the annulus.
+// Refuses a fitted valve whose axis is oblique to the annulus.
 void check_axis(const LandmarkFit &fit, Vec3 normal, const std::string &advice) {
   const double degrees = lean_of(fit, normal);
   constexpr double most_degrees = 20;
@@ -197,8 +197,8 @@ Vec3 mirrored(Vec3 p) { return {-p.x, p.y, p.z}; }
 class MitralModel : public LandmarkModel {
  public:
   enum Size { ap, alpm, position, it, indent, anterior, posterior, share };
-  // The trigones of the modelled valve lie in front of the anterior horn. Trigones behind the horn therefore count only as points
-  // of the annulus.
+  // The trigones of the modelled valve lie in front of the anterior horn. If the landmarks' trigones lie behind the horn, they
+  // therefore count only as points of the annulus.
   MitralModel(const Landmarks &landmarks, Vec3 shift, bool has_trigones_behind) : shift_(shift) {
     for (const Landmark &landmark : landmarks.list) {
       const bool is_only_of_annulus = has_trigones_behind && landmark.role == RIIS_LANDMARK_TRIGONE;
@@ -249,7 +249,7 @@ class MitralModel : public LandmarkModel {
   std::vector<std::int32_t> roles_;
 };
 
-// Refuses a fit whose horns do not show on which side of the annulus the atrium is.
+// Refuses a fit if the heights of its horns do not show on which side of the annulus the atrium is.
 void check_side(const LandmarkModel &fitted, const Landmarks &landmarks) {
   const FittedSize &anterior = fitted.sizes[MitralModel::anterior], &posterior = fitted.sizes[MitralModel::posterior];
   const double height = 0.5 * (anterior.value + posterior.value),
@@ -262,13 +262,13 @@ void check_side(const LandmarkModel &fitted, const Landmarks &landmarks) {
        rounded(landmarks.scale * error, 3), "; the difference must be at least ", sure, " standard errors");
 }
 
-// The distance between the two horns in a view along the annulus' normal, as the landmarks show it.
+// The distance between the two horns of the landmarks, seen along the annulus' normal.
 struct ShownDepth {
   double depth;
-  bool has_posterior_horn;  // if false, the annulus point farthest from the other horn stands in
+  bool has_posterior_horn;  // if false, the annulus point farthest from the anterior horn replaces it
 };
 
-// The heights of an annulus' two horns above its sides, along its normal.
+// The heights of the two horns of an annulus above its sides, measured along its normal.
 struct HornHeights {
   std::size_t anterior_landmark, posterior_landmark;
   double anterior, posterior;
@@ -276,8 +276,8 @@ struct HornHeights {
   double depth;             // the distance between the horns
 };
 
-// Returns words on why a fit contradicts the landmarks. If one horn is too high or the other too low, the annulus looks inclined.
-// The fitted valve then leans, and the largest residual may be at a correct landmark.
+// Returns the part of a message that says why a fit contradicts the landmarks. If one horn is too high or the other too low, the
+// annulus looks inclined. The fitted valve is then also inclined, and the largest residual may belong to a correct landmark.
 std::string cause_of(const LandmarkFit &fit, const Landmarks &landmarks, Vec3 normal, const HornHeights &heights) {
   const double degrees = lean_of(fit, normal);
   const double by_heights =
@@ -299,7 +299,7 @@ std::string cause_of(const LandmarkFit &fit, const Landmarks &landmarks, Vec3 no
 void check_depth(const LandmarkModel &fitted, const Landmarks &landmarks, const ShownDepth &shown,
                  const std::string &advice) {
   const FittedSize &ap = fitted.sizes[MitralModel::ap];
-  // The limit allows for noise, which moves the horns and thus changes the distance between them.
+  // The limit allows for noise, because noise changes the distance between the horns.
   const double most_apart = std::max(shown.depth / 12, 5 * landmarks.noise);
   if (ap.held || std::abs(ap.value - shown.depth) <= most_apart) return;
   fail(RIIS_INVALID_ARGUMENT, "AP_diameter of the fitted valve is ", rounded(landmarks.scale * ap.value, 3),
@@ -310,8 +310,8 @@ void check_depth(const LandmarkModel &fitted, const Landmarks &landmarks, const 
        "; the difference must be at most ", rounded(landmarks.scale * most_apart, 3), "; ", advice);
 }
 
-// Refuses a posterior horn or a trigone on the wrong side of the annulus. `y_of` returns a landmark's place, which is 0 at the
-// posterior point and `depth` at the anterior horn.
+// Refuses a posterior horn or a trigone on the wrong side of the annulus. `y_of` returns a landmark's coordinate from back to
+// front: 0 at the posterior point, and `depth` at the anterior horn.
 template <class Place>
 void check_sides(const Landmarks &landmarks, std::size_t horn, double depth, const Place &y_of) {
   const auto check = [&](std::int32_t role, bool is_anterior) {
@@ -387,8 +387,8 @@ KindOfLandmarks mitral_landmarks(const Valve &valve, const Landmarks &landmarks)
   model->sizes.push_back({"anterior_ratio", share, 1.5 * depth, 0.05, 0.95, share, 0.1});
   model->sizes.back().held = !has_commissures;
   model->radius = 0.5 * depth;
-  // A change of the horns' heights and a turn of the valve about x move the annulus alike, so the landmarks hardly tell them
-  // apart.
+  // A change of the horns' heights moves the annulus in nearly the same way as a turn of the valve about x. The landmarks hardly
+  // show which of these took place.
   model->differences = {{MitralModel::anterior, MitralModel::posterior, 0.05 * depth}};
 
   const Vec3 origin_there{0.5 * (lower.x + upper.x), lower.y + 0.5 * depth, low_z};
@@ -396,8 +396,8 @@ KindOfLandmarks mitral_landmarks(const Valve &valve, const Landmarks &landmarks)
   made.n_as_annulus = are_behind ? static_cast<std::int32_t>(trigones.size()) : 0;
   made.starts.push_back({rotation, middle + rotation * (origin_there - by)});
   if (!is_side_known) {
-    // The points of the annulus alone do not tell the atrium's side from the ventricle's side. In a healthy annulus, however, the
-    // horns are nearer to the atrium than the sides.
+    // The points of the annulus alone do not show on which side the atrium is. In a healthy annulus, however, the horns are
+    // nearer to the atrium than the annulus' sides are.
     const bool is_turned = horn_there.z + posterior_z < 2 * low_z;
     if (is_turned) {
       const Rotation other = rotation * rotation_about({0, 1, 0}, 180);
@@ -407,7 +407,7 @@ KindOfLandmarks mitral_landmarks(const Valve &valve, const Landmarks &landmarks)
         made.models[0]->sizes[horn_size].value *= -1;
     }
   }
-  // With few noisy points, the fit may end in a wrong inclination. It therefore also starts from inclined poses.
+  // With few noisy points, the fit may end in a wrong inclination. The fit therefore also starts from inclined poses.
   const Pose upright = made.starts[0];
   for (const double lean : {-10.0, 10.0})
     made.starts.push_back({upright.rotation * rotation_about({1, 0, 0}, lean), upright.translation});
@@ -444,8 +444,8 @@ constexpr SaddleKind tricuspid{"tricuspid",    "AP_diameter",    "SL_diameter",
 constexpr SaddleKind mitral_coapting{"mitral_coapting", "ALPM_diameter", "AP_diameter",
                                      "anterior_ratio",  nullptr,         FlatSide::at_positive_y};
 
-// The place of each landmark on the annulus, in laps from the middle of the flat side. A landmark without such a place may be
-// anywhere on the annulus.
+// The place of each landmark along the annulus, as a fraction of the whole way round from the middle of the flat side. A landmark
+// without a value may be anywhere on the annulus.
 using Laps = std::vector<std::optional<LinearValue>>;
 
 class SaddleModel : public LandmarkModel {

@@ -7,7 +7,7 @@
 
 namespace riis {
 
-// Two points of an annulus are in one place if their distance is at most `one_place` times the points' spread.
+// Two points of an annulus count as one place if their distance is at most `one_place` times the spread of all points.
 inline constexpr double one_place = 1e-3;
 
 // Returns the cosine of the angle between the flow and a normal. Refuses a flow that is nearly perpendicular to the normal.

@@ -16,14 +16,14 @@
 namespace riis {
 namespace {
 
-// The limit of 900 leaves room for other landmarks, because a warp has at most 1000 landmarks.
+// A warp has at most 1000 landmarks. The limit of 900 leaves room for landmarks that are not along the attachment.
 constexpr std::size_t most_along_attachment = 900;
 // The names of three cusps are in the order of the leaflet ids, counter-clockwise about the valve's axis z.
 constexpr std::size_t n_of_three = 3;
 const char *const names_of_three[n_of_three] = {"right", "left", "non_coronary"};
 
-// Kinds whose cusps all begin on one circle at the root, and whose commissures all lie on another circle. The fields name their
-// sizes.
+// Kinds whose cusps all begin on one circle at the root, and whose commissures all lie on another circle. The members are the
+// names of the sizes.
 struct CuspsOnCircles {
   const char *kind;
   std::size_t n_cusps;
@@ -120,8 +120,8 @@ class CuspModel : public LandmarkModel {
   void add(std::size_t landmark, const std::vector<Vec3> &local, Vec3 place, std::vector<Offset> &out) const {
     out.push_back({landmark, local[landmark] - shift_ - place});
   }
-  // The closed cusps meet at a place x on the x axis. Only in valves with two cusps does x differ from 0. The height of this
-  // place says little about the sizes, because it differs much between people.
+  // The closed cusps meet at a point with the coordinate x on the x axis. x differs from 0 only in valves with two cusps. The
+  // height of this point differs much between people, so it says little about the sizes.
   void add_coaptation(const std::vector<Vec3> &local, double x, std::vector<Offset> &out) const {
     for (const std::size_t i : coaptation_) {
       const Vec3 p = local[i] - shift_;
@@ -166,8 +166,8 @@ class CirclesModel : public CuspModel {
   }
 };
 
-// The cusps of the paper's valve. At a commissure, two neighbouring cusps end at the same angle but at different radii, so the
-// commissure lies between the two ends.
+// The cusps of the paper's valve. At a commissure, two neighbouring cusps end at the same angle but at different radii. The
+// commissure lies between these two ends.
 class AorticModel : public CuspModel {
  public:
   using CuspModel::CuspModel;
@@ -199,15 +199,15 @@ double mean_radius(const Landmarks &landmarks, const std::vector<std::size_t> &n
   return sum / static_cast<double>(numbers.size());
 }
 
-// Returns a length for the fit, with `start` as its first value. The length's expected value `grown` is the template's length
-// times the ratio of the valves' sizes.
+// Returns a length for the fit. The fit begins with the value `start`. The expected value `grown` is the template's length times
+// the ratio of the valves' sizes.
 FittedSize length_size(const std::string &name, double start, double grown, double radius) {
   return {name, start, 1, 0.05 * radius, 10 * radius, grown, 0.3 * grown};
 }
 
 // `at` has the directions of the cusps' middles.
 Pose start_of(const Landmarks &landmarks, const CuspAxes &axes, Vec3 shift, const std::vector<double> &at) {
-  // The mean direction of the nadirs, after each nadir was turned back to cusp 0.
+  // Sums the directions of the nadirs, after each nadir was turned back to the place of cusp 0's nadir.
   const Rotation to = rotation_to(landmarks.at(axes.order.nadir[0]) - axes.middle, axes.axis), back = transposed(to);
   double x = 0, y = 0;
   for (std::size_t cusp = 0; cusp < at.size(); ++cusp) {
@@ -220,7 +220,7 @@ Pose start_of(const Landmarks &landmarks, const CuspAxes &axes, Vec3 shift, cons
 
 // ---- Sectors, and heights of commissures ----
 
-// Returns the angles between the commissures that the landmarks show.
+// Returns the angles between successive commissures of the landmarks.
 std::vector<double> shown_sectors(const Landmarks &landmarks, const CuspAxes &axes) {
   const Rotation back = transposed(rotation_to(landmarks.at(axes.order.nadir[0]) - axes.middle, axes.axis));
   const auto direction = [&](std::size_t cusp) {
@@ -252,9 +252,9 @@ class CircleSizes {
     for (double &sector : own_) sector *= 360 / sum;
   }
 
-  // Returns, for each model that will be tried, whether it fits the sectors. If the caller holds all sectors, they stay as in the
-  // template. If the caller holds only some, the other sectors are fitted. If the caller holds none, there is a model for each
-  // choice, and the landmarks decide.
+  // Returns one entry for each model that will be tried: whether the model fits the sectors. If the caller holds all sectors,
+  // they stay as in the template. If the caller holds only some sectors, the others are fitted. If the caller holds no sector,
+  // one model fits the sectors, another model does not, and the landmarks decide between them.
   std::vector<bool> fits_sectors() const {
     if (!has_sectors()) return {false};
     const std::size_t n_held = count_held([](std::size_t cusp) { return of_cusp(cusp, "sector"); });
@@ -307,7 +307,7 @@ class CircleSizes {
     return has_sectors() ? value_of(valve_, height_of_commissure(cusp)) / value_of(valve_, names_.height) : 1;
   }
 
-  // A single size gives the heights of all commissures, in the template's proportions.
+  // A single size sets the heights of all commissures, whose ratios stay as in the template.
   template <class Add>
   void add_height(CirclesModel &model, const Add &add) const {
     const std::size_t size = add(names_.height, axes_.height);
@@ -319,7 +319,7 @@ class CircleSizes {
     }
   }
 
-  // Each commissure has a height, and commissure_height is the mean of these heights.
+  // Each commissure has its own height in the fit, and commissure_height is the mean of these heights.
   template <class Add>
   void add_heights(CirclesModel &model, const Add &add) const {
     DerivedSize mean{names_.height, {}};
@@ -331,7 +331,7 @@ class CircleSizes {
     model.derived.push_back(mean);
   }
 
-  // Of the sectors that are not held, the last one is 360 degrees minus all others.
+  // The last sector that is not held is 360 degrees minus the sum of all other sectors.
   void add_sectors(CirclesModel &model, double commissure_radius) const {
     const std::vector<double> shown = shown_sectors(landmarks_, axes_);
     const double reach = 0.5 * commissure_radius * (pi / 180);  // a sector grows on both sides of its cusp's middle
@@ -357,12 +357,12 @@ class CircleSizes {
   std::vector<double> own_;  // the template's sectors, whose sum is 360 degrees
 };
 
-// Sets a parameter in proportion to a measure of the valve. The proportion is that of the template, `own`.
+// Sets a parameter in proportion to a measure of the valve. The ratio of the two is taken from the template, `own`.
 void set_proportion(const Valve &own, Valve &valve, const std::string &name, double own_measure, double measure) {
   valve.set(name, 1, std::array{value_of(own, name) / own_measure * measure}.data());
 }
 
-// Sets the sizes that follow from other sizes, in the template's proportions.
+// Sets the sizes that follow from other sizes. The ratios are taken from the template.
 void finish_trileaflet(const Valve &own, Valve &valve) {
   const auto middle_radius = [](const Valve &of) {
     return 0.5 * (value_of(of, "root_radius") + value_of(of, "leaflet_radius_out"));
@@ -391,7 +391,7 @@ void finish_aortic(const Valve &own, Valve &valve) {
     set_proportion(own, valve, of + "bending_radius_out", middle_radius(own), middle_radius(valve));
     valve.set(of + "rotation", 3, std::array{0.0, 0.0, turns[cusp]}.data());
     valve.set(of + "translation", 3, shift.data());
-    // Lowers the power until the free edge does not bulge into the next cusp, beyond the plane of the commissure.
+    // Lowers the power until the free edge no longer bulges into the next cusp, beyond the plane of the commissure.
     const double x = value_of(valve, of + "leaflet_radius_out") * sine_cosine_degrees(angle).cosine;
     const double radius_in = value_of(valve, of + "leaflet_radius_in");
     if (x > radius_in && value_of(valve, of + "leaflet_power") > x / (x - radius_in))

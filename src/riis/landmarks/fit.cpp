@@ -12,18 +12,18 @@
 namespace riis {
 namespace {
 
-// At the stated noise, a size has a standard error. The landmarks determine the size if this error moves the valve by at most
-// `determined_share` of its radius. Residuals do not count here. They are large for a patient who differs from the model,
-// although the best sizes are still well defined.
+// The stated noise gives each size a standard error. The landmarks determine the size if this error moves the valve by at most
+// `determined_share` of the valve's radius. The residuals are not used here: they are large for a patient who differs from the
+// model, even if the best sizes are well defined.
 constexpr double determined_share = 1.0 / 15;
 
-// More sizes lower the sum of squares even if the residuals are only noise. This decrease has a chi-squared distribution with one
-// degree of freedom for each additional size. A decrease counts if it exceeds the distribution's mean by `surely_more` standard
-// deviations.
+// Additional sizes lower the sum of squares even if the residuals are only noise. Such a decrease has a chi-squared distribution
+// with one degree of freedom for each additional size. A decrease is significant if it exceeds the mean of this distribution by
+// `surely_more` standard deviations.
 constexpr double surely_more = 3;
 // If the residuals are below `exact_share` of the stated noise, the landmarks count as exact.
 constexpr double exact_share = 0.01;
-// Rounding of exact landmarks, as a share of the valve's radius.
+// The rounding error of exact landmarks, as a share of the valve's radius.
 constexpr double rounding_share = 1e-9;
 
 // The least-squares problem of the fit. The unknowns are the sizes that are not held, a rotation vector and a shift, all in
@@ -107,7 +107,7 @@ class Problem {
     return pose;
   }
   const std::vector<LandmarkModel::Offset> &offsets() const { return offsets_; }
-  // Returns the landmarks' places on the valve. A landmark without an offset is its own place.
+  // Returns the landmarks' places on the valve. The place of a landmark without an offset is the landmark itself.
   std::vector<Vec3> places() const {
     std::vector<Vec3> places = local_;
     for (std::size_t i = 0; i < offsets_.size(); ++i)
@@ -148,7 +148,7 @@ double sum_of_squares(const Problem &problem, std::vector<double> &longest) {
   return sum;
 }
 
-// Returns the noise that the residuals show, or 0 if there are no more equations than unknowns.
+// Returns the noise estimated from the residuals, or 0 if there are no more equations than unknowns.
 double seen_noise(const LandmarkModel &model, double squares, std::size_t n_unknowns) {
   const std::size_t n = model.n_equations();
   return n > n_unknowns ? std::sqrt(squares / static_cast<double>(n - n_unknowns)) : 0;
@@ -188,8 +188,8 @@ double LinearValue::at(const std::vector<double> &values) const {
 
 LandmarkFit fit(LandmarkModel &model, const Landmarks &landmarks, const std::vector<Pose> &starts) {
   const std::size_t n_landmarks = landmarks.list.size();
-  // In the first fit, every size has an additional residual that draws it to its expected value. Even if the landmarks say
-  // little, the first fit thus ends near a real valve.
+  // In the first fit, every size has an additional residual that draws it to its expected value. Even if the landmarks determine
+  // few sizes, the first fit thus ends near a real valve.
   Pose best{};
   std::vector<FittedSize> best_sizes;
   double least = std::numeric_limits<double>::infinity();
@@ -199,7 +199,7 @@ LandmarkFit fit(LandmarkModel &model, const Landmarks &landmarks, const std::vec
     problem.has_differences = true;
     std::vector<double> x = problem.start();
     const double cost = problem.minimize(x).cost;
-    // A later start that lowers the sum of squares by less than the noise has found the same minimum up to rounding.
+    // If a later start lowers the sum of squares by less than the squared noise, it has found the same minimum up to rounding.
     if (!(cost < least - landmarks.noise * landmarks.noise)) continue;
     least = cost;
     best = problem.pose_at(x);
@@ -222,8 +222,8 @@ LandmarkFit fit(LandmarkModel &model, const Landmarks &landmarks, const std::vec
   problem.has_differences = true;
   const std::vector<double> start = x;
   Minimum minimum = problem.minimize(x);
-  // The fit does not converge if the sum of squares hardly depends on some size. In this case, the size that the landmarks
-  // determine least is also drawn to its expected value.
+  // The fit does not converge if the sum of squares hardly depends on some size. The size that the landmarks determine least is
+  // then also drawn to its expected value.
   while (!minimum.converged) {
     std::size_t weakest = problem.free_sizes().size();
     for (std::size_t k = 0; k < problem.free_sizes().size(); ++k)
@@ -238,8 +238,8 @@ LandmarkFit fit(LandmarkModel &model, const Landmarks &landmarks, const std::vec
   }
   std::vector<double> r(problem.n_residuals());
   problem.residuals(x, r);
-  // Exact landmarks show less noise than the caller stated. The fit is then repeated with less noise, which gives the expected
-  // values less weight.
+  // If the landmarks are more exact than the caller stated, the residuals show less noise. The fit is then repeated with this
+  // lower noise, which gives the expected values less weight.
   for (int i = 0; i < 12 && minimum.converged && model.n_equations() > n; ++i) {
     std::vector<double> unused(n_landmarks), before = x;
     const double seen = std::sqrt(sum_of_squares(problem, unused) / static_cast<double>(model.n_equations() - n));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fits a valve's sizes and its pose to landmarks by least squares.
-// A model gives the place of each landmark on the valve. The fit finds sizes, pose and offsets, and marks each size that the
-// landmarks determine.
+// A model knows the place of each landmark on the valve. The fit finds the valve's sizes, its pose and the landmarks' offsets
+// from their places. The fit also says which sizes the landmarks determine.
 #pragma once
 
 #include <cstddef>
@@ -28,7 +28,7 @@ struct Minimum {
   double cost;  // the sum of squares
 };
 
-// Changes x until the sum of squares is least. All unknowns have the same unit. `size`, in this unit, is a length over which the
+// Changes x until the sum of squares is least. All unknowns have the same unit. `size` is a length in this unit, over which the
 // residuals are smooth. Derivatives are central differences. The unknowns stay between their bounds.
 struct Bounded {
   std::vector<double> lower, upper;
@@ -50,8 +50,8 @@ struct Eigen {
 };
 Eigen symmetric_eigen(std::vector<double> a, std::size_t n);
 
-// Returns the inverse of J^T J. The residuals may not depend on some combination of unknowns. The diagonal entries of these
-// unknowns are then infinite, and the other entries in their rows and columns are 0.
+// Returns the inverse of J^T J. If the residuals do not depend on some combination of unknowns, the diagonal entries of these
+// unknowns are infinite. The other entries in their rows and columns are then 0.
 std::vector<double> covariance(const std::vector<double> &normal_matrix, std::size_t n);
 
 // A size of the valve that the fit adapts to the landmarks.
@@ -90,13 +90,13 @@ struct DerivedSize {
   double standard_error = 0;
 };
 
-// What the fit has to know of a valve, in the valve's own frame. Lengths are in centimetres.
+// The data of a valve that the fit needs, in the valve's own frame. Lengths are in centimetres.
 class LandmarkModel {
  public:
   virtual ~LandmarkModel() = default;
   std::vector<FittedSize> sizes;
   std::vector<DerivedSize> derived;
-  // Two sizes about whose difference the landmarks say little. The fit always draws this difference to its expected value.
+  // Two sizes whose difference the landmarks determine badly. The fit always draws this difference to its expected value.
   struct Difference {
     std::size_t first, second;
     double spread;
@@ -135,11 +135,12 @@ struct LandmarkFit {
   std::size_t n_unknowns;  // sizes that are not held, and the pose
 };
 
-// Fits the model's sizes and the pose. Begins with the model's sizes and each of the poses in turn, and keeps the best result.
+// Fits the model's sizes and the pose. Runs the fit once from each of the poses, always beginning with the model's sizes, and
+// keeps the best result.
 LandmarkFit fit(LandmarkModel &model, const Landmarks &landmarks, const std::vector<Pose> &starts);
 
-// Returns whether the simple model is as good as the general one, which then fits the landmarks better only by chance. The sizes
-// of the simple model are among the sizes of the general model.
+// Returns whether the simple model is as good as the general model, which means that the general model fits the landmarks better
+// only by chance. The sizes of the simple model are among the sizes of the general model.
 bool is_as_good(const LandmarkFit &simple, const LandmarkFit &general, const LandmarkModel &general_model,
                 const Landmarks &landmarks);
 
@@ -151,23 +152,24 @@ Rotation rotation_to(Vec3 x, Vec3 z);
 Rotation operator*(const Rotation &a, const Rotation &b);
 inline Vec3 unit(Vec3 a) { return (1 / length(a)) * a; }
 
-// The landmarks of each kind of valve: which landmarks are needed, where they lie on the valve, and which sizes they determine.
+// This part says, for each kind of valve, which landmarks are needed, where they lie on the valve, and which sizes they
+// determine.
 
 // Returns a parameter's value in the template. The fit begins with the proportions of the template.
 double value_of(const Valve &valve, const std::string &name);
 Vec3 vector_of(const Valve &valve, const char *name);
 
-// Says whether the caller holds the parameter of this name.
+// Says whether the caller keeps the parameter of this name fixed.
 using IsHeld = std::function<bool(const std::string &name)>;
 
 struct KindOfLandmarks {
   // The models, from the fewest sizes to the most. The fit takes the first model that agrees with the landmarks. If no model
-  // agrees, it takes the last one.
+  // agrees, the fit takes the last model.
   std::vector<std::unique_ptr<LandmarkModel>> models;
   std::vector<Pose> starts;
   const char *size_name;  // the parameter that stands for the valve's size
-  // Called after the model's sizes and the lengths that grow with the valve's size have been set. Sets all other lengths, and the
-  // parameters that are not lengths. `own` is the template valve. The function pointer is NULL if there is nothing to set.
+  // Sets the remaining parameters. It is called after the model's sizes and the lengths that grow with the valve's size have been
+  // set. `own` is the template valve. The function pointer is NULL if there is nothing to set.
   void (*finish)(const Valve &own, Valve &valve) = nullptr;
   // Refuses a fit that leaves something undetermined or that contradicts the landmarks. If the function is empty, no fit is
   // refused.

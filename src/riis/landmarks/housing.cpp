@@ -56,7 +56,7 @@ KindOfLandmarks bileaflet_landmarks(const Valve &valve, const Landmarks &landmar
     const Vec3 p = landmarks.at(i) - middle;
     radius += length(p - dot(p, up) * up) / static_cast<double>(ring.size());
   }
-  // The hinge lines run in the direction in which the hinge ends spread most.
+  // The hinges are parallel to the direction in which their ends are spread most.
   const Vec3 y = hinge_spread.direction[0];
   if (!(hinge_spread.deviation[0] > 0.2 * radius))
     fail(RIIS_INVALID_ARGUMENT, "the ends of the hinges are ", rounded(landmarks.scale * hinge_spread.deviation[0], 3),

@@ -24,17 +24,17 @@ struct LengthUnit {
 };
 constexpr LengthUnit units[] = {{"metres", 0.01}, {"centimetres", 1}, {"millimetres", 10}};
 
-// Returns " (millimetres)" for the scale 10, or "" for a scale that is no usual unit.
+// Returns " (millimetres)" for the scale 10, or "" if the scale belongs to no usual unit.
 std::string unit_in_brackets(double scale) {
   for (const LengthUnit &unit : units)
     if (std::abs(scale - unit.scale) <= 1e-9 * unit.scale) return std::string(" (") + unit.name + ")";
   return "";
 }
 
-// Two landmarks are in one place if their distance is at most `same_place`, in centimetres.
+// Two landmarks count as one place if their distance is at most `same_place`, in centimetres.
 constexpr double same_place = 1e-4;
 
-// For two landmarks in the same place, returns whether `a` already tells the fit everything that `b` tells.
+// For two landmarks in the same place, returns whether `a` makes `b` superfluous for the fit.
 bool implies(const Landmark &a, const Landmark &b) {
   const auto is_one_of = [&](std::initializer_list<std::int32_t> roles) {
     return std::find(roles.begin(), roles.end(), a.role) != roles.end();

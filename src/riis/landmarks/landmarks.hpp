@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Landmarks of a patient, the checks that every kind of valve makes of them, and the placed valve.
+// Landmarks of a patient, the checks of them that are common to all kinds of valves, and the placed valve.
 #pragma once
 
 #include <array>
@@ -19,8 +19,8 @@ struct Landmark {
   Vec3 point;                               // in centimetres, relative to the mean of all landmarks
   std::int32_t role;                        // RIIS_LANDMARK_*
   std::array<std::int32_t, 2> leaflet_ids;  // -1: not given
-  // Another landmark in the same place that makes this landmark superfluous. For example, a horn already counts as a point of the
-  // annulus.
+  // Another landmark in the same place that makes this landmark superfluous. For example, a horn makes a point of the annulus in
+  // the same place superfluous.
   std::optional<std::size_t> repeated = std::nullopt;
 };
 
@@ -52,7 +52,8 @@ std::string words_for(const Landmarks &landmarks, std::size_t i);
 
 // All checks below fail with RIIS_INVALID_ARGUMENT, and their messages name the landmarks.
 
-// Refuses landmarks whose distance from their mean does not fit a heart valve. The message also states the size in other units.
+// Refuses landmarks whose mean distance from their middle is too small or too large for a heart valve. The message also states
+// this distance in other units.
 void check_unit(const Landmarks &landmarks);
 // Refuses a landmark whose role is not one of `roles`. `roles` contains the roles that this kind of valve uses.
 void check_roles(const Landmarks &landmarks, const char *kind, const std::vector<std::int32_t> &roles);
@@ -72,8 +73,8 @@ struct Spread {
 };
 Spread spread_of(const Landmarks &landmarks, const std::vector<std::size_t> &numbers);
 
-// Sets a valve's sizes from a patient's landmarks, and finds its placement (docs/theory/landmarks.md). A valve serves as the
-// template for the proportions. The result is the patient's valve, its placement and the residuals.
+// place_valve sets a valve's sizes from a patient's landmarks, and finds its placement (docs/theory/landmarks.md). Another valve,
+// the template, gives the proportions. The result is the patient's valve, its placement and the residuals.
 
 struct PlacedValve {
   Valve valve;
@@ -92,7 +93,7 @@ struct PlacedValve {
   std::int32_t n_as_annulus = 0;         // trigones that count as points of the annulus
 };
 
-// `held` names sizes that keep the valve's values, with blanks or commas between the names.
+// `held` names the sizes that stay as they are in `valve`, with blanks or commas between the names.
 PlacedValve place_valve(const Valve &valve, const Landmarks &landmarks, std::string_view held);
 
 }  // namespace riis

@@ -10,14 +10,14 @@
 namespace riis {
 namespace {
 
-// The step of central differences, as a share of `size`. The step balances two errors: the error of the differences, step^2, and
-// rounding, 1e-16 / step.
+// The step of central differences, as a share of `size`. The step balances two errors: the differences' own error is about
+// step^2, and their rounding error is about 1e-16 / step.
 constexpr double difference_step = 1e-5;
 // The iteration ends if a step is shorter than `negligible_step` times `size`.
 constexpr double negligible_step = 1e-13;
-// The iteration also ends if the sum of squares falls by less than `negligible_decrease` times itself. The unknowns then differ
-// from their final values by less than a thousandth of their standard errors. If all residuals can become 0, the sum falls much
-// faster, and the iteration goes on until only rounding is left.
+// The iteration also ends if a step lowers the sum of squares by less than `negligible_decrease` times the sum. The unknowns then
+// differ from their final values by less than a thousandth of their standard errors. If all residuals can become 0, the sum falls
+// much faster. The iteration then ends only when rounding alone is left.
 constexpr double negligible_decrease = 1e-9;
 constexpr int most_iterations = 400;
 
@@ -102,8 +102,8 @@ Minimum minimize(const Residuals &residuals, std::size_t n_residuals, double siz
       gradient[i] = std::inner_product(columns[i].begin(), columns[i].end(), r.begin(), 0.0);
       largest = std::max(largest, matrix[i * n + i]);
     }
-    // An unknown that is at its bound and would move outwards is left out of the step. It thus does not change the steps of the
-    // other unknowns.
+    // An unknown that is at its bound and would move beyond it is left out of the step. This unknown thus does not change the
+    // steps of the others.
     for (std::size_t i = 0; i < n; ++i) {
       const bool rests = gradient[i] > 0 ? x[i] <= bounds.lower[i] : x[i] >= bounds.upper[i];
       if (!rests) continue;
@@ -183,8 +183,8 @@ Eigen symmetric_eigen(std::vector<double> a, std::size_t n) {
 
 std::vector<double> covariance(const std::vector<double> &normal_matrix, std::size_t n) {
   const Eigen eigen = symmetric_eigen(normal_matrix, n);
-  // Eigenvalues below this limit count as 0. They are squares of the singular values of J, and the entries of J are accurate to
-  // about 1e-10 of the largest entry.
+  // Eigenvalues below this limit count as 0. The eigenvalues are the squares of J's singular values. The entries of J are
+  // accurate only to about 1e-10 of the largest entry.
   const double least = 1e-12 * (n == 0 ? 0 : eigen.values.back());
   constexpr double small_share = 1e-8;
   std::vector<double> matrix(n * n);

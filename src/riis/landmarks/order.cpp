@@ -16,7 +16,7 @@
 namespace riis {
 namespace {
 
-// Returns the names as in "right, left and non_coronary".
+// Joins the names to one text, such as "right, left and non_coronary".
 std::string listed(const std::vector<std::string> &names) {
   std::string text = names[0];
   for (std::size_t k = 1; k < names.size(); ++k) text += (k + 1 < names.size() ? ", " : " and ") + names[k];
@@ -27,7 +27,7 @@ const std::string &name_of(const LeafletsAround &leaflets, std::int32_t leaflet_
   return leaflets.names[static_cast<std::size_t>(leaflet_id)];
 }
 
-// Returns whether a place agrees with the leaflets that the landmark names.
+// Returns whether a landmark's leaflet ids, if it has any, agree with its position in the order.
 bool fits_nadir(const Landmark &landmark, std::size_t leaflet) {
   return landmark.leaflet_ids[0] == -1 || landmark.leaflet_ids[0] == static_cast<std::int32_t>(leaflet);
 }
@@ -90,15 +90,15 @@ Order turn_of(const Landmarks &landmarks, Vec3 axis, Vec3 middle) {
   return order;
 }
 
-// Returns whether the names would fit the order if it began at another leaflet.
+// Returns whether the names would fit if the order began at another leaflet.
 bool fits_turned(const Landmarks &landmarks, const LeafletsAround &leaflets, const Order &turn) {
   for (std::size_t by = 0; by < leaflets.n(); ++by)
     if (fits(landmarks, leaflets, rotated(turn, by))) return true;
   return false;
 }
 
-// Looks for pairs of landmarks whose names, once exchanged, make all names fit. If there is only one such pair, fails with a
-// message that names it.
+// Looks for two landmarks whose names were exchanged: if they are changed back, all names fit. If there is exactly one such pair,
+// fails with a message about this pair.
 void refuse_exchanged(Landmarks landmarks, const LeafletsAround &leaflets, const Order &turn) {
   std::vector<std::array<std::size_t, 2>> found;
   for (std::size_t i = 0; i < landmarks.list.size(); ++i)
@@ -115,7 +115,7 @@ void refuse_exchanged(Landmarks landmarks, const LeafletsAround &leaflets, const
          words_for(landmarks, found[0][1]), " are exchanged: all names fit if these two change places");
 }
 
-// Fails with a message that names the first landmark whose name does not fit the order.
+// Fails with a message about the first landmark whose leaflet ids do not fit the order.
 [[noreturn]] void refuse_names(const Landmarks &landmarks, const LeafletsAround &leaflets, const Order &order) {
   for (std::size_t k = 0; k < leaflets.n(); ++k) {
     if (!order.nadir.empty() && !fits_nadir(landmarks.list[order.nadir[k]], k))
@@ -157,7 +157,7 @@ bool names_fit(const Landmarks &landmarks, const LeafletsAround &leaflets, Vec3 
   return fits_turned(landmarks, leaflets, turn_of(landmarks, axis, middle));
 }
 
-// The names determine which of the possible orders about the axis is right.
+// The names of the leaflets decide at which leaflet the order begins.
 Order order_around(const Landmarks &landmarks, const LeafletsAround &leaflets, Vec3 axis, Vec3 middle) {
   const Order turn = turn_of(landmarks, axis, middle);
   const std::size_t n = leaflets.n();

@@ -58,7 +58,7 @@ std::vector<std::string> words_of(std::string_view text) {
   return words;
 }
 
-// Returns, for each parameter of the kind, whether the caller holds it.
+// For each parameter of the kind, returns whether the caller keeps the parameter fixed.
 std::vector<bool> held_parameters(const Valve &valve, std::string_view held) {
   const auto &specs = valve.kind().parameters;
   std::vector<bool> is_held(specs.size());
@@ -83,14 +83,14 @@ bool grows(const ParameterSpec &spec, const std::array<double, 3> &values) {
   return length == "length" && !is_shift && !is_flat_bump;
 }
 
-// Returns the axis and the angle in degrees, 0 to 180.
+// Returns the axis of a rotation, and its angle from 0 to 180 degrees.
 std::pair<Vec3, double> axis_and_angle(const Rotation &r) {
   const Vec3 twice{r.row_z.y - r.row_y.z, r.row_x.z - r.row_z.x, r.row_y.x - r.row_x.y};
   const double trace = r.row_x.x + r.row_y.y + r.row_z.z, sine = length(twice);
   const double angle = arc_tangent(sine, trace - 1) * (180 / pi);
   if (sine > 1e-6) return {unit(twice), angle};
   if (trace > 1) return {{0, 0, 1}, 0};
-  // For an angle of 180 degrees, each column of R + 1 that is not 0 has the direction of the axis.
+  // For an angle of 180 degrees, every column of R + 1 is parallel to the axis or 0.
   const Vec3 columns[3] = {{r.row_x.x + 1, r.row_y.x, r.row_z.x},
                            {r.row_x.y, r.row_y.y + 1, r.row_z.y},
                            {r.row_x.z, r.row_y.z, r.row_z.z + 1}};
@@ -135,8 +135,8 @@ struct OnAttachment {
   Vec3 point, tangent;
 };
 
-// Returns the point of the attachment that the map takes nearest to `wanted`. If the landmark names a cusp, only this cusp
-// counts. Returns nothing if the cusp has no attachment, or if no distance is finite.
+// Returns the point of the attachment whose image under the map is nearest to `wanted`. If the landmark names a cusp, only the
+// attachment of this cusp is searched. Returns nothing if the cusp has no attachment, or if no distance is finite.
 std::optional<OnAttachment> nearest_on(const Vector<AttachmentPart> &parts, const WarpMap &map, Vec3 wanted,
                                        std::int32_t leaflet_id) {
   double least = std::numeric_limits<double>::infinity(), at = 0;
@@ -162,7 +162,7 @@ std::optional<OnAttachment> nearest_on(const Vector<AttachmentPart> &parts, cons
   return OnAttachment{place(nearest->image, found.point), place(turn_of(nearest->image), found.tangent)};
 }
 
-// Two landmarks are in one place if their distance is at most `one_place_share` of the valve's radius.
+// Two landmarks count as one place if their distance is at most `one_place_share` of the valve's radius.
 constexpr double one_place_share = 0.02;
 
 // The pairs of points that make a warp. Of several landmarks in one place, only the first is kept.
@@ -189,8 +189,8 @@ struct WarpPairs {
   Vector<std::size_t> landmark;  // the numbers of the landmarks
 };
 
-// Slides the places along the attachment until the warp through all landmarks bends least (F. L. Bookstein 1997). Neighbouring
-// places are then at suitable distances, so that the warp does not fold between them.
+// Slides the places along the attachment until the warp through all landmarks bends least (F. L. Bookstein 1997). This gives
+// neighbouring places suitable distances, so that the warp does not fold between them.
 void slide_along_attachment(const Vector<AttachmentPart> &parts, const Landmarks &landmarks,
                             const std::vector<Vec3> &local, double radius, std::vector<Vec3> &places) {
   constexpr int most_slides = 8;
@@ -214,8 +214,8 @@ void slide_along_attachment(const Vector<AttachmentPart> &parts, const Landmarks
       const auto here = nearest_on(parts, {}, pairs.sources[i], landmark.leaflet_ids[0]);
       if (here) sliding.push_back({i, here->tangent, map.at(pairs.sources[i]).along(here->tangent)});
     }
-    // Moving a place changes the displacement of its landmark, and thus the bending. At the minimum of the bending, no move
-    // lowers it further.
+    // A move of a place changes the displacement to its landmark, and thus the bending. At the minimum, the derivatives of the
+    // bending with respect to all moves are 0.
     const std::size_t n = sliding.size();
     std::vector<double> matrix(n * n), steps(n);
     for (std::size_t i = 0; i < n; ++i) {
@@ -240,7 +240,8 @@ void slide_along_attachment(const Vector<AttachmentPart> &parts, const Landmarks
   }
 }
 
-// Separates equal places of different landmarks. Such places occur near a commissure where the patient differs from the valve.
+// Separates landmarks that have the same place. Landmarks may have the same place near a commissure at which the patient differs
+// from the valve.
 void separate_places(const Vector<AttachmentPart> &parts, const Landmarks &landmarks,
                      const std::vector<std::size_t> &along, const std::vector<Vec3> &local, double radius,
                      std::vector<Vec3> &places) {
@@ -260,9 +261,9 @@ void separate_places(const Vector<AttachmentPart> &parts, const Landmarks &landm
     }
 }
 
-// Finds the places of the landmarks along the attachment. A smoothed warp of all landmarks maps the attachment. Each place is at
-// first the point that this warp takes nearest to the landmark, and then slides. `places` has the places of the other landmarks.
-// `local` has the landmarks in the valve's frame.
+// Finds the places of the landmarks along the attachment. First, a smoothed warp of all landmarks is made. Each place begins at
+// the point of the attachment that this warp takes nearest to the landmark. Then the places slide. `places` has the places of the
+// other landmarks. `local` has the landmarks in the valve's frame.
 void place_on_attachment(const Valve &valve, const Landmarks &landmarks, const std::vector<Vec3> &local, double radius,
                          std::vector<Vec3> &places) {
   std::vector<std::size_t> along = landmarks.with_role(RIIS_LANDMARK_ATTACHMENT);
@@ -300,8 +301,8 @@ void place_on_attachment(const Valve &valve, const Landmarks &landmarks, const s
     }
 }
 
-// Refuses sizes that do not fit together. The message begins with the sizes that come from the landmarks, because all others
-// follow from them.
+// Refuses sizes that do not fit together. The message begins with the sizes that come from the landmarks, because all other sizes
+// follow from these.
 void check_sizes(const Valve &valve, const LandmarkModel &model) {
   try {
     valve.make_patches();
@@ -360,7 +361,7 @@ PlacedValve place_valve(const Valve &valve, const Landmarks &landmarks, std::str
   for (const FittedSize &size : model.sizes)
     if (size.name == of_kind.size_name) size_now = size.value;
   const double grown = size_now / value_of(valve, of_kind.size_name);
-  // Lengths that follow from other lengths by a rule of the valve grow with those lengths.
+  // Lengths that a rule of the valve computes from other lengths grow with these, so they are not set.
   for (std::size_t i = 0; i < specs.size(); ++i) {
     std::array<double, 3> values = valve.values()[i];
     if (!grows(specs[i], values) || (specs[i].rule.text && !valve.is_set(specs[i].name))) continue;

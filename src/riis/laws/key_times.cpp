@@ -11,13 +11,14 @@ namespace riis {
 namespace {
 
 constexpr double largest_time = 1e30, infinity = std::numeric_limits<double>::infinity();
-// A relative tolerance. It lets 0.1 and 0.8 count as one period of 0.7 apart, although rounding changes the last bit.
+// A relative tolerance for rounding. For example, 0.1 and 0.8 count as one period of 0.7 apart, although their difference is
+// rounded.
 constexpr double rounding = 1e-9;
 constexpr std::int64_t max_keys = 1'000'000;
 
 // Returns the derivative of the monotone cubic at a key. The derivative at a key is the weighted harmonic mean of the slopes
 // before and after the key (F. N. Fritsch, J. Butland, SIAM J. Sci. Stat. Comput. 5(2), 1984). The derivative is 0 if the slopes
-// have different signs, and at a key without a neighbour on one side.
+// have different signs, or if the key lacks a neighbour on one side.
 double tangent(double slope_before, double slope_behind, double width_before, double width_behind) {
   if (!(slope_before * slope_behind > 0) || width_before == infinity || width_behind == infinity) return 0;
   const double w_before = 2 * width_behind + width_before, w_behind = width_behind + 2 * width_before;
@@ -49,8 +50,8 @@ KeyTimes::KeyTimes(const char *name, std::int64_t n_keys, const double *time, do
   is_closed_ = period > 0 && n_keys > 1 && time[n_keys - 1] - time[0] >= (1 - rounding) * period;
 }
 
-// A time to which periods were added is rounded, both here and in the caller's program. Without a tolerance, rounding could put
-// the time of a key just before the key, where the rate is different.
+// A time is rounded whenever periods are added to it, here or in the caller's program. Without a tolerance, a time at a key could
+// be rounded to just before the key, where the rate is different.
 double KeyTimes::from_key(std::int64_t i, double time) const {
   const auto if_at = [&](double key) {
     const double difference = time - key, key_lost = difference - time;

@@ -20,8 +20,8 @@ constexpr double degree = pi / 180;
 void check_time(double time) { check_range("", "time", time, -largest_number, largest_number); }
 
 // Rises smoothly from 0 at x = 0 to 1 at x = 1. The ramp's first two derivatives are 0 at both ends, so the valve's velocity and
-// acceleration do not jump. Just below x = 1 the polynomial may round to more than 1. The result is limited to 1, because no
-// valve accepts an opening above 1.
+// acceleration do not jump. Just below x = 1, rounding may give a value above 1. No valve accepts such an opening, so the result
+// is limited to 1.
 double ramp(double x) { return x <= 0 ? 0 : x >= 1 ? 1 : std::min(1.0, x * x * x * (10 + x * (-15 + 6 * x))); }
 double ramp_rate(double x) { return x <= 0 || x >= 1 ? 0 : 30 * x * x * (1 - x) * (1 - x); }
 
@@ -42,7 +42,7 @@ ValueAndRate opening_from_table(const riis_opening_table &table, double time) {
   std::array<double, 4> openings;
   for (std::size_t k = 0; k < 4; ++k) openings[k] = table.opening[around.key[k]];
   const ValueAndRate made = keys.between(around, openings);
-  // The opening is limited to its range, because rounding could take it outside.
+  // The opening is clamped to its range, because rounding could put it slightly outside.
   return {std::clamp(made.value, 0.0, 1.0), made.rate};
 }
 
@@ -67,7 +67,7 @@ ValueAndRate opening_from_times(const riis_opening_times &times, double time) {
   const double opened = since / times.opening_duration;
   const double closed = (since - (times.closing_start - times.opening_start)) / times.closing_duration;
   const double height = times.open - times.closed;
-  // The opening is limited to its range, because rounding could take it outside.
+  // The opening is clamped to its range, because rounding could put it slightly outside.
   return {std::clamp(times.closed + height * (ramp(opened) - ramp(closed)), std::min(times.closed, times.open),
                      std::max(times.closed, times.open)),
           height * (ramp_rate(opened) / times.opening_duration - ramp_rate(closed) / times.closing_duration)};
@@ -125,8 +125,7 @@ riis_opening_switch_state advance(const riis_opening_switch &law, const riis_ope
     now.phase = opens ? RIIS_PHASE_OPENING : RIIS_PHASE_CLOSING;
     now.turn_time = time;
   }
-  // During a step, the valve moves in the phase that it had at the start. A change of phase becomes known only at the end
-  // of the step.
+  // The phase at the start of a step holds for the whole step, because a change of phase becomes known only at the end.
   const bool is_opening = before.phase == RIIS_PHASE_OPENING;
   const double per_second = is_opening ? 1 / law.opening_duration : -1 / law.closing_duration;
   now.progress = std::clamp(before.progress + step * per_second, 0.0, 1.0);
@@ -146,7 +145,8 @@ struct AngleState {
 AngleState operator+(AngleState a, AngleState b) { return {a.angle + b.angle, a.rate + b.rate}; }
 AngleState operator*(double s, AngleState a) { return {s * a.angle, s * a.rate}; }
 
-// The law of Korakianitis and Shi. The pressure difference and the flow drive the valve. During a step, both are linear in time.
+// The law of Korakianitis and Shi. The pressure difference and the flow drive the valve. Both are taken as linear in time during
+// a step.
 class AngleLaw {
  public:
   struct Drive {
@@ -154,7 +154,7 @@ class AngleLaw {
   };
   AngleLaw(const riis_opening_angle &law, Drive from, Drive to) : law_(law), from_(from), to_(to) {}
 
-  // Returns the time derivative of angle and rate at a share of the step.
+  // Returns the time derivatives of the angle and of its rate, after a share of the step (0 to 1).
   AngleState derivative(AngleState at, double share) const {
     const double pressure = (1 - share) * from_.pressure_difference + share * to_.pressure_difference;
     const double flow = (1 - share) * from_.flow + share * to_.flow;
@@ -184,7 +184,7 @@ AngleState runge_kutta(const AngleLaw &law, AngleState at, double from, double t
   return at + (seconds / 6) * (k1 + 2 * k2 + 2 * k3 + k4);
 }
 
-// Keeps the angle between its stops. A leaflet at a stop does not move on in the direction of the stop.
+// Limits the angle to the range between the leaflet's two stops. A leaflet at a stop may only move away from the stop.
 AngleState stopped(AngleState at, double least, double most) {
   if (at.angle <= least) return {least, std::max(at.rate, 0.0)};
   if (at.angle >= most) return {most, std::min(at.rate, 0.0)};
@@ -214,8 +214,8 @@ riis_opening_angle_state advance(const riis_opening_angle &law, const riis_openi
 
   const AngleLaw::Drive to{pressure_difference, flow};
   const AngleLaw angle_law(law, has_drive ? AngleLaw::Drive{before.pressure_difference, before.flow} : to, to);
-  // The error of the method falls with the fourth power of the step. With steps of this size, it is far below the error that
-  // comes from taking pressure and flow as linear.
+  // The method's error is proportional to the fourth power of the step. With steps of this size, the error is far below the error
+  // that comes from taking pressure and flow as linear.
   constexpr double largest_step = 0.05;
   const double n_wanted = std::ceil(step * angle_law.fastest() / largest_step);
   constexpr double max_steps = 1e6;

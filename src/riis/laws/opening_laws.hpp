@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Laws of opening: pure functions from time, pressure and flow to a valve's opening. The solver keeps the state, so a restarted
-// run continues with the same bits.
-// Each law gives the present opening and its rate. Some laws need the previous state.
+// Laws of opening: pure functions from time, pressure and flow to a valve's present opening and its rate. Some laws also need the
+// previous state, which the solver keeps. If the solver saves this state, a restarted run continues with the same bits.
 #pragma once
 
 #include <riis/riis.h>

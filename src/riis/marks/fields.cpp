@@ -34,9 +34,9 @@ void for_each_array(const FieldSet &fields, const Visit &visit) {
   if (has(field_height) && has(RIIS_FIELD_GRADIENT)) visit(&NodeFields::height_gradient, fields.n_directions);
 }
 
-// The velocity of a node to which several leaflets are equally near: the mean over these leaflets. A leaflet's velocity is the
-// mean over its closest points, the ties. The constructor takes the velocity at the closest triangle. The caller then adds the
-// ties of the other leaflets, leaflet by leaflet.
+// If several leaflets are equally near to a node, the node's velocity is the mean over these leaflets. The velocity of one
+// leaflet is the mean over its closest points, which are called ties. The constructor takes the velocity at the closest triangle.
+// The caller then adds the other ties, leaflet by leaflet.
 class MeanOfLeaflets {
  public:
   MeanOfLeaflets(std::int32_t closest_leaflet, Vec3 velocity) : closest_leaflet_(closest_leaflet) {
@@ -112,7 +112,7 @@ class TriangleFields {
   }
 
   // Replaces the velocity of each node with ties by the mean over all leaflets that are equally near. A leaflet's velocity is the
-  // mean over its tied points. `range` is a range of ties. It includes the nodes whose first tie is in it.
+  // mean over its ties. `range` is a range of ties. The function handles the nodes whose first tie lies in this range.
   void take_means(const Range &range) const {
     const std::int64_t begin = next_node(range.begin), end = next_node(range.end);
     MeanOfLeaflets mean(-1, {0, 0, 0});
@@ -168,8 +168,8 @@ class TriangleFields {
     }
   }
 
-  // Writes the derivatives of the distances, which are -n.V in each direction. n is the unit vector from the closest point to the
-  // node, and V is the rate of the closest point.
+  // Writes the derivatives of the distances in each direction: -n.V. n is the unit vector from the closest point to the node, and
+  // V is the rate of the closest point.
   void write_gradients(const EightPoints &eight, std::int64_t first, std::int64_t n) const {
     const std::int64_t *vertex[pairs_at_once];
     for (std::int64_t lane = 0; lane < n; ++lane) vertex[lane] = set_.vertex_id.data() + 3 * eight.triangle[lane];
@@ -188,8 +188,8 @@ class TriangleFields {
     for (std::int64_t lane = 0; has(RIIS_FIELD_GRADIENT) && lane < n; ++lane)
       for (std::int64_t k = 0; k < n_directions(); ++k) {
         const std::int64_t at = n_directions() * (first + lane) + k;
-        // At an edge or a vertex, the normal is the direction from the closest point to the node. If the two are so close that
-        // rounding decides this direction, the normal of the surface is used.
+        // At an edge or a vertex, the normal is the direction from the closest point to the node. If node and closest point are
+        // so close that rounding determines this direction, the normal of the surface is used instead.
         const bool has_way = (eight.on.at_border >> lane & 1) != 0 && !is_on_rim[lane] && distance[lane] > least_way_;
         view(made_.height_gradient)[at] = has_way ? (height[lane] > 0 ? 1 : -1) * view(made_.distance_gradient)[at]
                                                   : height_rate(eight, lane, k, is_on_rim[lane] != 0);
@@ -231,8 +231,8 @@ class TriangleFields {
     }
   }
 
-  // Returns the first position from `tie` on at which the ties of a node begin. After the last node, returns the number of all
-  // ties.
+  // Returns the first position from `tie` on at which the ties of a node begin. If no further node has ties, returns the number
+  // of all ties.
   std::int64_t next_node(std::int64_t tie) const {
     while (tie > 0 && tie < ties_.size() && ties_[tie].point == ties_[tie - 1].point) ++tie;
     return tie;
@@ -286,7 +286,8 @@ struct TieOrder {
   }
 };
 
-// For each vertex, stores side by side the numbers that the fields need. The fields of a node then read few places in memory.
+// Copies the numbers that the fields need, so that all numbers of a vertex lie side by side. Computing the fields of a node then
+// reads few places in memory.
 void gather_at_vertices(const TriangleSet &set, std::int32_t fields, int n_threads, FieldScratch &scratch) {
   const bool has_velocity = fields & RIIS_FIELD_VELOCITY, has_uv = fields & RIIS_FIELD_UV;
   if (!has_velocity && !has_uv) return;
@@ -301,7 +302,8 @@ void gather_at_vertices(const TriangleSet &set, std::int32_t fields, int n_threa
   });
 }
 
-// Writes the fields of a node whose distance was measured by sampling or minimisation. Finds the closest point again.
+// Writes the fields of a node whose distance was measured by sampling or minimisation. To do so, computes the closest point
+// again.
 void write_patch_fields(const SearchRequest &request, std::int32_t fields, std::int64_t node, std::int64_t i,
                         NodeFields &made) {
   const PatchDistance &method = *request.surface.other_distance();
@@ -351,8 +353,8 @@ void FieldScratch::prepare(const SearchRequest &request, std::int32_t fields, co
   const auto is_one_leaflet = [&](const Tie &a, const Tie &b) {
     return rule.leaflet_id[a.triangle.triangle] == rule.leaflet_id[b.triangle.triangle];
   };
-  // Keeps the closest triangle of each leaflet. If other patches of the leaflet have triangles that are equally near, keeps one
-  // on each patch.
+  // Keeps the closest triangle of each leaflet. If a triangle on another patch of the leaflet is equally near, this triangle is
+  // kept also. At most one triangle is kept on each patch.
   auto closest = ties.begin(), end = ties.begin();
   for (const Tie &tie : ties) {
     const bool is_first = end == ties.begin() || tie.point != closest->point || !is_one_leaflet(*closest, tie);
@@ -390,7 +392,7 @@ void check_fields(const Surface &surface, std::int32_t fields) {
 bool need_normals(const Surface &surface, std::int32_t fields, std::int64_t n_nodes) {
   if (surface.other_distance()) return false;
   if (fields & (RIIS_FIELD_SIDE | RIIS_FIELD_RIM | field_height)) return true;
-  // A normal for each triangle costs less than a normal for each node if there are fewer triangles.
+  // If there are fewer triangles than nodes, the normals of all triangles cost less than a normal for each node.
   return (fields & RIIS_FIELD_NORMAL) && n_nodes > surface.triangles().n_triangles();
 }
 
@@ -431,7 +433,7 @@ void make_fields(const SearchRequest &request, std::int32_t fields, const NodeLi
 
 namespace {
 
-// Copies n numbers if their place changes.
+// Copies a range to the position `at`, unless the range is already there.
 template <class Array>
 void copy_range(const Array &from, const Range &range, Array &to, std::int64_t at) {
   if (from.data() + range.begin != to.data() + at)

@@ -21,15 +21,15 @@ namespace riis {
 
 // The arrays that a caller gets from a marking. The arrays have one entry for each node, in ascending order.
 
-// Makes room for n elements. If new memory is needed, reserves 1.5 times the needed size. A moving valve often marks a few more
-// nodes than ever before. Without the reserve, each such step would need new memory.
+// Makes room for n elements. If new memory is needed, reserves 1.5 times the needed size. A moving valve often marks slightly
+// more nodes than in all earlier steps. Without the reserve, each such step would allocate memory.
 template <class Array>
 void reserve_amply(Array &array, std::int64_t n) {
   const auto needed = static_cast<std::size_t>(n);
   if (needed > array.capacity()) array.reserve(needed + needed / 2);
 }
 
-// Returns whether resize(n) keeps the array at its address.
+// Returns whether the array stays at its address in resize(n).
 template <class Array>
 bool has_room(const Array &array, std::int64_t n) {
   return static_cast<std::size_t>(n) <= array.capacity();
@@ -67,13 +67,13 @@ struct NodeList {
   }
 };
 
-// Fields. A field is a number or vector at a node's closest point, such as the velocity, which a solver needs for its force.
-// Each requested field becomes an array over the nodes within the limit, for the closest triangles that the search found.
+// A field is a number or a vector at each node's closest point. An example is the velocity, from which a solver computes its
+// force. Each requested field becomes an array with an entry for each node within the limit.
 
 // The field NodeFields::height. Every marking with an offset has it, but no caller can request it.
 inline constexpr std::int32_t field_height = 1 << 30;
 
-// Fields, and the number of the surface's directions, which RIIS_FIELD_GRADIENT needs.
+// A set of fields, and the number of the surface's directions of motion, which RIIS_FIELD_GRADIENT needs.
 struct FieldSet {
   std::int32_t bits;  // a sum of RIIS_FIELD_* and field_height
   std::int64_t n_directions;
@@ -94,7 +94,7 @@ struct NodeFields {
   void resize(const FieldSet &fields, std::int64_t n);
 };
 
-// Memory that the next marking's fields reuse.
+// Memory that is reused for the fields of the next marking.
 struct FieldScratch {
   UnfilledVector<VertexNumbers> at_vertices;
   std::vector<Tie> ties;                           // by node, then by leaflet; a leaflet's closest triangle comes first
@@ -110,14 +110,15 @@ void check_fields(const Surface &surface, std::int32_t fields);
 // Returns whether the fields of n_nodes nodes need Surface::pseudonormals().
 bool need_normals(const Surface &surface, std::int32_t fields, std::int64_t n_nodes);
 
-// Returns the rule by which a search must collect ties, if these fields are requested.
+// Returns the rule by which a search must collect ties for these fields.
 TieRule ties_for(const Surface &surface, std::int32_t fields);
 
 // Writes the fields of the nodes in the list. The memory must be reserved, so this function does not throw.
 void make_fields(const SearchRequest &request, std::int32_t fields, const NodeList &list, FieldScratch &scratch,
                  NodeFields &made);
 
-// Copies a range of nodes, or of their fields, to the positions from `at` on. A copy within one list must go to earlier places.
+// Copies a range of nodes, or of their fields, to the positions from `at` on. A copy within one list must go to a position before
+// the range.
 void copy_nodes(const NodeList &from, const Range &range, NodeList &to, std::int64_t at);
 void copy_fields(const FieldSet &fields, const NodeFields &from, const Range &range, NodeFields &to, std::int64_t at);
 
@@ -125,13 +126,12 @@ void copy_fields(const FieldSet &fields, const NodeFields &from, const Range &ra
 void select_fields(const FieldSet &fields, const NodeList &all, const NodeFields &fields_of_all, const NodeList &some,
                    NodeFields &made);
 
-// Merges the lists of several threads into lists in ascending order of nodes.
-// One list has the nodes within the limit. If the limit is wider than the half thickness, the marked nodes have a list of their
-// own.
+// The functions below merge the lists of several threads into one list in ascending order of nodes. This list has the nodes
+// within the limit. If the limit is wider than the half thickness, a second list has the marked nodes.
 
 // A set of nodes whose numbers lie in one range, a bin. The set has a bit for each number of the bin. The rank of a node is the
-// number of nodes with lower numbers in the set. A stretch of the bits is 64 words. Only stretches with nodes are written and
-// read.
+// number of nodes in the set that have lower numbers. A stretch consists of 64 words of bits. Only stretches that contain nodes
+// are written and read.
 class NodeRanks {
  public:
   // Makes room for bins of n_numbers. Only this function allocates memory.
@@ -173,8 +173,8 @@ struct OrderScratch {
 OrderScratch::Counts prepare_order(const Surface &surface, const FoundNodes &found, bool limit_is_wider, int n_threads,
                                    OrderScratch &scratch);
 
-// Fills the lists. Fills `marked` only if the limit is wider than the half thickness. `numbers` is the range that contains the
-// numbers of all found nodes. Before this function, prepare_order must be called with the same arguments.
+// Fills the lists. Fills `marked` only if the limit is wider than the half thickness. `numbers` is a range that contains the
+// numbers of all found nodes. Call prepare_order first, with the same arguments.
 void put_in_order(const Surface &surface, bool limit_is_wider, const Range &numbers, int n_threads,
                   OrderScratch &scratch, NodeList &within, NodeList &marked);
 

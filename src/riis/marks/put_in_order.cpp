@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::int64_t bits_per_word = 64, words_per_stretch = 64;
 
-// All bins have equally many numbers, a power of two. One thread writes all nodes of a bin, so two threads seldom write to one
-// cache line. With many more bins, gathering the nodes would take longer.
+// A bin is a range of nodes' numbers. All bins have the same length, which is a power of two. One thread writes all nodes of a
+// bin, so two threads seldom write to the same cache line. With many more bins, it would take longer to gather the nodes.
 class Bins {
  public:
   explicit Bins(std::int64_t n_nodes) {
@@ -36,8 +36,8 @@ static_assert(bits_per_word * words_per_stretch == 1 << 12);
 
 std::uint64_t bit_of(std::int64_t node) { return std::uint64_t{1} << node % bits_per_word; }
 
-// Counts bits without the popcount instruction, which some processors lack. For their sake, the compiler's built-in would call a
-// function.
+// Counts the bits that are set. The popcount instruction is not used, because some processors lack it. The compiler's built-in
+// would call a function for this reason.
 std::uint32_t n_bits(std::uint64_t x) {
   x -= x >> 1 & 0x5555555555555555;
   x = (x & 0x3333333333333333) + (x >> 2 & 0x3333333333333333);
@@ -78,7 +78,7 @@ class Ordering {
   void write(NodeList &within, NodeList &marked) {
     parallel_for(bins_.n(), n_threads_, [&](std::int64_t bin, int thread) {
       const OrderScratch::Counts &first = view(scratch_.first)[bin], &next = view(scratch_.first)[bin + 1];
-      // The next bin's part of the result is prefetched now, because it will be written in random order.
+      // The part of the result for the next bin is prefetched now, because this part will be written in random order.
       if (bin + 1 < bins_.n()) request({next.n_within, view(scratch_.first)[bin + 2].n_within}, within);
       if (next.n_within == first.n_within) return;
       NodeRanks &ranks = view(scratch_.ranks)[thread];
@@ -89,7 +89,7 @@ class Ordering {
   }
 
  private:
-  // One thread handles a few nodes alone, because other threads would start too late to help.
+  // If there are only a few nodes, one thread handles them alone, because other threads would start too late to help.
   static int threads_for_order(std::int64_t n_within, int n_threads) {
     constexpr std::int64_t few = 4096;
     return n_within < few ? 1 : n_threads;

@@ -22,8 +22,9 @@ AreaSearch::AreaSearch(Area area, double from, double to, std::int32_t n_samples
   sample(from, to, n_samples, grows);
   if (points_.empty()) return;
   part();
-  // Areas between a sample and a nearby extreme would be out of reach, so the extremes are added to the samples. Their values are
-  // noted first, because each added extreme shifts the positions of later points.
+  // Without the extremes, the search would miss areas between a sample and an extreme beside it. The extremes are therefore added
+  // to the samples. The values at which to look for extremes are listed first, because each added extreme shifts the positions of
+  // later points.
   std::vector<double> places;
   for (const Part &one : parts_) places.push_back(points_[one.last].value);
   for (const double place : {least().value, most().value}) places.push_back(place);
@@ -54,8 +55,8 @@ void AreaSearch::sample(double from, double to, std::int32_t n_samples, bool gro
   }
 }
 
-// Does nothing unless the area at this point is the largest or the least among the point and its two neighbours. Finds the
-// extreme area between the neighbours, and adds it to the points.
+// If the area here is larger or smaller than at both neighbours, finds the extreme area between them, and adds it to the points.
+// Otherwise does nothing.
 void AreaSearch::add_extreme(std::size_t at) {
   if (at == 0 || at + 1 == points_.size() || is_after_refused_[at] || is_after_refused_[at + 1]) return;
   const Point before = points_[at - 1], here = points_[at], after = points_[at + 1];
@@ -92,7 +93,8 @@ void AreaSearch::add_extreme(std::size_t at) {
   is_after_refused_.insert(is_after_refused_.begin() + static_cast<std::ptrdiff_t>(place), 0);
 }
 
-// Finds the least and the largest area. Divides the points into parts, at each turn of the area and at each refused value.
+// Finds the least and the largest area. Divides the points into parts. A new part begins where the area begins to grow or to
+// fall, and at each refused value.
 void AreaSearch::part() {
   const auto has_less_area = [](const Point &a, const Point &b) { return a.area < b.area; };
   const auto begin = points_.begin(), end = points_.end();
@@ -124,8 +126,8 @@ void AreaSearch::part() {
     } else if (direction == 0) {
       direction = has_grown ? 1 : has_fallen ? -1 : 0;
     }
-    // While the area grows, the lowest point is sought only behind the highest point so far. While the area falls, the reverse
-    // holds.
+    // While the area grows, the lowest point is sought only after the highest point so far. While the area falls, the highest
+    // point is sought only after the lowest point so far.
     if (direction > 0) low = high;
     if (direction < 0) high = low;
   }
@@ -148,8 +150,8 @@ std::optional<AreaSearch::Point> AreaSearch::in_part(const Part &part, double ar
   const auto take = [&](const Point &point) {
     if (!best || std::abs(point.value - near) < std::abs(best->value - near)) best = point;
   };
-  // Because the area jumps, it may lie in several intervals of the part. These intervals are close together, so only the nearest
-  // one is searched.
+  // Because the area may jump slightly, several intervals of the part may contain the area. These intervals are close together,
+  // so only the nearest one is searched.
   std::size_t interval = part.last;
   for (std::size_t i = part.first; i <= part.last; ++i) {
     if (is_it(points_[i])) take(points_[i]);
@@ -169,7 +171,7 @@ std::optional<AreaSearch::Point> AreaSearch::in_part(const Part &part, double ar
 }
 
 // The method of false position, modified: it halves the value at an end that does not move (M. Dowell, P. Jarratt, BIT 11, 1971).
-// Every third step halves the interval, so jumps cost no more steps than a bisection.
+// Every third step halves the interval, so that a jump of the area needs at most three times the steps of a bisection.
 AreaSearch::Point AreaSearch::between(Point a, Point b, double area, double tolerance) const {
   double weight_a = a.area - area, weight_b = b.area - area;
   Point best = std::abs(weight_a) < std::abs(weight_b) ? a : b;

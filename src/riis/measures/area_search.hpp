@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds numbers at which an area has given values. The area depends on one number, as a valve's orifice depends on its opening.
-// The area may jump slightly, may grow in one part of its range and fall in another part, and has no derivative.
+// Finds the values of a variable at which an area has a given size. For example, a valve's orifice area depends on its opening.
+// The area may jump slightly, may grow in one part of the range and fall in another, and has no derivative.
 #pragma once
 
 #include <cstddef>
@@ -16,15 +16,15 @@ class AreaSearch {
   // Returns the area at a value, or nothing if the value has no area. The search by find() needs an area at each value.
   using Area = std::function<std::optional<double>(double value)>;
 
-  // A change by at most `largest_jump` times the largest area may be a jump.
+  // A change of at most `largest_jump` times the largest area may be only a jump.
   static constexpr double largest_jump = 1e-4;
 
   struct Point {
     double value, area;
   };
 
-  // Tries n_samples values from `from` to `to`. The differences between neighbouring values are equal, or grow with the value if
-  // `grows` is true. After that, the search looks for the exact places at which the area stops growing or falling.
+  // Tries n_samples values from `from` to `to`. If `grows` is true, the steps between the values grow with the value. Otherwise
+  // they are equal. After that, finds the exact values at which the area stops growing or falling.
   AreaSearch(Area area, double from, double to, std::int32_t n_samples, bool grows);
 
   bool has_area() const { return !points_.empty(); }
@@ -33,13 +33,13 @@ class AreaSearch {
   const Point &most() const { return points_[most_]; }
   // Returns whether all areas are equal, apart from jumps.
   bool is_constant() const { return most().area - least().area <= largest_jump * most().area; }
-  // Returns the values at which the area turns, ascending.
+  // Returns, in ascending order, the values at which the area stops growing or falling.
   const std::vector<double> &turns() const { return turns_; }
   std::int64_t n_refused() const { return n_refused_; }
 
-  // Returns a value with this area. The area may be off by `tolerance`, a share of the area. If several values have the area, the
+  // Returns a value with this area. The relative error of the area is at most `tolerance`. If several values have the area, the
   // value nearest to `near` is returned. If the area jumps past the wanted area, the nearer end of the jump is returned. Returns
-  // nothing if the area is out of reach.
+  // nothing if no value has this area.
   std::optional<Point> find(double area, double near, double tolerance) const;
 
  private:

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::int64_t rows_per_block = 4096;
 
-// Adds the lengths of the edges of row i with a marked node. Leaves out edges that an earlier row also has.
+// Adds the lengths of those edges of row i that have a marked node. Leaves out edges that are also in an earlier row.
 template <class Edges, class IsMarked>
 void add_row(const MeshNodes &nodes, const Edges &edges, std::int64_t i, const IsMarked &is_marked,
              std::vector<std::int64_t> &others, EdgeLengths<double> &lengths) {
@@ -52,8 +52,8 @@ EdgeLengths<double> lengths_along(const Adjacency &adjacency, const MeshNodes &n
   return all;
 }
 
-// Visits only rows near the surface. The blocks of rows are the same as in a mesh of points with these numbers, so both meshes
-// give the same bits.
+// Visits only rows near the surface. The rows are divided into the same blocks as in a mesh that lists its points one by one.
+// Both kinds of meshes therefore give the same bits.
 EdgeLengths<double> lengths_along(const GridEdges &edges, const MeshNodes &nodes,
                                   const std::vector<std::int64_t> &marked, int) {
   std::vector<std::int64_t> rows = marked, others;

@@ -31,11 +31,11 @@ TriangleSet others(const TriangleSet &set, std::int32_t leaflet_id, const std::v
   return made;
 }
 
-// Measures the parts of one leaflet that are near the other leaflets. Between two points, the distance from the other leaflets
-// changes by at most the distance between the points. The distance at the middle of a part therefore often tells whether the
-// whole part is within reach. Otherwise the part is halved, until it is small. On a small part, the distance is approximated by a
-// linear function. The radius of a small part is an eighth of the reach, but at least 1/2000 of the surface's extent. Even a tiny
-// reach thus does not cause endless work.
+// Measures the parts of one leaflet that are near the other leaflets. From one point to another, the distance from the other
+// leaflets changes by at most the distance between the two points. The distance at the middle of a part therefore often tells
+// whether the whole part is within reach. If it does not, the part is halved, unless it is already small. On a small part, the
+// distance is approximated by a linear function. The radius of a small part is an eighth of the reach, but at least 1/2000 of the
+// surface's extent. This lower limit bounds the work if the reach is tiny.
 class Measuring {
  public:
   Measuring(const TriangleScene &scene, double reach, double extent)
@@ -75,15 +75,16 @@ class Measuring {
     return area(tip, from, middle) + area(tip, middle, to);
   }
 
-  // Returns the distance from the other leaflets, or a value above reach + 2 * radius.
+  // Returns the distance from p to the other leaflets. If this distance is large, returns only some value above reach + 2 *
+  // radius.
   double distance_from(Vec3 p, double radius) const {
     const double limit = reach_ + 3 * radius;
     const ClosestTriangle closest = scene_.closest(p, limit);
     return closest.triangle < 0 ? limit : std::sqrt(closest.distance_sq);
   }
 
-  // A linear function has these values at the corners of a triangle. Returns the share of the triangle in which the function is
-  // at most 0.
+  // `at` has the values of a linear function at the corners of a triangle. Returns the fraction of the triangle's area in which
+  // the function is at most 0.
   static double share_below(std::array<double, 3> at) {
     std::sort(at.begin(), at.end());
     if (at[2] <= 0) return 1;

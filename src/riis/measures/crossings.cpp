@@ -27,7 +27,8 @@ struct CommonSegment {
 
 // Finds the least overlap of two triangles over the directions that are passed to along(). The penetration depth is the distance
 // from the origin to the boundary of the triangles' Minkowski difference. This distance is the least overlap along the normals of
-// the difference's faces. Each face either has the normal of one triangle or is spanned by one edge of each triangle.
+// the difference's faces. The normal of a face is either the normal of one triangle, or the cross product of one edge of each
+// triangle.
 class Overlap {
  public:
   Overlap(const Triangle &a, const Triangle &b, double limit) : a_(a), b_(b), limit_(limit) {}
@@ -63,16 +64,17 @@ bool cuts_plane(const Triangle &t, Vec3 w, double limit) {
   return std::max({x, y, z}) > least && -std::min({x, y, z}) > least;
 }
 
-// Returns whether e and f are nearly parallel: their parallelogram is narrower than 1e-8 of an edge. The vector w is the cross
-// product of e and f.
+// Returns whether e and f are nearly parallel: the sine of their angle is at most 1e-8. The vector w is the cross product of e
+// and f.
 bool are_parallel(Vec3 w, Vec3 e, Vec3 f) { return dot(w, w) <= 1e-16 * dot(e, e) * dot(f, f); }
 
-// Returns how far one triangle must be shifted at least until the two triangles only touch. Returns 0 if this is at most `limit`,
-// if the triangles only touch, or if they lie in one plane. The error is at most 2^-24 of the longest edge plus 2^-48 of the
-// largest coordinate.
+// Returns the shortest shift of one triangle after which the two triangles only touch. Returns 0 if this shift is at most
+// `limit`, or if the triangles lie in one plane. The error is at most 2^-24 of the longest edge plus 2^-48 of the largest
+// coordinate.
 double penetration_depth(const Triangle &a, const Triangle &b, double limit) {
-  // Most pairs of triangles are dismissed here, because one triangle does not cut the plane of the other. Each triangle's corners
-  // are relative to a corner of the other triangle, whose plane thus passes exactly through the origin.
+  // Most pairs of triangles are dismissed here, because one triangle does not cut the plane of the other. The corners of a
+  // triangle are taken relative to a corner of the other triangle. The other triangle's plane then passes exactly through the
+  // origin.
   const Vec3 normal_a = cross(a[1] - a[0], a[2] - a[0]), normal_b = cross(b[1] - b[0], b[2] - b[0]);
   const Triangle b_from_a = moved(b, a[0]);
   if (!cuts_plane(b_from_a, normal_a, limit) || !cuts_plane(moved(a, b[0]), normal_b, limit)) return 0;
@@ -93,7 +95,7 @@ CommonSegment common_segment(const Triangle &a, const Triangle &b) {
   const Triangle from_b = moved(a, b[0]);
   std::array<double, 3> height{};
   for (std::size_t k = 0; k < 3; ++k) height[k] = dot(normal, from_b[k]);
-  // One corner of the triangle a lies alone on one side of b's plane.
+  // The plane of b has one corner of a on one side, and two on the other. `lone` is the number of the single corner.
   const auto is_below = [&](std::size_t k) { return height[k % 3] < 0; };
   std::size_t lone = 0;
   while (lone < 2 && (is_below(lone) == is_below(lone + 1) || is_below(lone) == is_below(lone + 2))) ++lone;
@@ -140,7 +142,7 @@ struct TriangleBoxes {
     for (int i = 0; i < 3; ++i) box.lower[i] = lower[i][lane], box.upper[i] = upper[i][lane];
     return box;
   }
-  // Returns a bit for each lane whose box overlaps the given box.
+  // Returns one bit for each lane, which is set if the lane's box overlaps the given box.
   std::uint32_t overlapping(const Box &box) const {
     std::uint8_t hit[triangles_per_group];  // an array, because compilers vectorise a loop over it
     for (int k = 0; k < triangles_per_group; ++k)
@@ -158,7 +160,7 @@ void for_each_bit(std::uint32_t bits, const Visit &visit) {
 }
 
 // A tree of boxes. On the lowest level are the boxes of groups. A box of a higher level encloses several boxes of the level
-// below. Successive groups are neighbours on the surface, so these boxes are small.
+// below. Successive groups are neighbours on the surface, so even boxes of higher levels are small.
 class BoxTree {
  public:
   explicit BoxTree(Vector<Box> groups) {
@@ -331,7 +333,7 @@ Crossings find_crossings(const TriangleSet &set, const TriangleGroups &groups, d
 }
 
 double depth_of_contacts(const Surface &surface) {
-  // A depth of `beyond_rounding` half thicknesses cannot come from rounding.
+  // Rounding cannot cause a depth of `beyond_rounding` half thicknesses.
   constexpr double beyond_rounding = 1e-3;
   const bool is_exact = surface.source() && surface.source()->kind->has_exact_contacts;
   return is_exact ? beyond_rounding * surface.half_thickness() : 2 * surface.triangles().error_bound;

@@ -17,8 +17,8 @@
 namespace riis {
 namespace {
 
-// Returns, for each triangle, the lowest triangle of its piece. A piece is a part of a leaflet whose triangles are connected by
-// common vertices.
+// A piece is a part of a leaflet whose triangles are connected by common vertices. For each triangle, returns the lowest number
+// of a triangle in the same piece.
 std::vector<std::int64_t> pieces_of(const TriangleSet &set) {
   std::int64_t n_positions = 0;
   const auto position = distinct_positions(set, n_positions);
@@ -36,7 +36,7 @@ std::vector<std::int64_t> pieces_of(const TriangleSet &set) {
   return lowest;
 }
 
-// A side of a triangle. `low` and `high` are the numbers of its ends' positions.
+// A side of a triangle. `low` and `high` are the numbers of the positions of its two ends.
 struct TriangleSide {
   std::int64_t piece, low, high, triangle;
   bool is_upwards;
@@ -45,7 +45,7 @@ struct TriangleSide {
   bool begins_at(std::int64_t end) const { return (end == low) == is_upwards; }
 };
 
-// A triangle beside another triangle of its piece.
+// A neighbour of a triangle. Both triangles belong to the same piece.
 struct Neighbour {
   std::int64_t triangle;
   bool is_turned;  // has the other winding
@@ -81,8 +81,8 @@ std::vector<std::vector<Neighbour>> neighbours_of(const TriangleSet &set, const 
     for (const std::int64_t vertex : {sides[i].low, sides[i].high})
       single_at[{sides[i].piece, vertex}].push_back(sides[i]);
   }
-  // A vertex may lie inside the edge of a neighbouring triangle. Two edges of different lengths then lead from one vertex in the
-  // same direction.
+  // A vertex may lie inside the edge of a neighbouring triangle. At an end of this edge, a shorter edge then leads in the same
+  // direction as the longer edge.
   for (const auto &[at, single] : single_at) {
     const std::int64_t vertex = at.second;
     std::vector<Vec3> direction;
@@ -98,7 +98,8 @@ std::vector<std::vector<Neighbour>> neighbours_of(const TriangleSet &set, const 
   return made;
 }
 
-// Triangles with one winding in each sheet. A sheet is a part of a piece whose triangles are connected by their sides.
+// A sheet is a part of a piece whose triangles are connected by common sides. All triangles of a sheet have the same winding
+// here.
 struct WoundTriangles {
   TriangleSet set;
   std::vector<std::int64_t> sheet;  // of each triangle, from 0
@@ -132,8 +133,8 @@ WoundTriangles with_one_winding(const TriangleSet &set, const std::vector<std::i
   return made;
 }
 
-// Adds the centroids of the pieces and the normal. `piece` has the piece of each triangle, or -1 for a triangle that does not
-// count.
+// Computes the centroids of the pieces, and the normal. For each triangle, `piece` has the number of its piece, or -1 if the
+// triangle is to be left out.
 void measure_pieces(const TriangleSet &set, const std::vector<std::int64_t> &piece, std::int64_t n_pieces,
                     LeafletBoundary &boundary) {
   std::vector<double> area(static_cast<std::size_t>(n_pieces), 0);
@@ -147,13 +148,13 @@ void measure_pieces(const TriangleSet &set, const std::vector<std::int64_t> &pie
     const double size = length(normal);
     boundary.normal = boundary.normal + normal;
     view(area)[at] += size;
-    // A running mean keeps the rounding small if the surface is far from the origin.
+    // The running mean keeps the rounding error small, even if the surface is far from the origin.
     if (size > 0)
       view(boundary.centroids)[at] = mix(view(boundary.centroids)[at], (1.0 / 3) * (a + b + c), size / view(area)[at]);
   }
 }
 
-// Returns the position of each value among the sorted distinct values, and the number of distinct values.
+// Sorts the distinct values. Returns the position of each value in this order, and the number of distinct values.
 template <class Value>
 std::pair<std::vector<std::int64_t>, std::int64_t> numbered(const std::vector<Value> &values) {
   std::map<Value, std::int64_t> number;
@@ -172,8 +173,8 @@ struct PieceVertex {
   Vec3 at, from_centroid;
 };
 
-// Pieces can grow about their centroids until they meet. Returns the share of growth, at most `most`, at which two vertices of
-// different pieces come closest.
+// Enlarges the pieces about their centroids by a share from 0 to `most`. Returns the share at which two vertices of different
+// pieces come closest to each other.
 double share_until_pieces_meet(const std::vector<PieceVertex> &vertices, double most) {
   double share = 0, least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < vertices.size(); ++i)
@@ -188,8 +189,8 @@ double share_until_pieces_meet(const std::vector<PieceVertex> &vertices, double 
   return share;
 }
 
-// Returns, for each vertex, the nearest vertex of another piece, or the vertex's own number if no other piece is near. Near means
-// within a share of the vertex's distance from its centroid.
+// For each vertex, returns the number of the nearest vertex of another piece. If no other piece is near, returns the vertex's own
+// number. "Near" means within `share` times the vertex's distance from the centroid of its piece.
 std::vector<std::size_t> nearest_of_other_pieces(const std::vector<PieceVertex> &vertices, double share) {
   std::vector<std::size_t> nearest;
   for (std::size_t i = 0; i < vertices.size(); ++i) {
@@ -202,9 +203,9 @@ std::vector<std::size_t> nearest_of_other_pieces(const std::vector<PieceVertex> 
   return nearest;
 }
 
-// Leaflets with gaps between them have no common attachment. Returns triangles whose pieces have grown about their centroids
-// until neighbours meet. Vertices that are then close together get one place. Returns nothing if pieces already touch, or if the
-// boundary has too many vertices to compare all pairs.
+// Leaflets with gaps between them have no common attachment. Returns the triangles after each piece has grown about its centroid,
+// until neighbouring pieces meet. Vertices that are then close together are moved to a common point. Returns nothing if pieces
+// already touch, or if the boundary has too many vertices to compare all pairs.
 std::optional<TriangleSet> joined_pieces(const TriangleSet &set, const std::vector<OpenEdge> &edges,
                                          const std::vector<std::int64_t> &piece, const LeafletBoundary &boundary) {
   constexpr double most_growth = 0.05, closeness = 1e-3;
@@ -231,7 +232,7 @@ std::optional<TriangleSet> joined_pieces(const TriangleSet &set, const std::vect
   for (std::size_t i = 0; i < vertices.size(); ++i)
     if (const std::size_t other = nearest[i]; nearest[other] == i)
       view(at_place)[view(place)[vertices[i].vertex]] = vertices[std::min(i, other)].at;
-  // Vertices inside a piece also move, so that a vertex on the edge of a neighbouring triangle stays on this edge.
+  // Vertices inside a piece also move, so that a vertex on an edge of a neighbouring triangle stays on this edge.
   TriangleSet joined = set;
   for (std::int64_t i = 0; i < set.n_vertices(); ++i) {
     const std::int64_t where = view(place)[i], of = view(piece_at)[where];
@@ -276,7 +277,7 @@ LeafletBoundary boundary_of_leaflets(const TriangleSet &set) {
   }
   // In a file that does not name its leaflets, leaflets that touch are one piece with several sheets.
   const std::vector<std::int64_t> &part = n_pieces > 1 ? piece : wound.sheet;
-  // Leaflets may have different windings. Each sheet but the last is tried with both windings.
+  // Leaflets may have opposite windings, so every sheet except the last is tried with both windings.
   constexpr std::int64_t most_sheets = 5;
   const std::int64_t n_windings = wound.n_sheets <= most_sheets ? std::int64_t{1} << (wound.n_sheets - 1) : 1;
   for (std::int64_t turned = 0; turned < n_windings; ++turned) {  // a bit for each sheet that is turned over

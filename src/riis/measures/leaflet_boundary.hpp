@@ -31,7 +31,7 @@ struct LeafletBoundary {
   Vec3 normal;                               // the sum of the triangles' areas times their normals
 };
 
-// Returns the sides of the patches that bound leaflets, or the open edges of triangles from arrays. A skirt does not count.
+// Returns the patches' sides at which leaflets end, or the open edges of triangles from arrays. Leaves out a skirt.
 LeafletBoundary boundary_of_leaflets(const TriangleSet &set);
 
 // Returns the longest connected line of open edges of a wall, as a boundary without centroids and normal.

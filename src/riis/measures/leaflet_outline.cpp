@@ -26,8 +26,8 @@ AlongAxis::AlongAxis(Vec3 axis, Vec3 origin, Vec3 sideways) : axis_(axis), origi
 
 namespace {
 
-// A part of an edge of the outline. In the directions of this part, no other edge is farther from the centre. The ends are the
-// shares `from` and `to` of the edge. The part runs counter-clockwise.
+// A part of an edge of the outline. In every direction from the centre to this part, no other edge is farther away. The part
+// begins at the share `from` of the edge, ends at the share `to`, and runs counter-clockwise.
 struct FarPart {
   std::size_t edge;
   double from, to;
@@ -40,7 +40,7 @@ PlanePoint between(const PlanePoint &a, const PlanePoint &b, double share) {
   return {(1 - share) * a[0] + share * b[0], (1 - share) * a[1] + share * b[1]};
 }
 
-// Finds the farthest edges in all directions from (0, 0), counter-clockwise.
+// For each direction from (0, 0), finds the farthest edge. The directions are in counter-clockwise order.
 class FarthestEdges {
  public:
   explicit FarthestEdges(const std::vector<PlaneSegment> &edges) : edges_(edges) {
@@ -60,7 +60,7 @@ class FarthestEdges {
     for (const Turn &turn : turns) add(turn);
   }
 
-  // Returns the parts, or nothing if more than half a turn of directions has no edge.
+  // Returns the parts, or nothing if there is a gap of more than half a turn without an edge.
   std::vector<FarPart> parts() const {
     std::vector<FarPart> made;
     double gap = 0, widest = 0;
@@ -100,7 +100,7 @@ class FarthestEdges {
     return at + 1 < angles_.size() ? angles_[at + 1] - angles_[at] : angles_[0] + 2 * pi - angles_[at];
   }
 
-  // Returns the share of the edge at which the ray in a direction meets the edge.
+  // Returns where the ray in a direction meets the edge, as a share of the edge from 0 to 1.
   double share_at(std::size_t edge, double angle) const {
     const auto &[a, b] = edges_[edge];
     if (arc_tangent(a[1], a[0]) == angle) return 0;
@@ -113,8 +113,7 @@ class FarthestEdges {
     return std::clamp(of_a / (of_a - of_b), 0.0, 1.0);
   }
 
-  // An edge covers less than half a turn of directions. The edge's distance from the centre is therefore unique in each
-  // direction.
+  // An edge covers less than half a turn of directions, so a ray from the centre meets the edge only once.
   void add(const Turn &turn) {
     const auto place = [&](double angle) {
       return static_cast<std::size_t>(std::lower_bound(angles_.begin(), angles_.end(), angle) - angles_.begin());
@@ -175,7 +174,7 @@ std::vector<PlanePoint> corners_of(const SeenParts &from) {
   return corners;
 }
 
-// Returns the vector area of the closed line in space that joins the farthest edges by straight lines.
+// Joins the farthest edges in space by straight lines, and returns the vector area of this closed line.
 Vec3 vector_area(const LeafletBoundary &boundary, const SeenParts &from) {
   std::vector<Vec3> points;
   for (const FarPart &part : from.parts) {
@@ -195,7 +194,7 @@ double area_of_corners(const std::vector<PlanePoint> &corners) {
   return area;
 }
 
-// Returns the area of a polygon around (0, 0), divided by the area of a circle with the same length.
+// Returns the area of a polygon around (0, 0), divided by the area of a circle with the same perimeter.
 double roundness_of(const std::vector<PlanePoint> &corners) {
   double whole = 0;
   for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -211,12 +210,13 @@ struct FoundView {
   double roundness;
 };
 
-// The most turns of the axis. From a good first axis, few turns suffice. More would do harm where a free edge reaches as far out
-// as the attachment, because each turn may exchange the farthest edge. A bad first axis needs many turns.
+// Limits on the number of turns of the axis. From a good first axis, few turns suffice. More turns would do harm if a free edge
+// is as far out as the attachment: each turn may then take one or the other as the farthest edge. A bad first axis needs many
+// turns.
 constexpr int few_turns = 4, many_turns = 40;
 
 // Repeats two steps at most n_turns times: turns the axis to the vector area of the farthest edges, and moves the centre to the
-// middle of their outline. `about` is a first axis of length 1. With `keeps_axis` only the centre moves.
+// middle of their outline. `about`, of length 1, is the axis at the beginning. With `keeps_axis` only the centre moves.
 std::optional<FoundView> view_from(const LeafletBoundary &boundary, Vec3 about, Vec3 sideways, Vec3 centre, int n_turns,
                                    bool keeps_axis = false) {
   constexpr double least_roundness = 0.01, still = 1e-10;
@@ -263,9 +263,9 @@ BoundarySpread spread_of(const LeafletBoundary &boundary) {
   return made;
 }
 
-// Returns the roundest view of edges. The direction in which the edges spread least is the first axis. Another direction counts
-// only if it leads to a rounder outline. The triangles' normals determine only the sign of the axis, because triangles may be
-// turned over.
+// Returns the roundest view of edges. The direction in which the edges spread least is the first axis. Another direction is taken
+// only if it leads to a clearly rounder outline. The triangles' normals determine only the sign of the axis, because triangles
+// may be turned over.
 std::optional<FoundView> best_view(const LeafletBoundary &boundary, const BoundarySpread &spread) {
   constexpr double favour = 1.15;
   std::optional<FoundView> best;
@@ -281,7 +281,7 @@ std::optional<FoundView> best_view(const LeafletBoundary &boundary, const Bounda
 }
 
 // The high points of a crown, where neighbouring pieces meet, and the lowest point of each piece. A crown is a closed line on
-// which each piece has a single run, from one high point to the next.
+// which each piece forms a single run of edges, from one high point to the next.
 struct Crown {
   std::vector<Vec3> highs, lows;
   double height;  // the least height of a high point above the lowest points of its two pieces
@@ -329,8 +329,8 @@ void add_moments(const std::vector<Vec3> &points, double weight, std::vector<dou
 }
 
 // Returns the axis of a line at which cusps are attached, or nothing if the line is no high crown. The axis is at right angles to
-// the plane of the lowest points. With two cusps, the high points determine the direction that the two lowest points leave free.
-// `axis` is a first axis, and `radius` the line's radius.
+// the plane of the lowest points of the cusps. Two cusps have only two lowest points, so the high points also help to determine
+// the plane. `axis` is the axis at the beginning, and `radius` is the radius of the line.
 std::optional<Vec3> axis_of_crown(const std::vector<BoundaryEdge> &line, Vec3 axis, double radius) {
   constexpr double least_height = 0.5, weight_of_highs = 0.01, least_spread = 0.1, still = 1e-12;
   constexpr int most_turns = 10;
@@ -350,10 +350,10 @@ std::optional<Vec3> axis_of_crown(const std::vector<BoundaryEdge> &line, Vec3 ax
   return axis;
 }
 
-// Returns the view of triangles from arrays. A closed line counts as the attachment only if its outline is nearly as large and as
-// round as the outline of all edges. Of several lines the roundest counts. A line that follows the attachment of one leaflet and
-// the free edge of another is oblique, and thus less round. The axis is that of the line's crown or, for a line without a crown,
-// its vector area.
+// Returns the view of triangles from arrays. A closed line can be the attachment only if its outline is nearly as large and as
+// round as the outline of all edges. Of several such lines, the roundest is taken. A line that follows the attachment of one
+// leaflet and the free edge of another leaflet is oblique, and thus less round. The axis is the axis of the line's crown. If the
+// line has no crown, the axis is its vector area.
 std::optional<FoundView> view_of_arrays(const LeafletBoundary &boundary, const BoundarySpread &spread) {
   constexpr double least_roundness = 0.95;  // as a share of the outline's roundness
   std::optional<FoundView> of_all = best_view(boundary, spread);
@@ -376,10 +376,10 @@ std::optional<FoundView> view_of_arrays(const LeafletBoundary &boundary, const B
 }
 
 // Returns the factor by which the pieces must grow about their centroids until the first two neighbours meet. If a factor above
-// 1.05 would be needed, the pieces are probably apart on purpose. The result then falls again, and is 1 from 1.1 on. Where the
-// outline makes less than 45 degrees with a ray from the centre, it is the end of a piece and not its attachment. A ray through
-// the gap between two neighbours may meet a third piece, which is nearer to the centre. The end of a piece is therefore joined to
-// the end that is closest after the growth.
+// 1.05 would be needed, the gaps are probably intended. The result then falls as the needed factor rises, and is 1 if that factor
+// is at least 1.1. Where the outline is at less than 45 degrees to a ray from the centre, it follows the end of a piece, not its
+// attachment. A ray through the gap between two neighbours may meet a third piece, which is nearer to the centre. The end of a
+// piece is therefore joined to the end that is closest after the growth.
 double growth_of(const LeafletBoundary &boundary, const SeenParts &from) {
   constexpr double most = 0.05, closeness = 0.15, widest_gap = 0.25;  // shares, and the tangent of an angle
   struct Run {

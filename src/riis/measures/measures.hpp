@@ -23,17 +23,17 @@
 
 namespace riis {
 
-// The orifice of a valve: the part of an outline's area that no triangle covers, seen along the axis. The triangles come from a
+// The orifice of a valve is the part of an outline's area that no triangle covers, seen along the axis. The triangles come from a
 // valve or from arrays. The results are areas and a perimeter.
 
 // The factor c of the effective area A - c eps P. The band around the rim narrows an orifice by the distance c eps. A thin wall
-// whose rim extends c eps farther into the orifice would block the flow as much. Each number lies midway between the c of two
-// valves that docs/validation.md compares with walls in body-fitted meshes. For the open bileaflet valve, c is 0.98 (round rim)
-// and 0.95 (cut rim). For the open trileaflet valve, c is 0.70 and 0.46.
+// would block the flow as much if its rim reached c eps farther into the orifice. Each number below is the mean of c for two
+// valves, which docs/validation.md compares with walls in body-fitted meshes. For the open bileaflet valve, c is 0.98 (round rim)
+// and 0.95 (cut rim). For the open trileaflet valve, c is 0.70 (round rim) and 0.46 (cut rim).
 inline constexpr double rim_reach_round = 0.84;  // RIIS_RIM_ROUND
 inline constexpr double rim_reach_cut = 0.70;    // RIIS_RIM_CUT
 
-// The measured numbers. The caller computes the other fields of riis_orifice from these numbers and the valve.
+// The measured numbers. From them and the valve, the caller computes the other fields of riis_orifice.
 struct Orifice {
   double area, outline_area, perimeter, effective_area;
   Vec3 axis;             // of length 1, or 0 without an axis
@@ -46,13 +46,13 @@ struct OrificeLimits {
 };
 
 // Returns the factor c of a surface's band. An offset lowers c, because the flow then passes nearer to the leaflet. The offset at
-// which c reaches 0 was fitted to flows through trileaflet and mitral valves. In a bileaflet valve c stays the same, because
-// there is flow on both sides of its leaflets.
+// which c reaches 0 was fitted to computed flows through trileaflet and mitral valves. A bileaflet valve has flow on both sides
+// of its leaflets, so an offset does not change its c.
 double rim_reach(const Surface &surface, std::int32_t rim);
 
 // Measures the orifice. `source` is null for triangles from arrays, whose outline is their longest boundary.
 Orifice measure_orifice(const TriangleSet &set, const SourceValve *source, const OrificeLimits &limits);
-// Measures the orifice inside the outline of a wall. The wall's own triangles cover nothing.
+// Measures the orifice inside the outline of a wall. The wall's own triangles do not cover any part of the orifice.
 Orifice measure_orifice_in_wall(const TriangleSet &set, const SourceValve *source, const TriangleSet &wall,
                                 const OrificeLimits &limits);
 
@@ -60,7 +60,7 @@ Orifice measure_orifice_in_wall(const TriangleSet &set, const SourceValve *sourc
 // left out; -1 leaves out no triangles.
 double moved_area(const Surface &surface, double shift, std::int32_t left_out);
 
-// The coaptation of leaflets: their parts within a distance of another leaflet.
+// The coaptation of leaflets consists of their parts that are within a given distance of another leaflet.
 // The results are areas and lengths.
 
 struct Contact {
@@ -73,7 +73,7 @@ std::map<std::int32_t, Contact> contacts_of(const TriangleSet &set, const std::v
                                             std::int32_t wanted, const std::vector<std::int32_t> &omitted,
                                             int n_threads);
 
-// Self-intersections of a surface: pairs of triangles that go through each other.
+// Self-intersections of a surface are pairs of triangles that go through each other.
 // The result has the pairs in ascending order, with their depths and common segments.
 
 struct Crossings {
@@ -90,8 +90,8 @@ Crossings find_crossings(const TriangleSet &set, const TriangleGroups &groups, d
 // Returns the depth up to which the triangles of touching leaflets may cross (docs/theory/crossings.md).
 double depth_of_contacts(const Surface &surface);
 
-// The gap between the attachment of a valve and a wall, along the direction in which a skirt leads. The results are distances,
-// and the lengths of a skirt that reaches the wall.
+// This part measures the gap between the attachment of a valve and a wall, along the direction in which a skirt leads. The
+// results are distances, and the lengths of a skirt that reaches the wall.
 
 // The triangles of a wall, and the scene that finds them.
 struct Wall {
@@ -99,11 +99,12 @@ struct Wall {
   const TriangleScene &scene;
 };
 
-// Returns the distance from a point to the nearest place at which the line through it meets the wall. The distance is negative if
-// this place lies opposite to `direction`, which has length 1. Returns nothing if the line misses the wall.
+// The line through `point` along `direction`, which has length 1, may meet the wall in several places. Returns the distance from
+// `point` to the nearest of them. The distance is negative if this place lies on the side opposite to `direction`. Returns
+// nothing if the line misses the wall.
 std::optional<double> distance_along(const Wall &wall, Vec3 point, Vec3 direction);
 
-// The gap at each end of each edge of an attachment.
+// The gap at both ends of every edge of an attachment.
 struct Gap {
   std::vector<double> distance;  // (2, n_edges); RIIS_FAR_DISTANCE where the line misses the wall
   riis_gap measures;
@@ -111,21 +112,21 @@ struct Gap {
 // Measures the gap. Fails with RIIS_INVALID_ARGUMENT if there are no edges or if the outward direction is undetermined.
 Gap gap_of(const Attachment &attachment, const Wall &wall, int n_threads);
 
-// Returns the lengths of a skirt that reaches the wall from a placed valve, whose patches have no skirt. Where the wall is
-// nearer than the shortest skirt's length, the skirt has the shortest length. Fails with RIIS_INVALID_ARGUMENT if the wall is
-// farther than `longest`, in placed units.
+// Returns the lengths of a skirt that reaches the wall from a placed valve, whose patches have no skirt. A skirt has a shortest
+// permitted length. Where the wall is nearer than this, the skirt has the shortest length. Fails with RIIS_INVALID_ARGUMENT if
+// the wall is farther than `longest`, in placed units.
 SkirtLengths lengths_to_wall(const PatchSet &set, const Placement &placement, const Wall &wall, double longest,
                              int n_threads);
 
 // Computes the volume that a surface sweeps. The volume is the integral of u . n over the surface and time, so motion along the
 // normals counts as positive.
-// The result has the volume of each leaflet of a valve between two openings.
+// The result is the volume that each leaflet of a valve sweeps between two openings.
 
-// Maps a leaflet_id to the volume that the leaflet sweeps. No placement is applied to the volumes.
+// Maps a leaflet_id to the volume that the leaflet sweeps. The volumes are those of the valve before placement.
 using SweptVolumes = std::map<std::int32_t, double>;
 
-// Computes the volumes between two openings. Fails if the patches cannot be made at an opening. An exchange of the two openings
-// only changes the sign of the result.
+// Computes the volumes between two openings. Fails if the patches cannot be made at an opening. If the two openings are
+// exchanged, only the sign of the result changes.
 SweptVolumes swept_volumes(const Valve &valve, double opening_from, double opening_to, int n_threads);
 
 // Estimates how many mesh edges fit across the band. Divides the band's thickness by the shortest, the mean and the longest of

@@ -21,7 +21,7 @@ SeenOutline disc_of(const SourceValve &source) {
           circle(placed.scale * source.disc.radius, {placed.scale * source.disc.x, placed.scale * source.disc.y})};
 }
 
-// Returns the vertices of all triangles outside one leaflet.
+// Returns the vertex ids of all triangles except those of one leaflet.
 std::vector<std::int64_t> without_leaflet(const TriangleSet &set, std::int32_t leaflet_id) {
   std::vector<std::int64_t> kept;
   kept.reserve(set.vertex_id.size());
@@ -38,7 +38,7 @@ Orifice measured(const TriangleSet &set, const SeenOutline &from, std::int32_t k
   const Cover cover = cover_of(vertices, set.skirt < 0 ? set.vertex_id : without_leaflet(set, set.skirt));
   const double whole = area_of(from.outline);
   const UncoveredAreas open = uncovered_areas(from.outline, cover, limits.reach);
-  // In a closed valve, the only gaps between the triangles and the outline come from rounding.
+  // In a closed valve, all gaps between the triangles and the outline are rounding errors.
   const auto above_rounding = [&](double area) { return area > 1e-12 * whole ? area : 0; };
   return {above_rounding(open.outside),
           whole,
@@ -54,7 +54,7 @@ double rim_reach(const Surface &surface, std::int32_t rim) {
   const double without = rim == RIIS_RIM_CUT ? rim_reach_cut : rim_reach_round, offset = surface.band().offset;
   const ValveKind *const kind = surface.source() ? surface.source()->kind : nullptr;
   if (offset == 0 || (kind && kind->is_rigid)) return without;
-  // The offset at which c is 0. Only flows with a cut rim were computed for mitral valves.
+  // The offsets at which c is 0, in half thicknesses. For mitral valves, only flows with a cut rim were computed.
   const double of_cut_rim = kind == &mitral_valve_kind() ? 0.8 : 0.85, of_round_rim = 1.05;
   return without * std::max(0.0, 1 - offset / (rim == RIIS_RIM_CUT ? of_cut_rim : of_round_rim));
 }
@@ -89,7 +89,7 @@ Orifice measure_orifice(const TriangleSet &set, const SourceValve *source, const
 Orifice measure_orifice_in_wall(const TriangleSet &set, const SourceValve *source, const TriangleSet &wall,
                                 const OrificeLimits &limits) {
   LeafletBoundary boundary = boundary_of_wall(wall);
-  // The wall's normals do not show which way the valve opens, so the valve or the leaflets give the direction.
+  // The wall's normals do not show in which direction the valve opens, so the direction is taken from the valve or the leaflets.
   boundary.normal = source ? source->placement.rotation * source->disc.axis : boundary_of_leaflets(set).normal;
   const std::optional<SeenOutline> seen = outline_of_leaflets(boundary, std::nullopt);
   if (!seen) return {0, 0, 0, 0, {0, 0, 0}, RIIS_OUTLINE_NONE};

@@ -17,7 +17,7 @@ namespace riis {
 namespace {
 
 // The end of an interval on a line, where an edge crosses the line. `along` is the length of the edge from one line to the next,
-// if the spacing is 1. It is 0 for an edge that the lines in the other direction measure.
+// as a multiple of the spacing. `along` is 0 if the edge is measured by the lines in the other direction instead.
 struct End {
   double x, along;
 };
@@ -61,8 +61,9 @@ double x_at(const PlanePoint &a, const PlanePoint &b, double y) {
   return a[0] + (b[0] - a[0]) * ((y - a[1]) / (b[1] - a[1]));
 }
 
-// Returns the length of an edge from one line to the next, if the spacing is 1. Returns 0 for a flat edge, because the lines in
-// the other direction measure it. An edge at 45 degrees counts only if counts_equal is true, which holds for the lines along x.
+// Returns the length of an edge from one line to the next, as a multiple of the spacing. Returns 0 for a flat edge, because the
+// lines in the other direction measure such an edge. An edge at exactly 45 degrees is measured only if counts_equal is true,
+// which is the case for the lines along x.
 double length_along(double dx, double dy, bool counts_equal) {
   const double across = std::abs(dy), beside = std::abs(dx);
   if (across < beside || (across == beside && !counts_equal)) return 0;
@@ -70,8 +71,8 @@ double length_along(double dx, double dy, bool counts_equal) {
   return std::sqrt(1 + slope * slope);
 }
 
-// Calls visit(i, x) for each line that the edge meets. A line through the upper end does not count. x does not depend on the
-// order of the edge's ends. Two triangles with a common edge therefore leave no gap.
+// Calls visit(i, x) for each line that the edge meets, except for a line through the upper end. The value of x does not depend on
+// the order of the edge's ends. Two triangles with a common edge therefore leave no gap.
 template <class Visit>
 void for_each_cut(const ScanLines &lines, PlanePoint a, PlanePoint b, const Visit &visit) {
   if (b[1] < a[1]) std::swap(a, b);
@@ -107,8 +108,8 @@ SpansOfLines inside(const Outline &outline, const ScanLines &lines) {
   return spans;
 }
 
-// Collects the intervals of convex shapes on the lines. A convex shape meets a line in at most one interval. To sort fewer
-// intervals, those of successive shapes are joined where they meet. This is done if only areas are measured.
+// Collects the intervals of convex shapes on the lines. A convex shape meets a line in at most one interval. If only areas are
+// measured, intervals of successive shapes that meet are joined at once, so that fewer intervals have to be sorted.
 template <class AnEnd>
 class Covered {
  public:
@@ -146,7 +147,7 @@ class Covered {
  private:
   static constexpr bool has_edges = std::is_same_v<AnEnd, End>;
 
-  // Returns an end on an edge in the direction (dx, dy).
+  // Returns the end of an interval at x, where an edge with the direction (dx, dy) crosses the line.
   AnEnd end_at(double x, double dx, double dy) const {
     if constexpr (has_edges)
       return {x, length_along(dx, dy, counts_equal_)};
@@ -223,7 +224,8 @@ void join(Spans &spans) {
   spans.resize(n);
 }
 
-// Measures the part of the spans that no cover contains. The spans are disjoint. The covers must have been joined.
+// Returns the length of the part of the spans that no cover contains. The spans must be disjoint, and the covers must have been
+// joined.
 double length_without(const Spans &spans, const Spans &covers) {
   double length = 0;
   for (const Interval<Place> &span : spans) {
@@ -238,10 +240,10 @@ double length_without(const Spans &spans, const Spans &covers) {
   return length;
 }
 
-// Measures the edges of the covers at which the uncovered parts of disjoint spans end.
+// Returns the length of those edges of the covers at which an uncovered part of the spans ends. The spans must be disjoint.
 double edge_without(const Spans &spans, std::vector<Interval<End>> covers) {
-  // Covers of folded leaflets may begin or end in the same point. Their order decides which edge counts, so covers are compared
-  // by all their members.
+  // Covers of folded leaflets may begin or end in the same point. Their order decides which edge is measured, so covers are
+  // compared by all their members.
   std::sort(covers.begin(), covers.end(), [](const Interval<End> &a, const Interval<End> &b) {
     return std::tie(a.begin.x, a.end.x, a.begin.along, a.end.along) <
            std::tie(b.begin.x, b.end.x, b.begin.along, b.end.along);
@@ -294,7 +296,7 @@ bool has_area(const Outline &outline, double rounding) {
   return height > 0 && area_of(outline) > std::max(1e-9 * size, rounding) * size;
 }
 
-// Returns 1 or -1: the side of the triangle that faces the viewer. Returns 0 for a triangle that is seen edge on.
+// Returns 1 or -1 for the side of the triangle that faces the viewer. Returns 0 if the triangle is seen edge on.
 int side_of(const PlaneTriangle &corner) {
   const auto &[a, b, c] = corner;
   const double first = (b[0] - a[0]) * (c[1] - a[1]), second = (b[1] - a[1]) * (c[0] - a[0]);
@@ -320,8 +322,8 @@ std::optional<Outline> closed_outline(const std::vector<std::vector<PlanePoint>>
 }
 
 Cover cover_of(const std::vector<PlanePoint> &vertices, const std::vector<std::int64_t> &vertex_id) {
-  // An edge of the triangles. `sides` is the sum of side_of over the edge's triangles. The sum is 2 or -2 if two triangles lie on
-  // opposite sides of the edge.
+  // An edge, and its use by triangles. `sides` is the sum of side_of over the triangles that have this edge. If two triangles lie
+  // on opposite sides of the edge, the sum is 2 or -2.
   struct Use {
     int n = 0, sides = 0;
   };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures the part of an outline in the plane that triangles leave uncovered: its area, and the length of its edge. The
-// triangles may first grow by a distance.
+// Measures the part of an outline in the plane that triangles leave uncovered: its area, and the length of its edge. Before the
+// measurement, the triangles may grow by a given distance.
 #pragma once
 
 #include <array>
@@ -18,27 +18,28 @@ using PlaneSegment = std::array<PlanePoint, 2>;
 struct Outline {
   double radius = 0;  // > 0: the outline is this circle
   PlanePoint centre{};
-  // Used if radius is 0. A point is inside if the number of edges to its left is odd.
+  // These edges are used if radius is 0. A point is inside if the number of edges to its left is odd.
   std::vector<PlaneSegment> edges{};
 };
 
 Outline circle(double radius, const PlanePoint &centre);
-// Returns the outline that these lines form. Returns nothing if the lines are not closed or enclose no area. Closed lines have an
-// even number of ends at each place. Coordinates may be off by `rounding`, so areas within such errors do not count.
+// Returns the outline that these lines form. Returns nothing if the lines are not closed or enclose no area. Lines are closed if
+// an even number of ends meets at each place. Coordinates may have errors up to `rounding`, so an area that could come from such
+// errors counts as none.
 std::optional<Outline> closed_outline(const std::vector<std::vector<PlanePoint>> &lines, double rounding = 0);
 
-// The triangles, and the rim: the edges that may bound the covered part. The rim leaves out an edge between two triangles that
-// lie on opposite sides of it.
+// The triangles, and the rim: the edges that may bound the covered part. An edge is no part of the rim if two triangles share it
+// and lie on opposite sides of it.
 struct Cover {
   std::vector<PlaneTriangle> triangles;
   std::vector<PlaneSegment> rim;
 };
 
-// Makes the cover from the vertices of the triangles and from the three vertices of each triangle.
+// Makes the cover. `vertices` has the positions of all vertices, and `vertex_id` has three vertices for each triangle.
 Cover cover_of(const std::vector<PlanePoint> &vertices, const std::vector<std::int64_t> &vertex_id);
 
 // The number of lines along x that measure areas. The lines are evenly spaced over the outline. The uncovered length of each line
-// is exact. An edge's position along x has an error of at most half a spacing, 1/4096 of the outline's height.
+// is exact. The error of an edge's position is at most half the spacing, which is 1/4096 of the outline's height.
 inline constexpr std::int64_t n_scan_lines = 2048;
 
 // The number of lines along x, and also along y, that measure the lengths of edges.
@@ -54,8 +55,8 @@ struct UncoveredAreas {
 UncoveredAreas uncovered_areas(const Outline &outline, const Cover &cover, double reach,
                                std::int64_t n_lines = n_scan_lines);
 
-// Returns the length of the edge of the area beyond the reach. The outline itself does not count. Lines along x
-// measure the steep edges, and lines along y measure the flat edges. Each end of an edge has an error of at most one spacing.
+// Returns the length of the edge of the area beyond the reach. The outline itself does not count. Lines along x measure the steep
+// edges, and lines along y measure the flat edges. The error at each end of an edge is at most one spacing of the lines.
 double uncovered_edge(const Outline &outline, const Cover &cover, double reach, std::int64_t n_lines = n_edge_lines);
 
 }  // namespace riis

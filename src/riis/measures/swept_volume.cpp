@@ -15,17 +15,17 @@
 namespace riis {
 namespace {
 
-// An interval of openings is cut at all multiples of 1 / n_steps. These cuts are the same for every interval, so the volumes of
-// adjacent intervals add up. Between two cuts each point moves along a straight line.
+// An interval of openings is cut at all multiples of 1 / n_steps. Overlapping intervals thus have the same cuts, so the volumes
+// of adjacent intervals add up. Between two cuts, each point moves along a straight line.
 constexpr int n_steps = 64;
 
-// Each patch is cut into n by n quads. The number n is between `fewest` and `most`. The whole valve then has about
+// Each patch is cut into n by n quads. The number n is chosen between `fewest` and `most`, so that the whole valve has about
 // quads_wanted quads.
 constexpr double quads_wanted = 65536;
 constexpr int fewest = 8, most = 64;
 
-// Returns the volume that a triangle sweeps while its corners move along straight lines. The result is exact: the mean of the
-// corners' shifts times the time average of the area vector.
+// Returns the volume that a triangle sweeps while its corners move along straight lines. The result is exact. It is the mean
+// shift of the corners, multiplied by the time average of the area vector.
 double swept(const Vec3 (&from)[3], const Vec3 (&to)[3]) {
   const Vec3 e = from[1] - from[0], f = from[2] - from[0];
   const Vec3 de = (to[1] - to[0]) - e, df = (to[2] - to[0]) - f;
@@ -42,7 +42,7 @@ Vector<Vec3> points_on(const PatchSet &set, const Side &side, const Vector<doubl
   return made;
 }
 
-// Returns the points of a patch at all pairs (u, v) of the given shares, in the order of QuadGrid::points.
+// Returns the points of a patch at all (u, v) whose u and v are given shares, in the order of QuadGrid::points.
 Vector<Vec3> points_of(const PatchSet &set, const Patch &patch, const Vector<double> &shares) {
   SideVectors sides{points_on(set, patch.v0, shares), points_on(set, patch.v1, shares), {}, {}};
   if (patch.bulge == 0) {
@@ -86,8 +86,8 @@ void add_swept(const PatchSet &from, const PatchSet &to, const Vector<double> &s
       const PatchImage &image = before.images[i];
       const double volume =
           swept_by_grid(placed(image, points_before), placed(now.images[i], points_now), shares.size());
-      // In a mirror image, the triangles are turned over so that their normals also point downstream. The volume that they sweep
-      // therefore changes its sign.
+      // The normals of a mirror image would point upstream, so its triangles are turned over. The sign of the volume that they
+      // sweep therefore changes.
       sums[image.leaflet_id] += points_upstream(image) ? -volume : volume;
     }
   }

@@ -19,7 +19,7 @@ struct Start {
 };
 
 // Returns where the line point + t * direction meets a triangle. The test compares the signs of three volumes, one for each edge.
-// Two triangles give their common edge exactly opposite volumes, so the line cannot pass between them.
+// For a common edge, two triangles have exactly opposite volumes, so the line cannot pass between the triangles.
 std::optional<double> meets(const std::array<Vec3, 3> &corners, Vec3 point, Vec3 direction) {
   const auto [a, b, c] = corners;
   const Vec3 oa = a - point, ob = b - point, oc = c - point;
@@ -39,7 +39,7 @@ std::vector<std::optional<double>> distances_along(const Wall &wall, const std::
   return made;
 }
 
-// Gives all sides that meet in a point the same length there. Rounding could otherwise make their lengths differ.
+// Gives the skirt the same length on all sides that meet in a point. Without this, rounding could make these lengths differ.
 void make_common(const std::vector<Vec3> &points, double tolerance, const std::vector<double *> &lengths) {
   std::vector<std::size_t> order(points.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -57,8 +57,8 @@ std::optional<double> distance_along(const Wall &wall, Vec3 point, Vec3 directio
   const Bounds &bounds = wall.scene.bounds();
   const double reach = 2 * (distance(bounds.lower, bounds.upper) + distance(point, bounds.lower));
   std::vector<std::int32_t> found;
-  // The search begins with a short line, because the wall is mostly near and a short line meets few triangles. If the line meets
-  // nothing, it becomes longer.
+  // The search begins with a short line, because the wall is usually near and a short line meets few triangles. If the line meets
+  // no triangle, it is lengthened.
   for (double length = reach / 256;; length = std::min(4 * length, reach)) {
     std::optional<double> nearest;
     wall.scene.for_each_along(

@@ -25,7 +25,7 @@ namespace {
 // Memory from malloc, which realloc can shrink in place. The content must be plain data.
 class PlainMemory {
  public:
-  // Keeps the content up to the lesser of the old and the new size.
+  // Keeps as much of the content as fits in the new size.
   void resize(std::int64_t n_bytes) {
     if (n_bytes == 0) return memory_.reset();
     void *const moved = std::realloc(memory_.get(), static_cast<std::size_t>(n_bytes));
@@ -45,14 +45,14 @@ class PlainMemory {
   std::unique_ptr<void, Free> memory_;
 };
 
-// Makes the rows. An entry says that a node is in an item. The entries of a block of nodes are stored together, node by node.
-// Later the rows of the block overwrite the entries. Lists is a type with these members:
+// Makes the rows. An entry says that a node belongs to an item. The entries of a block of nodes are stored together, node by
+// node. Later the block's rows overwrite these entries. Lists is a type with these members:
 //   `n_nodes`, `n_items`: the numbers of nodes and items.
 //   `most_neighbors`: the largest number of different nodes that one call of for_each_neighbor visits.
 //   `for_each_entry(range, visit)`: calls visit(node, entry) for every node of every item in a range.
-//   `for_each_neighbor(entry, node, visit)`: calls visit(other) for the neighbours that an entry gives its node, in any order.
+//   `for_each_neighbor(entry, node, visit)`: calls visit(other), in any order, for the neighbours that `node` has in the item.
 //   `prefetch(entry)`: requests the memory that for_each_neighbor reads.
-// The type Entry can hold the number of all entries, and the type Column can hold the number of nodes.
+// The type Entry must be able to hold the number of all entries, and the type Column must be able to hold the number of nodes.
 template <class Entry, class Column, class Lists>
 class RowMaker {
  public:
@@ -72,7 +72,7 @@ class RowMaker {
 
  private:
   static constexpr std::int64_t nodes_per_block = 4096;
-  // Each part of the items has its own count for each node. More parts would save time, but need too much memory.
+  // Each part of the items has a count for every node. More parts would save time, but would need too much memory.
   static constexpr std::int64_t most_parts = 8;
   static constexpr std::int64_t items_ahead = 16, entries_ahead = 24;  // how far ahead memory is requested
   static constexpr std::int64_t most_inserted =
@@ -87,8 +87,8 @@ class RowMaker {
     return {block * nodes_per_block, std::min((block + 1) * nodes_per_block, lists_.n_nodes)};
   }
 
-  // Counts the entries of each part at each node. After that, replaces each count by the position, within the block, at
-  // which the part's entries begin.
+  // For each part of the items, counts the entries of each node. Then replaces each count by the position in the node's block at
+  // which these entries begin.
   void count() {
     resize(next_, n_parts_ * lists_.n_nodes);
     parallel_for(n_parts_, n_threads_, [&](std::int64_t part, int) {
@@ -111,7 +111,7 @@ class RowMaker {
     });
   }
 
-  // Writes the entries. Afterwards each position in next_ is the end of a part's entries.
+  // Writes the entries. This moves each position in next_ to the end of the entries that began there.
   void fill() {
     parallel_for(n_parts_, n_threads_, [&](std::int64_t part, int) {
       Entry *const next = next_of(part);
@@ -137,7 +137,7 @@ class RowMaker {
     UnfilledVector<Column> columns;     // columns of one block
   };
 
-  // Makes the rows of each block in the memory of its entries. Writes the lengths of the rows into `offsets`.
+  // Makes the rows of each block, in the memory that holds the block's entries. Writes the lengths of the rows into `offsets`.
   void make_rows(UnfilledVector<std::int64_t> &offsets) {
     resize(offsets, lists_.n_nodes + 1);
     view(offsets)[0] = 0;
@@ -241,7 +241,8 @@ void check_count(const char *field, std::int64_t n, std::int64_t least) {
          max_count);
 }
 
-// The lists of neighbouring cells. These lists have cells in place of nodes, and an entry is a face between two cells.
+// The type Lists from which the neighbours of cells are made. Cells take the place of nodes, and an entry is a face between two
+// cells.
 struct InnerFaces {
   static constexpr std::int64_t most_neighbors = 1;
 
@@ -266,7 +267,7 @@ struct InnerFaces {
   void prefetch(std::int64_t) const {}
 };
 
-// The lists of a grid, in which each node has one entry.
+// The type Lists for a grid, in which each node has one entry.
 struct GridNodes {
   static constexpr std::int64_t most_neighbors = 6;
 
@@ -293,8 +294,8 @@ struct GridNodes {
 template <class Id>
 OwnAdjacency adjacency_from_cells_with(const riis_mesh_cells &given, int n_threads, const NarrowLimits &limits) {
   const Cells<Id> cells(given, n_threads);
-  // Code for cells of one shape takes three quarters of the time of the general code. It is compiled only for meshes that 32 bits
-  // can count, because hardly any mesh is larger.
+  // Code for cells of one shape takes three quarters of the time of the general code. This code is compiled only for meshes
+  // within NarrowLimits, because hardly any mesh is larger.
   if (given.offsets || cells.n_nodes() > limits.n_nodes || cells.n_listed() > limits.n_entries)
     return adjacency_of_lists(CellsOfAnyShape<Id>(cells), cells.n_listed(), n_threads, limits);
   const auto made_of = [&](const auto &lists) { return narrow_adjacency_of_lists(lists, n_threads); };
@@ -333,7 +334,7 @@ Adjacency checked_adjacency(const riis_csr &csr, std::int64_t n_nodes) {
     if (end < begin)
       fail(RIIS_INVALID_MESH, "row ", i, " of the adjacency ends at ", end, ", before it begins, at ", begin);
   }
-  // The offsets ascend, so no row goes beyond the columns that the last offset announces.
+  // The offsets ascend, so no row ends after the last offset, which is the number of columns.
   for (std::int64_t i = 0; i < csr.n_rows; ++i) {
     const std::int64_t begin = made.offsets[i], end = made.offsets[i + 1];
     if (end > begin) require(csr.columns, "csr.columns");
@@ -385,7 +386,7 @@ OwnAdjacency adjacency_from_faces(const riis_mesh_faces &faces, int n_threads) {
   }
   const IntegerArray owner{faces.owner, faces.id_bits == 64}, neighbor{faces.neighbor, faces.id_bits == 64};
   const std::int64_t base = faces.index_base;
-  // Compares the numbers before it subtracts the base, because a difference of unchecked numbers may overflow.
+  // Compares the numbers before the base is subtracted, because the difference of unchecked numbers may overflow.
   const auto check = [&](const char *which, std::int64_t face, const IntegerArray &ends, std::int64_t least) {
     const std::int64_t given = ends[face * faces.stride];
     if (given < least || given >= faces.n_cells + base)

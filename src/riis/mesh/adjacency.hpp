@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The neighbours of each node, as compressed sparse rows. Either the caller gives the rows, which are checked but not copied, or
-// the library makes them from cells, faces or a structured grid.
+// The neighbours of each node, as compressed sparse rows. The caller may give the rows, which are then checked but not copied.
+// Otherwise the library makes the rows from cells, faces or a structured grid.
 #pragma once
 
 #include <riis/riis.h>
@@ -53,7 +53,7 @@ struct OwnAdjacency {
 };
 
 // Within these limits, 32-bit numbers can count the entries and hold the columns. Each node of each cell counts as one entry. A
-// test sets lower limits to run the code for large meshes.
+// test sets lower limits, so that a small mesh runs the code for large meshes.
 struct NarrowLimits {
   std::int64_t n_entries = std::numeric_limits<std::uint32_t>::max();
   std::int64_t n_nodes = std::numeric_limits<std::int32_t>::max();

@@ -27,7 +27,7 @@ inline constexpr CellShape prism{6, 9, {{{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5},
 inline constexpr CellShape hexahedron{
     8, 12, {{{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}}}};
 
-// For each position in a cell's list of nodes, lists the positions to which an edge leads.
+// For each position in a cell's list of nodes, the positions at the other ends of its edges.
 struct CellNeighbors {
   struct Positions {
     std::int64_t n = 0;
@@ -65,14 +65,14 @@ inline const CellNeighbors *neighbors_in_cell(std::int64_t n_nodes) {
   }
 }
 
-// The caller's lists of cells as given. The nodes of each cell follow the nodes of the previous cell.
+// The caller's list of the cells' nodes, unchanged. The nodes of each cell follow the nodes of the previous cell.
 template <class Id>
 struct CellNodes {
   const Id *ids, *offsets;  // offsets is NULL if all cells have the same number of nodes
   std::int64_t nodes_per_cell, base, first_offset;
 
   std::int64_t begin(std::int64_t cell) const { return offsets ? offsets[cell] - first_offset : cell * nodes_per_cell; }
-  // Returns the node at a position in the cells' lists.
+  // Returns the node at a position in the list of all cells' nodes.
   std::int64_t node_at(std::int64_t position) const { return ids[position] - base; }
   void prefetch(std::int64_t position) const { __builtin_prefetch(ids + position); }
 };
@@ -81,7 +81,7 @@ struct CellNodes {
 template <class Id>
 class Cells {
  public:
-  // Checks the sizes of all cells before any node, because the sizes give the length of the list of nodes.
+  // Checks the sizes of all cells before any node, because the length of the list of nodes is known only from these sizes.
   Cells(const riis_mesh_cells &cells, int n_threads)
       : n_cells_(cells.n_cells),
         n_nodes_(cells.n_nodes),
@@ -106,7 +106,7 @@ class Cells {
   std::int64_t n_nodes() const { return n_nodes_; }
   std::int64_t n_cells() const { return n_cells_; }
   const CellNodes<Id> &nodes() const { return nodes_; }
-  // Returns the total length of all cells' lists.
+  // Returns the total length of the node lists of all cells.
   std::int64_t n_listed() const { return nodes_.begin(n_cells_); }
 
  private:
@@ -116,7 +116,7 @@ class Cells {
     parallel_for_ranges(n_cells_, cells_per_block, n_threads, [&](const Range &range, int) { check(range); });
   }
 
-  // Compares the numbers before it subtracts the base, because the difference of an unchecked number may overflow.
+  // Compares the numbers before the base is subtracted, because subtracting from an unchecked number may overflow.
   void check_size(std::int64_t cell) const {
     const std::int64_t from = nodes_.offsets[cell], to = nodes_.offsets[cell + 1];
     if (to < from || !neighbors_in_cell(to - from))
@@ -146,7 +146,8 @@ class Cells {
   CellNodes<Id> nodes_;
 };
 
-// The lists that RowMaker takes (adjacency.cpp), for cells of one shape. An entry is a position in the cells' lists.
+// The type Lists that RowMaker needs (adjacency.cpp), for cells of one shape. An entry is a position in the list of all cells'
+// nodes.
 template <class Id, const CellShape &shape>
 struct CellsOfOneShape {
   static constexpr std::int64_t most_neighbors = neighbors_in<shape>.most;
@@ -171,7 +172,7 @@ struct CellsOfOneShape {
   void prefetch(std::int64_t entry) const { nodes.prefetch(entry); }
 };
 
-// The lists of cells of any shapes. An entry is a cell.
+// The type Lists that RowMaker needs, for cells of any shapes. An entry is a cell.
 template <class Id>
 struct CellsOfAnyShape {
   static constexpr std::int64_t most_neighbors = 7;  // a node listed twice in a cell may be joined to all other nodes

@@ -21,7 +21,7 @@ bool are_within_frame(const Clusters &clusters) {
   });
 }
 
-// Fills clusters with the nodes whose numbers are number_of(position).
+// Fills clusters with nodes. The node at position i in the order has the number number_of(i).
 template <class NumberOf>
 void fill(const StridedPoints &nodes, Clusters &clusters, int n_threads, const NumberOf &number_of) {
   const auto ordered = [&](std::int64_t i) {
@@ -39,9 +39,9 @@ Bounds bounds_of(const StridedPoints &nodes) {
   return bounds;
 }
 
-// Asks the system for large pages for the memory of leaves. A search reads leaves in random order, and with small pages the
-// processor would look up a page for nearly each leaf. Only whole large pages inside the memory are requested, so the process
-// takes no more memory.
+// Asks the system for large pages for the memory of leaves. A search reads leaves in random order. With small pages, the
+// processor would have to look up a page for nearly every leaf. Only large pages that lie wholly inside the memory are requested,
+// so the process needs no additional memory.
 void ask_for_large_pages(void *memory, std::size_t n_bytes) {
 #if defined(MADV_HUGEPAGE)
   constexpr std::uintptr_t size = std::uintptr_t{1} << 21;
@@ -61,7 +61,7 @@ void make_room_for(std::int64_t n_nodes, Clusters &clusters) {
   const std::int64_t n_leaves = n_of(nodes_per_leaf);
   if (n_leaves > clusters.room_for_leaves) {
     clusters.room_for_leaves = 0;
-    // The memory is left unfilled. The first thread that writes to a page is thus the thread that uses it.
+    // The memory is left unfilled, so that each page is first written by the thread that uses it.
     const auto n = static_cast<std::size_t>(n_leaves);
     clusters.leaves.reset(new Leaf[n]);
     clusters.points.reset(new LeafPoints[n]);
@@ -99,7 +99,7 @@ void sort_into_clusters(const StridedPoints &nodes, const Bounds &bounds, int n_
 }
 
 void place_clusters(const StridedPoints &nodes, const Bounds &bounds, int n_threads, Clusters &clusters) {
-  // Each leaf is overwritten in place, but each number in it is read before it is overwritten.
+  // Each leaf is overwritten in place, but every number in the leaf is read before it is overwritten.
   const Leaf *leaves = clusters.leaves.get();
   const auto place = [&](const Bounds &around) {
     clusters.frame = frame_around(around);

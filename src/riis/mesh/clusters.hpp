@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A mesh's nodes in leaves, clusters and regions. A leaf holds 32 nodes near each other, a cluster holds 16 leaves, and a region
-// holds 16 clusters. Each level has boxes, so a search can dismiss all nodes of a box at once. The order of the nodes is made
-// once for a mesh. When nodes move, the order stays, and coordinates and boxes are made again.
+// holds 16 clusters. Each level has boxes, so a search can dismiss all nodes of a box at once. The nodes of a mesh are put in
+// order only once. When nodes move, the order stays, and only the coordinates and the boxes are computed again.
 #pragma once
 
 #include <algorithm>
@@ -19,8 +19,8 @@
 
 namespace riis {
 
-// The coordinates of a leaf's nodes in double precision, stored together. The decision reads them together, but they may be far
-// apart in the caller's array.
+// A copy of the coordinates of a leaf's nodes, in double precision. The decision kernel reads these coordinates together, whereas
+// they may be far apart in the caller's array.
 struct LeafPoints {
   double xyz[3 * nodes_per_leaf];
 };
@@ -45,7 +45,7 @@ struct Clusters {
   int n_nodes_of(std::int64_t leaf) const;
 };
 
-// The limit exists because a leaf stores the numbers of its nodes in 32 bits.
+// A leaf stores the numbers of its nodes in 32 bits, which limits the number of nodes.
 inline constexpr std::int64_t max_clustered_nodes = INT64_C(0xffffffff);
 
 // The next two functions fail with RIIS_INVALID_MESH for an unusable coordinate. Until clusters are made for the first time,
@@ -90,12 +90,12 @@ inline Boxes no_boxes() {
   return boxes;
 }
 
-// Makes room for n_nodes nodes. If memory runs out, n_nodes stays as it was. A value of 0 thus still says that the clusters were
-// never made.
+// Makes room for n_nodes nodes. If memory runs out, n_nodes keeps its old value. If this value is 0, it still says that the
+// clusters were never made.
 void make_room_for(std::int64_t n_nodes, Clusters &clusters);
 
 // Fills clusters, whose frame must be set. The function node_at(i) returns the i-th node in the order, and prefetch(i) requests
-// the memory that node_at(i) reads. With an unusable coordinate (strided.hpp), some boxes are not within the frame.
+// the memory that node_at(i) reads. If a coordinate is unusable (strided.hpp), some boxes will not lie within the frame.
 template <class NodeAt, class Prefetch>
 void fill_clusters(std::int64_t n_nodes, int n_threads, const NodeAt &node_at, const Prefetch &prefetch,
                    Clusters &clusters) {

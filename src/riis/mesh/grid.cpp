@@ -15,7 +15,7 @@ namespace {
 // Numbers are stored in 40 bits (FoundNode).
 constexpr std::int64_t most_numbers = std::int64_t{1} << 40;
 
-// Lists the axes with several nodes, the axis with the largest stride first. Returns their number.
+// Lists the axes with several nodes, the axis with the largest stride first. Returns the number of these axes.
 int list_long_axes(const GridIndex &n, const GridIndex &stride, int (&axes)[3]) {
   int n_axes = 0;
   for (int axis = 2; axis >= 0; --axis)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A rectilinear grid: three ascending axes, and the place of each node in the caller's arrays. Nothing is stored for a node. The
-// axes, the first number and the strides give each node's coordinates, number and neighbours.
+// A rectilinear grid: three ascending axes, and the place of each node in the caller's arrays. No data are stored for a node: its
+// coordinates, number and neighbours are computed from the axes, the first number and the strides.
 #pragma once
 
 #include <array>
@@ -27,7 +27,7 @@ struct GridBox {
   std::int64_t size(std::int64_t axis) const { return end[axis] - begin[axis]; }
   bool is_empty() const { return size(0) <= 0 || size(1) <= 0 || size(2) <= 0; }
   std::int64_t n_nodes() const { return is_empty() ? 0 : size(0) * size(1) * size(2); }
-  // Returns the index of node t of the box, where i changes fastest.
+  // Returns the index of node t of the box. The nodes are counted so that i changes fastest.
   GridIndex operator[](std::int64_t t) const {
     return {begin[0] + t % size(0), begin[1] + t / size(0) % size(1), begin[2] + t / size(0) / size(1)};
   }
@@ -37,7 +37,7 @@ class Grid {
  public:
   typedef std::array<std::vector<double>, 3> Axes;
 
-  // The axes must ascend. The strides are from checked_strides.
+  // The axes must ascend. The strides must come from checked_strides.
   Grid(Axes axes, std::int64_t first, const GridIndex &stride, std::int64_t n_numbers);
 
   std::int64_t size(std::int64_t axis) const { return size_[axis]; }
@@ -51,7 +51,7 @@ class Grid {
   std::int64_t number(const GridIndex &index) const {
     return first_ + index[0] * stride_[0] + index[1] * stride_[1] + index[2] * stride_[2];
   }
-  // Finds the node with a number. If the number has no node, returns false and the index of the first node.
+  // Finds the node with the given number. If no node has this number, returns false and the index of the first node.
   bool find(std::int64_t number, GridIndex &index) const {
     std::int64_t rest = number - first_;
     index = {0, 0, 0};
@@ -67,16 +67,16 @@ class Grid {
     GridIndex index;
     return find(number, index);
   }
-  // Returns the coordinates of the node with a number. A number without a node gives the first node's coordinates.
+  // Returns the coordinates of the node with the given number. If no node has this number, returns the first node's coordinates.
   Vec3 operator[](std::int64_t number) const {
     GridIndex index;
     find(number, index);
     return at(index);
   }
-  // Returns how many nodes have lower numbers than a node.
+  // Returns the number of nodes whose numbers are lower than that of the given node.
   std::int64_t rank(const GridIndex &index) const;
 
-  // Returns the nodes within a box of coordinates.
+  // Returns the nodes whose coordinates lie within the bounds.
   GridBox within(const Bounds &bounds) const;
   // Returns the length of the longest edge between two nodes of a box.
   double longest_edge(const GridBox &box) const;
@@ -89,13 +89,14 @@ class Grid {
   int long_axes_[3], n_long_axes_;
 };
 
-// Returns the strides if each number has at most one node. Fails with RIIS_INVALID_ARGUMENT or RIIS_LIMIT_EXCEEDED.
+// Checks that no two nodes have the same number, and returns the strides. Fails with RIIS_INVALID_ARGUMENT or
+// RIIS_LIMIT_EXCEEDED.
 //   `given`: the strides as the caller gave them; three zeros stand for the default.
 //   `n_numbers`: 0 is replaced by the least length.
 // The stride of an axis with one node becomes 0.
 GridIndex checked_strides(const GridIndex &n, std::int64_t first, const GridIndex &given, std::int64_t &n_numbers);
 
-// The edges of a grid, with the functions of Adjacency. A number without a node has no edges.
+// The edges of a grid, with the same functions as Adjacency. A number without a node has no edges.
 struct GridEdges {
   static constexpr bool is_symmetric = true;
 
@@ -111,7 +112,7 @@ struct GridEdges {
       if (index[axis] + 1 < grid.size(axis)) visit(i + grid.stride(axis));
     }
   }
-  // Callers pass only neighbours, and a grid's edges are symmetric.
+  // The result is always true, because callers pass only neighbours, and a grid's edges are symmetric.
   bool has_neighbor(std::int64_t, std::int64_t) const { return true; }
 };
 

@@ -5,9 +5,9 @@
 
 namespace riis {
 
-// Doubles the size of a brick until it consists of n bricks of the old size. Returns the places of the n bricks. Each doubling is
-// along the axis on which the brick is shortest, so that bricks are nearly cubes. An axis that the brick already fills is not
-// doubled.
+// Doubles the size of a brick until it consists of n bricks of the original size. Returns the places of these n bricks. Each
+// doubling is along the axis on which the brick is shortest, so that the result is nearly a cube. Axes along which the brick
+// already covers the whole box are left out.
 GridClusters::Parts GridClusters::parts_of(int n, GridIndex &extent) const {
   Parts parts{};
   for (int n_parts = 1; n_parts < n; n_parts *= 2) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The nodes of a grid in leaves, clusters and regions, as the search over clusters needs them. Leaves, clusters and regions are
-// bricks of nodes, so the axes give their boxes. A thread fills the leaves of one cluster at a time. Only the nodes within a box
-// of the grid, near a surface, are included.
+// bricks of nodes, so their boxes are computed from the axes. A thread fills the leaves of one cluster at a time. Only the nodes
+// within one box, which is the part of the grid near a surface, are included.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ namespace riis {
 
 class GridClusters {
  public:
-  // The memory of one thread: boxes, and the cluster that is open.
+  // The memory of one thread. It holds boxes, and the leaves of the cluster that the thread has opened.
   struct Room {
     Boxes region, cluster;
     GridIndex begin;     // the cluster's first node, counted from the first node of the grid's box
@@ -26,7 +26,7 @@ class GridClusters {
     LeafPoints points[leaves_per_cluster];
   };
 
-  // Takes the nodes of a box, which must have at least one node. The memory of earlier boxes is reused.
+  // Sets the box whose nodes are included. The box must have at least one node. The memory of earlier boxes is reused.
   void make(const Grid &grid, const GridBox &box);
 
   const NodeFrame &frame() const { return frame_; }
@@ -41,9 +41,9 @@ class GridClusters {
     return boxes_at(begin_of(cluster), leaves_, leaf_extent_, room->cluster);
   }
 
-  // Opens a cluster, and fills the leaves whose bit is set.
+  // Opens a cluster, and fills those of its leaves whose bit in `leaves` is set.
   void open(std::int64_t cluster, std::uint32_t leaves, Room &room) const;
-  // Returns a bit for each lane of a leaf. It is set if the lane has a node.
+  // Returns a bit for each lane of a leaf. The bit is set if the lane has a node.
   std::uint32_t lanes(int leaf, const Room &room) const;
   // The numbers of a leaf's nodes, counted from the number of the box's first node.
   struct Numbers {
@@ -52,11 +52,11 @@ class GridClusters {
     std::int64_t operator[](int lane) const { return first + step[lane]; }
   };
   Numbers numbers(int leaf, const Room &room) const { return {room.first, step_ + nodes_per_leaf * leaf}; }
-  // Writes the points of a leaf's lanes with a set bit.
+  // Writes the points of those lanes of a leaf whose bit is set.
   void fill_points(int leaf, std::uint32_t lanes, Room &room) const;
 
  private:
-  // The places of the parts of a brick along each axis, in nodes.
+  // Where the parts of a brick begin along each axis, counted in nodes from the brick's first node.
   struct Parts {
     std::int32_t at[3][nodes_per_leaf];
   };

@@ -71,7 +71,7 @@ void Mesh::set_nodes(const MeshNodes &nodes, const Bounds &bounds) {
 
 const NodeBalls &Mesh::balls(int n_threads) const {
   return balls_.get([&](NodeBalls &balls) {
-    // Nodes that moved keep their order. The order stays useful as long as near nodes stay together.
+    // If the nodes have moved, their order is kept. It stays useful as long as neighbouring nodes stay near each other.
     if (balls.order.empty()) sort_into_balls(points(), bounds_, n_threads, balls);
     enclose(points(), n_threads, balls);
   });
@@ -149,13 +149,13 @@ void for_each(std::int64_t n, int n_threads, const Visit &visit) {
   });
 }
 
-// The computed radius may be too small by a few units of rounding of the coordinates. Returns the radius plus this amount.
+// Rounding of the coordinates may have made the computed radius slightly too small. Returns the radius plus this possible error.
 double rounded_up(double radius, Vec3 centre) {
   return radius * (1 + 1e-15) + 1e-15 * (std::abs(centre.x) + std::abs(centre.y) + std::abs(centre.z));
 }
 
-// Returns a ball around the balls of a range. The new centre is the middle of the box around the given centres. A node counts as
-// a ball of radius 0.
+// Returns a ball around the balls of a range. The new ball's centre is the middle of the box around the centres of the given
+// balls. A node counts as a ball of radius 0.
 template <class BallAt>
 Ball ball_around(const Range &range, const BallAt &ball_at) {
   Bounds box;

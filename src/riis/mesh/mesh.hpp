@@ -21,8 +21,8 @@
 namespace riis {
 
 // The mesh's nodes in balls. A ball holds 32 nodes near each other, and a large ball holds 16 balls. The neighbour search can
-// dismiss all nodes of a ball at once. The order of the nodes is made once for a mesh. When nodes move, the order stays, and the
-// balls are made again.
+// dismiss all nodes of a ball at once. The nodes of a mesh are put in order only once. When nodes move, the order stays, and only
+// the balls are made again.
 struct Ball {
   Vec3 centre;
   double radius;  // at least the distance from the centre to the farthest of its nodes
@@ -44,8 +44,8 @@ void sort_into_balls(const StridedPoints &nodes, const Bounds &bounds, int n_thr
 // Makes the balls and the large balls from the order.
 void enclose(const StridedPoints &nodes, int n_threads, NodeBalls &balls);
 
-// The edges of a mesh in blocks of 64 rows. Each block has the length of its longest edge, and a box. A search for long edges
-// near the surface can skip most blocks as a whole.
+// The edges of a mesh in blocks of 64 rows. For each block, the length of its longest edge and a box are stored. A search for
+// long edges near the surface can skip most blocks as a whole.
 struct EdgeBlocks {
   static constexpr std::int64_t rows_per_block = 64;
 
@@ -63,8 +63,8 @@ struct EdgeBlocks {
 // The surfaces that were reported as misfits for a mesh. Several threads may call both functions at once.
 class WarnedSurfaces {
  public:
-  // Records the number, which must not be 0. Returns true if the number is new. When the list is full, new numbers also give
-  // false.
+  // Records the number, which must not be 0. Returns true if the number is new. When the list is full, returns false even for a
+  // new number.
   bool is_first(std::uint64_t surface_number);
   bool has(std::uint64_t surface_number) const;
 
@@ -79,8 +79,8 @@ struct Sizes {
   double half_thickness;
 };
 
-// Makes only a few comparisons for a mesh of any size. Positions are not compared, because one process's part of a mesh may lie
-// far from the surface.
+// Makes only a few comparisons, however large the mesh is. Positions are not compared, because one process's part of a mesh may
+// lie far from the surface.
 void check_proportions(const Sizes &sizes, std::uint64_t surface_number, WarnedSurfaces &warned);
 
 // The nodes of a mesh: points, or a grid.
@@ -92,7 +92,7 @@ struct MeshNodes {
   MeshNodes(const StridedPoints &given) : n(given.n), points(given) {}  // NOLINT(google-explicit-constructor)
   explicit MeshNodes(const Grid &given) : n(given.n_numbers()), points{0, nullptr, nullptr, nullptr, 1}, grid(&given) {}
   std::int64_t n_nodes() const { return grid ? grid->all().n_nodes() : n; }
-  // Returns node i. In a grid, the number i must have a node.
+  // Returns node i. In a grid, a node with the number i must exist.
   Vec3 operator[](std::int64_t i) const { return grid ? (*grid)[i] : points[i]; }
   void prefetch(std::int64_t i) const {
     if (!grid) points.prefetch(i);
@@ -111,7 +111,7 @@ class Mesh {
 
   const MeshNodes &nodes() const { return nodes_; }
   const StridedPoints &points() const { return nodes_.points; }
-  // Returns the box that the nodes had when the caller last gave them.
+  // Returns the box around the nodes at the time when the caller last gave them.
   const Bounds &bounds() const { return bounds_; }
   const std::optional<Adjacency> &adjacency() const { return adjacency_; }
 
@@ -122,8 +122,8 @@ class Mesh {
     edges_.forget();
   }
 
-  // borrow_nodes and take_grid set new coordinates, of the same nodes or of other nodes. A different number of nodes removes the
-  // adjacency.
+  // borrow_nodes and take_grid set new coordinates, of the same nodes or of other nodes. If the number of nodes changes, the
+  // adjacency is removed.
   void borrow_nodes(const StridedPoints &nodes, const Bounds &bounds);
   void take_grid(std::unique_ptr<const Grid> grid);
   // Copies the nodes. After a failure the mesh keeps its old nodes.
@@ -153,8 +153,8 @@ class Mesh {
   // coordinate.
   const EdgeBlocks &edges(int n_threads) const;
 
-  // Records that these nodes were marked. Returns whether clusters pay off: they do if a marking was recorded before, or if
-  // clusters already exist.
+  // Records that these nodes were marked. Returns whether clusters are worth making. They are if an earlier marking was recorded,
+  // or if clusters already exist.
   bool record_marking() const { return was_marked_.exchange(true, std::memory_order_relaxed); }
 
   // Returns the surfaces whose sizes do not fit this mesh, and about which the caller was already warned.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Puts nodes in an order in which near nodes follow each other. Clusters and balls share this file.
+// Puts nodes in an order in which nodes that are near each other in space follow each other. Clusters and balls both use this
+// order.
 #pragma once
 
 #include <algorithm>
@@ -34,7 +35,7 @@ struct NodeFrame {
   Vec3 centre{0, 0, 0};
   double scale = 1;
 
-  // Takes a point that lies within the nodes' box.
+  // Takes a point to the frame. The point must lie within the nodes' box.
   void place_inner(Vec3 p, float *x) const {
     const Vec3 q = scale * (p - centre);
     x[0] = static_cast<float>(q.x), x[1] = static_cast<float>(q.y), x[2] = static_cast<float>(q.z);
@@ -77,7 +78,7 @@ struct NodeBox {
   }
 };
 
-// A node is given by its coordinates and its number.
+// A node with its coordinates and its number.
 template <class Node>
 struct NodeItem {
   float x[3];
@@ -87,20 +88,20 @@ struct NodeItem {
 template <class Node>
 using NodeItems = UnfilledVector<NodeItem<Node>>;
 
-// The places where parts are cut. With by_clusters, a part is cut into at most four parts at a time. Large parts are cut between
-// clusters, and small parts between leaves. Clusters are then compact. With by_leaves, all cuts are between leaves. The number of
-// parts is chosen so that leaves become as wide as they are long. Cuts by leaves take half as many passes, but make long
+// Where a part of the nodes is cut. With by_clusters, a part is cut into at most four parts at a time: a large part between
+// clusters, and a small part between leaves. This makes clusters compact. With by_leaves, all cuts are between leaves, and the
+// number of parts is chosen so that leaves become as wide as they are long. This takes half as many passes, but makes long
 // clusters.
 enum class Cuts { by_clusters, by_leaves };
 
-// Sorts nodes so that near nodes follow each other. Each pass divides the longest axis of a part's box into bins, and counts the
-// nodes in each bin. It then cuts the part across this axis. The items move back and forth between two arrays.
+// Sorts nodes so that near nodes follow each other. Each pass divides the longest axis of a part's box into bins, counts the
+// nodes in each bin, and then cuts the part across this axis. The items move back and forth between two arrays.
 template <class Node>
 class NodeSorter {
  public:
   typedef NodeItem<Node> Item;
 
-  // The buffer's content does not matter.
+  // The buffer may have any content.
   NodeSorter(NodeItems<Node> &items, NodeItems<Node> &buffer, Cuts cuts, int n_threads)
       : items_(items),
         buffer_(buffer),
@@ -110,7 +111,8 @@ class NodeSorter {
 
   void sort() {
     resize(buffer_, view(items_).size());
-    // While there are fewer parts than the threads need, all threads share each part. Afterwards each thread takes whole parts.
+    // While there are too few parts for all threads, the threads work on each part together. Afterwards each thread takes whole
+    // parts.
     Item *at = items_.data(), *other = buffer_.data();
     std::vector<Part> parts{{0, view(items_).size()}}, next;
     const std::int64_t enough = n_threads_ == 1 ? 1 : 4 * n_threads_;
@@ -128,13 +130,14 @@ class NodeSorter {
 
  private:
   static constexpr int n_bins = 256, most_parts = 16;
-  // A part of at most this size has fewer bins, because clearing and summing many bins would take longer than counting its nodes.
+  // A part of at most this size gets fewer bins, because clearing and summing many bins would take longer than counting the
+  // part's nodes.
   static constexpr std::int64_t small_size = 1024;
   static constexpr int n_small_bins = 64, n_small_bins_per_part = 16;
   typedef std::array<Node, n_bins> Counts;
-  // Items are counted and moved four at a time, one from each quarter of a block. Neighbouring items are often counted in the
-  // same bin, where each update of the count waits for the previous one. Each quarter of the items therefore has counts of its
-  // own.
+  // Items are counted and moved four at a time, one from each quarter of a block. Neighbouring items often belong to the same
+  // bin, and each update of the bin's count has to wait for the previous update. Each quarter of the items therefore has its own
+  // counts.
   static constexpr int n_quarters = 4;
   typedef std::array<Node, n_quarters> OfQuarters;
   typedef std::array<OfQuarters, n_bins> QuarterCounts;
@@ -163,9 +166,8 @@ class NodeSorter {
     }
   };
 
-  // A stream is a run of bins whose items are written to consecutive places, one item after another. A bin that contains a cut is
-  // a stream by itself. All bins between two bins with a cut are one stream. Writing to few streams is faster than writing to
-  // many bins.
+  // A stream is a run of successive bins whose items are written one after another. A bin that contains a cut is a stream by
+  // itself. All bins between two such bins are one stream. Writing to few streams is faster than writing to many bins.
   struct Streams {
     static constexpr int most = 2 * most_parts - 1;
     std::array<std::uint8_t, n_bins> of_bin;
@@ -193,8 +195,8 @@ class NodeSorter {
     }
   };
 
-  // A part that is divided into blocks, which threads share. Each block has its box, its counts and the positions of its streams.
-  // OneBlock is a part for one thread and one block.
+  // A part that is divided into blocks, so that several threads can work on it. Each block has its own box, counts and positions
+  // of streams. OneBlock is a part that one thread handles as a single block.
   struct ManyBlocks {
     const Part &part;
     std::int64_t per_block;
@@ -245,8 +247,8 @@ class NodeSorter {
     return {nodes_per_leaf, std::clamp(static_cast<std::int64_t>(along + 0.5f), std::int64_t{2}, most)};
   }
 
-  // Suppose that leaves are as wide as they are long, or fill the width of a narrower box. Returns how many leaves lie along the
-  // longest side of the box.
+  // Returns how many leaves lie along the longest side of the box, if a leaf is as wide as it is long. In a box narrower than a
+  // leaf, leaves have the width of the box.
   static float leaves_along(const NodeBox &box, float n_leaves) {
     float side[3];
     for (int i = 0; i < 3; ++i) side[i] = box.upper[i] - box.lower[i];
@@ -274,7 +276,8 @@ class NodeSorter {
   static NodeBox box_of(const Item *items, const Part &part) {
     typedef float Four __attribute__((vector_size(16)));
     static_assert(sizeof(Item) >= sizeof(Four));
-    // The loop keeps two separate boxes, because each comparison has to wait for the previous comparison of the same bounds.
+    // With two separate boxes, two comparisons can run at the same time. With one, each comparison would have to wait for the
+    // previous one.
     Four lower[2], upper[2];
     for (int k = 0; k < 2; ++k) lower[k] = Four{} + NodeBox::inf, upper[k] = Four{} - NodeBox::inf;
     const auto add = [&](const Item *item, int k) {
@@ -297,7 +300,8 @@ class NodeSorter {
     return box;
   }
 
-  // Calls visit(item, quarter) for all items of a part, in four quarters. The items of each quarter are visited in their order.
+  // Calls visit(item, quarter) for all items of a part, which is divided into four quarters. Within a quarter, the items are
+  // visited in order.
   template <class Visit>
   static void for_each_by_quarters(const Item *items, const Part &part, const Visit &visit) {
     const std::int64_t size = part.size() / n_quarters;
@@ -318,8 +322,8 @@ class NodeSorter {
     for (int quarter = 0; quarter < n_quarters; ++quarter) view(to)[quarter] += view(numbers)[quarter];
   }
 
-  // Moves items until the items of each new part are together. Within a stream the items keep their order, for any number of
-  // blocks. Returns where the part was cut.
+  // Moves the items so that the items of each new part are together. Within a stream, the items keep their order. The number of
+  // blocks thus does not change the result. Returns where the part was cut.
   template <class Blocks>
   Cutting sort_once(const Part &part, const Item *from, Item *to, Blocks &blocks) const {
     blocks.for_each(
@@ -336,7 +340,7 @@ class NodeSorter {
       for (const QuarterCounts &counts : blocks.counts) add(view(counts)[bin], sum);
       view(sums)[bin] = sum[0] + sum[1] + sum[2] + sum[3];
     }
-    // Most items may be in few bins. To separate them, the next pass needs their own, smaller box.
+    // Many items may lie in one bin. The next pass can separate these items, because their own box is smaller.
     constexpr std::int64_t few_parts = 4;
     if (cut.n_parts > few_parts) {
       const auto most = static_cast<std::int64_t>(*std::max_element(sums.begin(), sums.begin() + bins.n));
@@ -372,7 +376,7 @@ class NodeSorter {
     return cut;
   }
 
-  // Sorts a short part completely along its longest axis. For so few items, counting in bins would take longer.
+  // Sorts a short part completely along its longest axis. For so few items, this is faster than counting in bins.
   static void sort_whole(const Part &part, const Item *from, Item *to) {
     const NodeBox box = box_of(from, part);
     const int axis = box.longest_axis();

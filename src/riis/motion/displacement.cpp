@@ -25,7 +25,7 @@ Vector<Vec3> arc_offsets(const PatchSet &set, const Patch &patch, const CurvePoi
 
 namespace {
 
-// The material points of a side, in the side's own direction.
+// The material points of a side, in the order of the side's own direction.
 class PointsOfSide {
  public:
   PointsOfSide(const PatchSet &set, const Side &side)
@@ -90,8 +90,8 @@ bool has_points_inside(const MovedPatch &moved) {
   return moved.patch < moved.now.mapped_inside.size() && moved.patch < moved.before.mapped_inside.size();
 }
 
-// The position of a point relative to another point, measured in steps of u and v by least squares. The position is 0 if the
-// steps of u and v are nearly parallel.
+// The position of a point beside another point, expressed in steps of u and v by least squares. If the steps of u and v are
+// nearly parallel, the position is set to 0.
 struct StepsBeside {
   double u = 0, v = 0;
 
@@ -108,7 +108,7 @@ struct StepsBeside {
   }
 };
 
-// The arcs of a warped patch of arcs at its material points, in one state.
+// The arcs at the material points of a warped patch of arcs, in one state of the valve.
 struct MaterialArcs {
   MaterialArcs(const PatchSet &set, std::size_t number) : mapped_middle(set.mapped_inside[number].points) {
     const Patch &patch = set.patches[number];
@@ -150,7 +150,7 @@ class AtShares {
     return mix(v0[at_u], v1[at_u], v) + mix(u0[at_v], u1[at_v], u) -
            mix(mix(v0[0], v0[last], u), mix(v1[0], v1[last], u), v);
   }
-  // along_u and along_v return the change of the combination from the previous to the next evenly spaced share.
+  // along_u and along_v return by how much the combination changes from the previous to the next evenly spaced share.
   Vec3 along_u(std::size_t at_u, std::size_t at_v) const {
     const auto &[v0, v1, u0, u1] = at_;
     return mix(v0[at_u + 1] - v0[at_u - 1], v1[at_u + 1] - v1[at_u - 1], material_share(at_v)) +
@@ -181,9 +181,9 @@ Through<Vec3> rest_of_offsets(const MovedPatch &moved, const SideMaterial &base,
     nodes[k] = 0.5 * (base.nodes()[k] + edge.nodes()[k]);
     const Vec3 move_of_base = now.mapped_base[k] - before.mapped_base[k],
                move_of_edge = now.mapped_edge[k] - before.mapped_edge[k];
-    // The mapped middle lies beside the middle of the warped arc. The slope of the displacement gives the difference between the
-    // displacements of these two points. For an arc that is a side, only steps of v count, because the neighbouring patch has the
-    // same arc but other steps of u.
+    // The mapped middle lies beside the middle of the warped arc. The difference between the displacements of these two points is
+    // computed from the slope of the displacement. An arc at a side of the patch also belongs to the neighbouring patch, which
+    // has other steps of u. For such an arc, only steps of v are used.
     const Vec3 across = now.edge[k] - now.base[k], beside = now.mapped_middle[k] - now.middle(k);
     const bool is_side = k == 0 || k == last;
     const StepsBeside steps =
@@ -215,8 +215,8 @@ RestInside::RestInside(const MovedPatch &moved, const PatchMaterial &material) {
   for (std::size_t i = 0; i < rest_.size(); ++i) {
     constexpr std::size_t third = (n_material - 1) / 3;
     const std::size_t at_u = (1 + i % 2) * third, at_v = (1 + i / 2) * third;
-    // The mapped point lies beside the warped patch's point (u, v). The displacement at (u, v) follows from the displacement of
-    // the mapped point and from its slope.
+    // The mapped point lies beside the warped patch's point (u, v). The displacement at (u, v) is computed from the displacement
+    // of the mapped point and from the slope of the displacement.
     const StepsBeside steps(point.along_u(at_u, at_v), point.along_v(at_u, at_v),
                             mapped[i] - point.combined(at_u, at_v));
     rest_[i] = mapped[i] - mapped_before[i] - steps.u * move.along_u(at_u, at_v) - steps.v * move.along_v(at_u, at_v) -
@@ -249,8 +249,8 @@ class MovedSide {
   bool is_at_rest() const { return is_at_rest_; }
 
   // Returns the displacements at the given shares of the length. The shares ascend from 0 to 1. `points` has the current points,
-  // if they are already known. `unknown` lists the indices of the unknown points in ascending order. If the list is not empty, it
-  // also contains the first and the last index.
+  // if they are already known. `unknown` lists the indices of the points that are not known, in ascending order. If any point is
+  // unknown, the list also contains the first and the last index.
   Vector<Vec3> displacements(const Vector<double> &shares, Vector<Vec3> points,
                              const Vector<std::size_t> &unknown) const {
     if (!unknown.empty()) {
@@ -280,7 +280,7 @@ class MovedSide {
   bool is_at_rest_;
 };
 
-// The lines of a grid in one direction, with additional lines between them. Between two lines, the step is halved as often as the
+// The lines of a grid in one direction, with additional lines between them. The space between two lines is halved as often as the
 // quads there are halved.
 class HalvedLines {
  public:
@@ -333,7 +333,7 @@ Vector<Vec3> displacements_of(const MovedPatch &moved, const SideOnGrid &on, con
   const MovedSide side(moved, on.side, on.material);
   Vector<Vec3> points(lines.size(), Vec3{0, 0, 0});
   if (side.is_at_rest()) return points;
-  // Lines at vertices of the polyline end on known points of the curve.
+  // Where a line ends at a vertex of the polyline, its point on the curve is already known.
   Vector<std::size_t> unknown;
   const Vector<std::size_t> &places = lines.places();
   bool has_unknown = false;
@@ -497,7 +497,7 @@ bool have_same_build(const PatchSet &now, const PatchSet &before) {
 
 PatchSet with_own_patches(const PatchSet &state, const PatchSet &like) {
   PatchSet made = state;
-  made.seams.clear();  // the other state may lack the seams, which only change the last bits
+  made.seams.clear();  // the other state may lack the seams, which change only the last bits
   // In a warped valve, each image already has a patch of its own.
   if (state.material.empty()) made = without_images(made);
   const Vector<std::int32_t> ids = ids_of(made);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes how far the points of a patch moved since an earlier state of the valve (docs/theory/velocity.md). The result is the
-// displacement of every vertex of the patch's grid.
+// Computes how far the points of a patch have moved since an earlier state of the valve (docs/theory/velocity.md). The result is
+// the displacement of every vertex of the patch's grid.
 #pragma once
 
 #include <array>
@@ -51,16 +51,16 @@ class Through {
   std::array<T, n_material> factors_{};
 };
 
-// Tells which points of a side are the same material in both states. Without a warp, these are the points at equal shares of the
-// length. A warp stretches curves unevenly, so a point may have had another share before. A warped curve also differs a little
-// from the mapped points of the original curve. `rest` compensates for changes of this difference.
+// Tells where a material point of a side is in each of the two states. Without a warp, the point has the same share of the length
+// in both states. A warp stretches curves unevenly, so the point's share may change. A warped curve also differs slightly from
+// the mapped points of the original curve. If this difference changes between the states, `rest` compensates for the change.
 class SideMaterial {
  public:
   SideMaterial() = default;  // of a side that is not warped
   SideMaterial(const MovedPatch &moved, Side Patch::*side);
 
   bool is_warped() const { return is_warped_; }
-  // Returns the earlier shares of the points that now have these shares. The result ascends from 0 to 1.
+  // For points that now have the given shares, returns their shares in the earlier state. The result ascends from 0 to 1.
   Vector<double> shares_before(const Vector<double> &shares) const;
   Vec3 rest(double share) const { return rest_.at(share); }
 
@@ -74,8 +74,7 @@ class SideMaterial {
   Through<Vec3> rest_;
 };
 
-// The material of the sides of a patch. The sides u0 and u1 of a patch of arcs are left out, because the arcs follow from v0
-// and v1.
+// The SideMaterial of each side of a patch. A patch of arcs needs none for u0 and u1, because its arcs follow from v0 and v1.
 struct PatchMaterial {
   explicit PatchMaterial(const MovedPatch &moved);
 
@@ -87,10 +86,10 @@ struct PatchMaterial {
 // The polynomial is 0 for a patch without a warp.
 Through<Vec3> rest_of_offsets(const MovedPatch &moved, const SideMaterial &base, const SideMaterial &edge);
 
-// Inside a warped Coons patch, the displacement is the Coons combination of the sides plus this part. The part is 0 at the sides,
-// and is a polynomial of degree 3 in u and in v. Its values at four inner points, with u and v of 1/3 or 2/3, determine it. The
-// displacement at an inner point is that of the material point which the map moves there. It follows from the mapped point beside
-// the inner point (MappedInside).
+// Inside a warped Coons patch, the displacement is the Coons combination of the sides' displacements plus a rest, which this
+// class computes. The rest is 0 at the sides, and is a polynomial of degree 3 in u and in v. It is determined by its values at
+// four inner points, where u and v are 1/3 or 2/3. The displacement at an inner point is computed from the displacement of a
+// mapped material point close to it (MappedInside).
 class RestInside {
  public:
   RestInside() = default;
@@ -112,17 +111,19 @@ class RestInside {
 };
 
 // The displacement S_now(u,v) - S_before(u,v) of a patch at the vertices of its grid and of its subdivided quads. Both states are
-// evaluated on the smooth patches. On the sides this is done directly, and inside by the patch's combination of its sides. Only
-// (u,v) identifies a point in both states, so the two states may have different triangles. SideMaterial matches the points of a
-// warped side. If the sides and the bulge did not change, the result is exactly 0.
+// evaluated on the smooth patches. On the sides, the curves are evaluated. Inside, the patch's combination of its sides is
+// evaluated. A point is identified in both states by its (u,v) alone, so the triangles of the two states may differ. On a warped
+// side, SideMaterial finds where each point was in the earlier state. If the sides and the bulge did not change, the result is
+// exactly 0.
 class PatchDisplacement {
  public:
-  // Computes the displacements at the grid's vertices. The grid must have kept its lines.
+  // Computes the displacements at the grid's vertices. The grid must still have its lines.
   PatchDisplacement(const MovedPatch &moved, const LevelledGrid &levelled);
 
   // Returns the displacement where two lines of the grid meet.
   Vec3 at_lines(std::size_t i, std::size_t j) const { return at(column_[i], row_[j]); }
-  // Returns the displacement inside the quad that begins at this point. The sides of the quad are halved `level` times.
+  // Returns the displacement inside the quad whose first corner is the grid point (i, j). The sides of the quad are halved
+  // `level` times.
   Vec3 in_quad(std::size_t i, std::size_t j, int level, int column, int row) const {
     return at(column_[i] + (static_cast<std::size_t>(column) << (column_levels_[i] - level)),
               row_[j] + (static_cast<std::size_t>(row) << (row_levels_[j] - level)));
@@ -144,7 +145,7 @@ class PatchDisplacement {
   RestInside rest_;  // for a patch without arcs
 };
 
-// The velocity of one image of a patch in space. This velocity combines the displacements of the patch, the image and the
+// The velocity in space of the points of one image of a patch. It combines the displacements of the patch, the image and the
 // placement.
 class ImageVelocity {
  public:
@@ -152,7 +153,8 @@ class ImageVelocity {
                 const EarlierState &earlier);
 
   // Returns the mean velocity of a point over the time between the two states. In the patch's own coordinates, the point is now
-  // at p, and was at p - displacement in the earlier state. If image and placement are at rest, no cancellation occurs.
+  // at p, and was at p - displacement in the earlier state. If the image and the placement are at rest, no digits are lost by
+  // cancellation.
   Vec3 velocity(Vec3 p, Vec3 displacement) const {
     const Vec3 moved = now_.linear * displacement + difference_.linear * (p - displacement) + difference_.offset;
     return {moved.x / seconds_, moved.y / seconds_, moved.z / seconds_};
@@ -169,24 +171,25 @@ class ImageVelocity {
   double seconds_;
 };
 
-// Returns the offsets O of a patch of arcs (geometry/bulge.hpp) at the ascending u of these points. Returns 0 for other patches.
-// At the ends, O comes from the shared sides, as in the neighbouring patches.
+// Returns the offsets O of a patch of arcs (geometry/bulge.hpp) at the u of these points, which ascend. Returns 0 for other
+// patches. At the two ends, O is computed from the shared sides, so that neighbouring patches agree.
 Vector<Vec3> arc_offsets(const PatchSet &set, const Patch &patch, const CurvePoints &base, const CurvePoints &edge);
 
-// Returns the joints of a side in the patch's parameter.
+// Returns the joints of a side, as values of the patch's parameter.
 Vector<double> joints_of(const PatchSet &set, const Side &side);
-// Moves each grid line with the two joints beside it. If the number of joints changed, no line moves.
+// Moves each grid line together with the two joints on both sides of it. If the number of joints has changed, no line moves.
 Vector<double> moved_with_joints(const Vector<double> &lines, const Vector<double> &from, const Vector<double> &to);
 
 // Returns whether each patch has the same images in both states.
 bool have_same_build(const PatchSet &now, const PatchSet &before);
-// Gives each image of a state a patch of its own. Two states of one valve may be built differently: equal cusps are images of one
-// half, and unequal cusps have separate patches. The patches get the order of the images of `like`, which has the same ids.
+// Gives each image of a state its own patch. Two states of one valve may be built differently: equal cusps are images of one half
+// cusp, but unequal cusps have separate patches. The new patches are in the order of the images of `like`, which has the same
+// ids.
 PatchSet with_own_patches(const PatchSet &state, const PatchSet &like);
 // Fails with RIIS_INVALID_PARAMETER if the two states are built differently.
 void check_same_build(const PatchSet &now, const PatchSet &before);
-// Fails with RIIS_INVALID_PARAMETER if the images of the two states have different ids. States with the same ids can be brought
-// to one form by with_own_patches. The message names the states.
+// Fails with RIIS_INVALID_PARAMETER if the images of the two states have different ids. If the ids are the same, with_own_patches
+// can give both states the same structure. The message names the states.
 void check_same_ids(const PatchSet &now, const PatchSet &before, const StateNames &names = {"valve_before", "valve"});
 
 }  // namespace riis

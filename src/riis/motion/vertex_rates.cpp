@@ -13,8 +13,8 @@
 namespace riis {
 namespace {
 
-// The joints of base and edge of a patch of arcs, in the surface's state and in another state. Of equal joints, that of the base
-// comes first, as in Bulge::joints.
+// The joints of base and edge of a patch of arcs, in the surface's state and in another state. If two joints are equal, the joint
+// of the base comes first, as in Bulge::joints.
 class MovedJoints {
  public:
   MovedJoints(const PatchSet &at, const PatchSet &state, std::size_t patch) {
@@ -27,8 +27,8 @@ class MovedJoints {
     std::stable_sort(joints_.begin(), joints_.end(), [](const Joint &a, const Joint &b) { return a.from < b.from; });
   }
 
-  // A line cuts the range between two other lines: at a joint far enough from both ends, or else in the middle. Returns where
-  // this line is in the other state.
+  // The range between two lines is cut by a further line. This line lies at a joint that is far enough from both ends, or
+  // otherwise in the middle. Returns where the line lies in the other state.
   double cut(double from, double to, double moved_from, double moved_to) const {
     for (const Joint &joint : joints_)
       if (joint.from > 0.875 * from + 0.125 * to && joint.from < 0.125 * from + 0.875 * to) return joint.to;
@@ -48,7 +48,8 @@ class MovedJoints {
   Vector<Joint> joints_;
 };
 
-// An adapted grid of arcs has lines at the vertices of its curves, and cuts between them. This class moves the cuts.
+// An adapted grid of arcs has lines at the vertices of its curves, and further lines, the cuts, between them. This class moves
+// the cuts.
 class MovedCuts {
  public:
   MovedCuts(const MovedJoints &joints, const Vector<GridLine> &from, Vector<GridLine> &to)
@@ -76,7 +77,7 @@ class MovedCuts {
 Vector<GridLine> lines_in(const PatchSet &at, const PatchSet &state, std::size_t patch, const GridLines &lines) {
   Vector<GridLine> made = lines.u;
   if (lines.move_with_joints) {
-    // A skirt's strip beside a patch of arcs has its side v1 in common with this patch's base. The strip's lines move with this
+    // The side v1 of a skirt's strip beside a patch of arcs is also the base of that patch. The strip's lines move with this
     // base.
     const auto side = at.patches[patch].skirt_of_arcs != no_patch ? &Patch::v1 : &Patch::v0;
     const Vector<double> moved = moved_with_joints(middles(made), joints_of(at, at.patches[patch].*side),
@@ -97,8 +98,8 @@ Vector<GridLine> lines_in(const PatchSet &at, const PatchSet &state, std::size_t
   return made;
 }
 
-// Returns the points of a side at the ends of lines. At the vertices of the side the points lie on the curve, and elsewhere on
-// the chords.
+// Returns the points of a side at which lines end. Such a point lies on the curve at a vertex of the side, and elsewhere on a
+// chord.
 Vector<Vec3> points_along(const PatchSet &state, const Side &side, const Vector<GridLine> &lines, double GridLine::*t,
                           bool GridLine::*is_vertex) {
   Vector<double> shares;
@@ -170,7 +171,7 @@ Vector<Vec3> points_in(const PatchStates &states, const PatchSet &state, const L
   return made;
 }
 
-// The rates of the vertices of one patch's images.
+// Writes the rates of the vertices of all images of one patch.
 void write_rates(const PatchStates &states, const LevelledGrid &levelled, const Direction &direction, double *rates) {
   const bool is_one_state = &states.after == &states.before;
   const Vector<Vec3> after = points_in(states, states.after, levelled);

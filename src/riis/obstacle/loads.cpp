@@ -20,14 +20,14 @@ namespace {
 
 constexpr std::int64_t nodes_per_block = 512;  // the search for nearest edges takes most of the time
 
-// The nodes' width is their root-mean-square distance from a line, and their extent is that from their middle. The nodes of a
-// leaflet lie nearly on a line if their width is less than `least_width` times their extent. Otherwise the equations for the
-// moment have a condition number of at most 1 / least_width^2 = 1e4. Sums over nodes that lie close together lose digits. The
-// width must therefore also be at least `least_width_in_frame` times the frame's size.
+// The width of a set of nodes is their root-mean-square distance from a line. Their extent is their root-mean-square distance
+// from their middle. The nodes of a leaflet lie nearly on a line if their width is less than `least_width` times their extent. If
+// they do not, the equations for the moment have a condition number of at most 1 / least_width^2 = 1e4. Sums over nodes that lie
+// close together lose digits, so the width must also be at least `least_width_in_frame` times the size of the frame.
 constexpr double least_width = 0.01, least_width_in_frame = 0.001;
 
-// The edges that hold a leaflet, and a frame for its nodes: the middle of the edges, and a size. No node within the radius of the
-// edges is farther from the middle than this size. All ranks have the same frame.
+// The edges that hold a leaflet, and a frame for the nodes near them. The frame consists of the middle of the edges and a size.
+// No node within the radius of the edges is farther from the middle than this size. All ranks have the same frame.
 struct Hold {
   const NearestEdges *search;
   std::int32_t leaflet;
@@ -38,7 +38,7 @@ struct Hold {
   Vec3 local(Vec3 p) const { return (1 / size) * (p - middle); }
 };
 
-// Finds the edges that hold each leaflet. A leaflet without an edge of its own is held by all edges.
+// For each leaflet, finds the edges that hold it. A leaflet without its own edges is held by all edges.
 class Holds {
  public:
   explicit Holds(const Loads &loads) : loads_(loads), own_(loads.edges) {
@@ -59,7 +59,7 @@ class Holds {
     return hold;
   }
 
-  // Returns w(d) for a point: 1 on the edges, and 0 from the radius on.
+  // Returns the weight w(d) of a point at the distance d from the edges. The weight is 1 on the edges, and 0 from the radius on.
   double share(const Hold &hold, Vec3 point) const {
     const double radius_sq = loads_.radius * loads_.radius;
     if (!(hold.bounds.distance_sq_to(point) < radius_sq)) return 0;
@@ -73,7 +73,7 @@ class Holds {
   std::optional<NearestEdges> all_;  // all edges together, if the edges have leaflets
 };
 
-// Returns m w(d) of each node.
+// For each node, returns m w(d), where m is the node's area or volume.
 Vector<double> weights_of(const Holds &holds, const Hold &hold, const Tissue &tissue, int n_threads) {
   Vector<double> weights(static_cast<std::size_t>(tissue.nodes.size()));
   parallel_for_ranges(tissue.nodes.size(), nodes_per_block, n_threads, [&](const Range &range, int) {
@@ -108,9 +108,9 @@ void check_width(const Loads &loads, const Hold &hold, double n_nodes, const std
        " from their middle; give a larger loads.radius, or more rows of nodes");
 }
 
-// Returns the field of a leaflet. Many fields have the leaflet's force and moment. This one has the least sum of |force|^2 / w.
-// With moments about the nodes' middle, force and moment have separate equations. The equations of the moment have a 3 x 3
-// matrix, which is diagonal in the axes of the nodes' covariance.
+// Returns the field of a leaflet. Of all fields with the leaflet's force and moment, this field has the least sum of |force|^2 /
+// w over the nodes. If moments are taken about the nodes' middle, the equations for the force and for the moment are separate.
+// The matrix of the equations for the moment is 3 x 3. It is diagonal in the axes of the nodes' covariance.
 Field field_of(const Loads &loads, const Hold &hold, Vec3 force, Vec3 moment, const double *sums) {
   for (std::int64_t k = 0; k < n_load_sums; ++k)
     if (!(std::abs(sums[k]) <= 1e120))

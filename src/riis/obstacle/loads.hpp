@@ -22,7 +22,7 @@ struct Loads {
   Edges edges;
 };
 
-// The nodes, with their areas or volumes.
+// The nodes of the tissue, with the area or volume that belongs to each node.
 struct Tissue {
   ArrayView<const Vec3> nodes;
   const double *weight;  // (n), or null if each node has the weight 1
@@ -30,8 +30,8 @@ struct Tissue {
 
 // Adds the sums of each leaflet to `sums`, (11, n_leaflets).
 void add_load_sums(const Loads &loads, const Tissue &tissue, int n_threads, double *sums);
-// Adds the forces to `node_force`, (3, n). The sums are over the nodes of all ranks. Fails with RIIS_INVALID_ARGUMENT if a
-// leaflet's nodes are too few or lie nearly on a line. After a failure, nothing has been added.
+// Adds the forces to `node_force`, (3, n). The sums must be those over the nodes of all ranks. Fails with RIIS_INVALID_ARGUMENT
+// if a leaflet's nodes are too few or lie nearly on a line. After a failure, nothing has been added.
 void add_load_forces(const Loads &loads, const Tissue &tissue, int n_threads, const double *sums, double *node_force);
 
 }  // namespace riis

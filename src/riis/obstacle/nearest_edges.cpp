@@ -20,7 +20,7 @@ double largest_coordinate(const Edges &edges) {
   return largest;
 }
 
-// Returns the coordinate in which the box is longest.
+// Returns the coordinate along which the box is longest.
 double Vec3::*longest_axis(Vec3 extent) {
   if (extent.x >= extent.y && extent.x >= extent.z) return &Vec3::x;
   return extent.y >= extent.z ? &Vec3::y : &Vec3::z;
@@ -75,8 +75,8 @@ NearestEdges::Box NearestEdges::box_around(std::int64_t begin, std::int64_t end)
   return {{bounds.lower - margin, bounds.upper + margin}, begin, end, 0};
 }
 
-// Adds the boxes of order_[begin] to order_[end - 1]. A box with more than a few edges is split into two boxes. The place of an
-// edge's middle decides to which box the edge goes.
+// Adds the boxes of order_[begin] to order_[end - 1]. A box with more than a few edges is split into two boxes. The middle of an
+// edge decides to which of these boxes the edge belongs.
 void NearestEdges::add(std::int64_t begin, std::int64_t end) {
   const std::int64_t own = view(boxes_).size();
   boxes_.push_back(box_around(begin, end));
@@ -105,8 +105,8 @@ std::int64_t NearestEdges::of(std::int32_t leaflet_id, Vec3 point) const {
   if (!tree) return -1;
   double least = std::numeric_limits<double>::infinity();
   std::int64_t nearest = -1;
-  // With rounding, a box may seem a little farther than an edge inside it. The bound is therefore made a little smaller, so that
-  // the search never skips a box with an equally near edge.
+  // Rounding may make a box seem slightly farther than an edge inside it. The bound is therefore made slightly smaller. The
+  // search thus never skips a box with an edge that is as near as the nearest edge so far.
   const auto bound = [&](std::int64_t box) { return (1 - 1e-12) * view(boxes_)[box].bounds.distance_sq_to(point); };
   std::array<std::int64_t, 64> open;  // boxes still to be visited: at most one on each of fewer than 64 levels
   std::size_t n_open = 0;

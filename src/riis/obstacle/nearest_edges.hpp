@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the caller's edge that is nearest to a point. A tree of boxes skips distant edges. The result is the same as from a
-// loop over all edges.
-// If several edges are equally near to a point, the first of them counts.
+// Finds the caller's edge that is nearest to a point. A tree of boxes skips distant edges. The result is the same as that of a
+// loop over all edges. If several edges are equally near to a point, the result is the first of these edges.
 #pragma once
 
 #include <cstdint>
@@ -21,16 +20,16 @@ struct Edges {
   Vec3 middle(std::int64_t i) const { return mix(first(i), second(i), 0.5); }
 };
 
-// Checks the caller's edges and borrows their arrays. There must be at least one edge. `owner` is the argument that has the
-// edges.
+// Checks the caller's edges and borrows their arrays. There must be at least one edge. `owner` is the name of the caller's
+// argument that contains the edges.
 Edges checked_edges(const char *owner, std::int64_t n, const double *ends, const std::int32_t *leaflet_id);
 
-// Returns the squared distance from a point to an edge. If two edges share an end, and it is the nearest point, both edges give
-// the same bits.
+// Returns the squared distance from a point to an edge. If two edges share an end that is their nearest point, both give the same
+// bits.
 double distance_sq(const Edges &edges, std::int64_t edge, Vec3 point);
 
-// Building the trees takes a time of order n log n. A query usually takes a time of order log n. If all edges are equally near, a
-// query takes a time of order n.
+// Building the trees of n edges takes a time of order n log n. A query usually takes a time of order log n. If all edges are
+// equally near, a query takes a time of order n.
 class NearestEdges {
  public:
   // Borrows the arrays of the edges.

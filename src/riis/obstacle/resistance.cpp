@@ -24,7 +24,8 @@ double coefficient_at(const Resistance &resistance, double distance) {
 }
 
 // Returns the derivative of K with respect to the distance from the middle of the band. The derivative is a sine, which is 0 in
-// the middle and at the edge of the band. Measured from the nearer of these places, its angle loses fewer digits.
+// the middle and at the edge of the band. The angle of the sine is measured from the nearer of these two places, because this
+// loses fewer digits.
 double slope_at(const Resistance &resistance, double distance) {
   const double eps = resistance.band.half_thickness;
   if (!(distance < eps)) return 0;
@@ -32,7 +33,7 @@ double slope_at(const Resistance &resistance, double distance) {
   return -(resistance.factor / (2 * eps)) * (pi / eps) * sine;
 }
 
-// Only a cut rim leaves nodes beyond it: the nodes whose closest point is on the rim.
+// A cut rim leaves out the nodes whose closest point is on the rim. Returns whether entry i of the list is such a node.
 bool is_beyond_rim(const Resistance &resistance, const ListedNodes &list, std::int64_t i) {
   return resistance.cuts_rim && view(list.fields.rim)[i];
 }
@@ -43,7 +44,8 @@ double distance_from_middle(const Band &band, const ListedNodes &list, std::int6
   const double distance = view(list.nodes.distance)[i];
   if (!band.steps_aside()) return distance;
   const double height = view(list.fields.height)[i];
-  // An unmarked node must never resist. Rounding alone may put its computed distance from the middle below the half thickness.
+  // An unmarked node must have no resistance, even if rounding puts its computed distance from the middle slightly below the half
+  // thickness.
   return band.holds(distance, height) ? band.distance_from_middle(distance, height) : band.half_thickness;
 }
 
@@ -124,8 +126,8 @@ void add_sums(const Vector<Wrench> &sums, double *force, double *moment) {
   }
 }
 
-// Compares n_leaflets with the leaflets of the surface. A rank may have no node of the last leaflet, but all ranks must refuse a
-// wrong n_leaflets.
+// Compares n_leaflets with the leaflets of the surface, not with those of the marked nodes. A rank may have no node of the last
+// leaflet, but all ranks must refuse a wrong n_leaflets.
 void check_leaflets(const Marks &marks, const riis_reaction &to) {
   const std::int32_t last = marks.leaflet_ids.empty() ? -1 : marks.leaflet_ids.back();
   if (to.n_leaflets <= last)
@@ -133,8 +135,8 @@ void check_leaflets(const Marks &marks, const riis_reaction &to) {
          "; n_leaflets must be larger");
 }
 
-// Refuses a surface that lacks the closest triangle of a node. An updated surface passes if its triangles have kept their ids and
-// leaflets.
+// Refuses a surface that lacks the closest triangle of a node. An updated surface is accepted if its triangles have kept their
+// ids and leaflets.
 void check_closest_triangles(const Marks &marks, const TriangleSet &triangles, const TrianglePositions &positions) {
   const NodeList &nodes = marks.within.nodes;
   for (std::int64_t i = 0; i < nodes.size(); ++i) {
@@ -152,12 +154,13 @@ Edges edges_of(const riis_reaction &reaction) {
   return checked_edges("reaction", reaction.n_edges, reaction.edges, reaction.edge_leaflet_id);
 }
 
-// A thread takes blocks of nodes_per_block nodes. For a list of fewer than few_nodes nodes, one thread does the work.
+// Threads work on blocks of nodes_per_block nodes. A list of fewer than few_nodes nodes is handled by one thread.
 constexpr std::int64_t nodes_per_block = 4096, few_nodes = 16384;
 // The search for nearest edges has smaller limits, because each node takes ten times as long.
 constexpr std::int64_t edge_nodes_per_block = 512, few_edge_nodes = 2048;
 
-// Finds the nearest edge of each node, to which the node's force is added. The entries of nodes without resistance are arbitrary.
+// For each node, finds the nearest edge, to which the force of the node is added. The entries of nodes without resistance have no
+// meaning.
 Vector<std::int64_t> nearest_edges(const Marks &marks, const Resistance &resistance, const Edges &edges) {
   const NearestEdges search(edges);
   for (const std::int32_t leaflet : marks.leaflet_ids)
@@ -181,7 +184,7 @@ Vector<std::int64_t> nearest_edges(const Marks &marks, const Resistance &resista
 Resistance checked_resistance(const riis_resistance &resistance, const char *name, const Band &band,
                               double distance_limit) {
   check_range(name, "R", resistance.R, 0, 1e60);
-  // Such a small R arises if a number in single precision is read as a double. The band would then not resist.
+  // So small an R arises if a number in single precision is read as a double. The band would then have no resistance.
   if (resistance.R > 0 && resistance.R < 1e-300)
     fail(RIIS_INVALID_ARGUMENT, name, ".R is ", resistance.R,
          "; it must be 0, or from 1e-300 to 1e+60. Is it a REAL*4 or a float?");

@@ -18,8 +18,8 @@ namespace riis {
 namespace {
 
 // Distances by minimisation (paper, 4.1 "Minimization"): Powell's method minimises |S(u,v) - P|^2 on every patch, starting at
-// (0.5, 0.5). Powell's method ends in a local minimum. The result is therefore always the distance to some point of S, but not
-// always to the closest point (docs/theory/paper-distances.md).
+// (0.5, 0.5). Powell's method ends in a local minimum. The result is therefore the distance to some point of S, but this point is
+// not always the closest (docs/theory/paper-distances.md).
 // The result is the least of the local minima of all patches.
 
 class Minimizer final : public PatchDistance {
@@ -75,8 +75,8 @@ void Minimizer::query(std::int64_t patch, Vec3 p, ClosestOnPatches &best) const 
     const Vec3 d = to_surface(at);
     return dot(d, d);
   };
-  // Returns a step along a line. The step moves the point S by at most a tenth of `enough`. A step shorter than 1e-9 would be
-  // lost in the rounding of the squared distance.
+  // Returns the allowed error of a search along a line. An error of this size moves the point S by at most a tenth of `enough`.
+  // An error below 1e-9 would be lost in the rounding of the squared distance.
   const auto step_of = [&](Parameters along) {
     const double speed = std::abs(along.u) * extents.width + std::abs(along.v) * extents.height;
     const double longest = std::max(std::abs(along.u), std::abs(along.v));
@@ -108,8 +108,8 @@ ClosestOnPatches Minimizer::closest(Vec3 p, double limit) const {
   return std::sqrt(best.distance_sq) <= limit ? best : ClosestOnPatches{};
 }
 
-// The patches deviate from the smooth surface by at most `patch_share` of the allowed error. The share is small, because more
-// grid lines are cheaper than more samples.
+// The patches deviate from the smooth surface by at most `patch_share` times the allowed error. This factor is small, because
+// additional grid lines cost less than additional samples.
 constexpr double patch_share = 0.1;
 
 PlacedPatches make_patches(const PatchSet &set, double max_error, const Placement &placement, bool flip_normals) {
@@ -143,7 +143,7 @@ Vec3 PlacedPatch::normal_at(double u, double v) const {
   if (!(size_u > 0 && size_v > 0)) return {0, 0, 0};
   const Vec3 across = cross((1 / size_u) * along_u, (1 / size_v) * along_v);
   const double size = length(across);
-  // A vector shorter than this limit consists of rounding errors only. The function has_zero_area uses the same limit.
+  // A vector shorter than this limit is only a rounding error. The function has_zero_area uses the same limit.
   if (!(size > 1e-12)) return {0, 0, 0};
   return ((is_turned_over ? -1 : 1) / size) * across;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures the distance of a point to the surface without triangles (paper, 4.1), for comparison. For a given point, a method
-// finds its closest point within a limit, with the patch, u and v.
+// Measures the distance from a point to the surface without triangles (paper, 4.1), for comparison. There are two methods,
+// minimisation and sampling. Both find the closest point of the surface within a limit, and its patch, u and v.
 #pragma once
 
 #include <array>
@@ -40,13 +40,14 @@ struct PlacedPatches {
   // max_error times the scale.
   std::vector<double> errors;
 
-  // max_error is in the patches' units before placement. Fails with RIIS_LIMIT_EXCEEDED if make_grids does.
+  // max_error is in the units of the patches before their placement. Fails with RIIS_LIMIT_EXCEEDED in the same cases as
+  // make_grids.
   PlacedPatches(const PatchSet &set, double max_error, const Placement &placement, bool flip_normals);
   double largest_error() const;
 };
 
-// Calls visit(along_u, along_v) for every quad. `along_u` has S_u at the lower and the upper v, and `along_v` has S_v at the
-// lower and the upper u. Elsewhere in the quad, S_u and S_v are weighted means of these vectors.
+// Calls visit(along_u, along_v) for every quad. `along_u` has S_u at the two sides v = const of the quad, and `along_v` has S_v
+// at the two sides u = const. Inside the quad, S_u and S_v are weighted means of these vectors.
 template <class Visit>
 void for_each_derivatives(const QuadGrid &grid, const Visit &visit) {
   for (std::size_t j = 0; j + 1 < grid.v.size(); ++j)
@@ -81,16 +82,16 @@ class PatchDistance {
  public:
   virtual ~PatchDistance() = default;
 
-  // Returns the closest point that the method finds, if its distance from p is at most `limit`. Otherwise the patch is -1.
-  // `limit` is at least 0 and may be infinite. A result within the limit has the same bits for any limit. Several threads may
-  // call this function at once.
+  // Returns the closest point that the method finds, if its distance from p is at most `limit`. Otherwise the returned patch is
+  // -1. `limit` is at least 0 and may be infinite. The bits of a result do not depend on the limit. Several threads may call this
+  // function at once.
   virtual ClosestOnPatches closest(Vec3 p, double limit) const = 0;
 
   // Returns false only if the surface certainly has no point within the limit of p.
   virtual bool may_be_within(Vec3 p, double limit) const = 0;
 
-  // Returns true if the method measures the distance of every p to one fixed set of points. The results for two points then
-  // differ by at most the distance between the points.
+  // Returns true if the method measures all distances to the same fixed set of points. The results for two points p then differ
+  // by at most the distance between these two points.
   virtual bool is_of_fixed_points() const = 0;
 
   virtual const char *name() const = 0;
@@ -108,8 +109,8 @@ struct DistanceRequest {
   double max_error;     // measure_tolerance * half_thickness, in mesh units
 };
 
-// Makes the method that a surface's options choose. Fails with RIIS_LIMIT_EXCEEDED if the method would need too many patches or
-// samples.
+// Makes the object for the method that the options of a surface choose. Fails with RIIS_LIMIT_EXCEEDED if the method would need
+// too many patches or samples.
 std::unique_ptr<const PatchDistance> make_distance(const PatchSet &set, const DistanceRequest &request,
                                                    const Placement &placement, bool flip_normals);
 
@@ -117,27 +118,29 @@ std::unique_ptr<const PatchDistance> make_distance(const PatchSet &set, const Di
 // samples of a patch depends on its width and height (docs/theory/paper-distances.md).
 // A SampleSet makes the samples for an allowed error, and finds the nearest sample.
 
-// The most samples that the library accepts. Each sample takes 24 bytes, and the boxes of the tree take a little more.
+// The most samples that the library accepts. Each sample takes 24 bytes, and the boxes of the tree need some more memory.
 inline constexpr std::int64_t max_samples = 16'777'216;
 
-// Numbers of steps: samples lie at u = 0, 1/s_u, ..., 1 and at v = 0, 1/s_v, ..., 1, with s_u = `u` and s_v = `v`.
+// The numbers of steps between samples. The samples lie at all pairs of u = 0, 1/s_u, ..., 1 and v = 0, 1/s_v, ..., 1. The member
+// `u` is s_u, and `v` is s_v.
 struct SampleCounts {
   std::int64_t u, v;
   double n() const { return static_cast<double>(u + 1) * static_cast<double>(v + 1); }
 };
 
-// Bounds the distance between any S(u,v) and the sample with the nearest u and v. The bound is half of the longest diagonal of a
-// parallelogram with the sides h_u S_u and h_v S_v, anywhere on S.
+// Bounds the distance between any S(u,v) and the sample with the nearest u and v. At each place on S, take the parallelogram with
+// the sides h_u S_u and h_v S_v. The bound is half of the longest diagonal of all these parallelograms.
 double covering_radius(const QuadGrid &grid, double h_u, double h_v);
 
-// Returns the smallest numbers of steps in u and v that keep the covering radius within `radius`. Their ratio is the ratio of the
-// patch's width to its height. The result may exceed max_samples.
+// Returns the smallest numbers of steps in u and v for which the covering radius is at most `radius`. The two numbers have the
+// same ratio as the patch's width and height. The result may exceed max_samples.
 SampleCounts samples_within(const QuadGrid &grid, double radius);
 
 class SampleSet final : public PatchDistance {
  public:
-  // Makes samples whose distances differ from those to the smooth surface by at most max_error, in mesh units. The covering
-  // radius is therefore max_error minus the patches' own error. Fails with RIIS_LIMIT_EXCEEDED for more than max_samples.
+  // Makes samples. The distance to the nearest sample differs from the distance to the smooth surface by at most max_error, in
+  // mesh units. The covering radius is therefore max_error minus the patches' own error. Fails with RIIS_LIMIT_EXCEEDED for more
+  // than max_samples.
   SampleSet(PlacedPatches patches, double max_error);
 
   ClosestOnPatches closest(Vec3 p, double limit) const override;
@@ -151,8 +154,8 @@ class SampleSet final : public PatchDistance {
  private:
   static constexpr std::int64_t samples_per_leaf = 64;
 
-  // A box around the samples of a leaf, or around two other nodes of the tree. In the array, the first of these two nodes follows
-  // directly.
+  // A node of the tree: a box around the samples of a leaf, or around the boxes of two other nodes. The first of these two nodes
+  // follows this node in the array.
   struct Node {
     Bounds box;
     std::int32_t second = -1;  // the position of the second node, or -1 in a leaf

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Minimises a function of (u,v) in [0,1]^2 by Powell's method: M. J. D. Powell, "An efficient method for finding the minimum of a
-// function of several variables without calculating derivatives", The Computer Journal 7 (1964) 155-162, with that paper's
-// modified rule for the direction to drop. Lines are searched by Brent's method: R. P. Brent, "Algorithms for Minimization
-// without Derivatives" (1973), chapter 5.
+// function of several variables without calculating derivatives", The Computer Journal 7 (1964) 155-162. The direction that is
+// dropped follows from the modified rule of Powell's paper. Lines are searched by Brent's method: R. P. Brent, "Algorithms for
+// Minimization without Derivatives" (1973), chapter 5.
 // The result is a local minimum whose value is at most the value at the start.
 #pragma once
 
@@ -44,8 +44,8 @@ inline Parameters step(Parameters from, double t, Parameters along) {
 }
 
 // Finds a minimum of f(t) on [low, high] by the function localmin of Brent's book. The error of t is about three times the
-// tolerance. Returns the least of all computed values, so f may have several minima. Uses parabolas through the last three
-// points, and golden sections if a parabola does not help.
+// tolerance. If f has several minima, the result is the least of all computed values. The next point is the minimum of a parabola
+// through the last three points or, if the parabola is of no use, a golden section.
 template <class Function>
 std::array<double, 2> minimum_on_segment(const Function &f, double low, double high, double tolerance) {
   constexpr double golden = 0.3819660112501051;  // (3 - sqrt 5) / 2
@@ -90,9 +90,9 @@ std::array<double, 2> minimum_on_segment(const Function &f, double low, double h
   return {x, fx};
 }
 
-// Minimises f >= 0 over [0,1]^2 from a start in the square. Each line is searched over its whole segment in the square. The
-// search also evaluates both ends of the segment. Brent's method only approaches the ends, but closest points at the rim are
-// common. step_of(d) returns the allowed error of a line search along d, in units of d.
+// Minimises f >= 0 over [0,1]^2 from a start in the square. Each line is searched along its whole segment in the square. Brent's
+// method only approaches the ends of the segment, but closest points are often there, at the rim. The search therefore also
+// evaluates both ends. step_of(d) returns the allowed error of a line search along d, in units of d.
 template <class Function, class StepOf>
 LocalMinimum minimize_by_powell(const Function &f, Parameters start, double enough, const StepOf &step_of) {
   LocalMinimum best{start, f(start)};

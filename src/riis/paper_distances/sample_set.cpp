@@ -32,13 +32,13 @@ double covering_radius(const QuadGrid &grid, double h_u, double h_v) {
 }
 
 SampleCounts samples_within(const QuadGrid &grid, double radius) {
-  // Where grid lines meet at right angles, samples with these steps form squares. If a patch has a negligible width or height,
-  // one step spans it.
+  // Where grid lines meet at right angles, samples with these steps form squares. If the width or height of a patch is
+  // negligible, one step spans it.
   const Speeds speeds = largest_speeds(grid);
   const double h_u = std::min(1.0, radius / speeds.u), h_v = std::min(1.0, radius / speeds.v);
   const double of_squares = covering_radius(grid, h_u, h_v);
-  // The covering radius is proportional to the two steps, so one factor for both makes this radius equal to `radius`. A step
-  // above 1 counts as a step of 1.
+  // If both steps are multiplied by a factor, so is the covering radius. The factor is chosen so that the covering radius equals
+  // `radius`. A step above 1 counts as a step of 1.
   const double factor = of_squares > 0 ? radius / of_squares : 1;
   return {n_steps(factor * h_u), n_steps(factor * h_v)};
 }
@@ -56,8 +56,8 @@ SampleSet::SampleSet(PlacedPatches patches, double max_error) : PatchDistance(st
   add_patches(0, static_cast<std::int32_t>(patches_.patches.size()));
 }
 
-// Adds a part of the tree of boxes. Each level halves the list of patches or, within a patch, the longer side of a block of
-// samples.
+// Adds a part of the tree of boxes. Each level halves the list of patches. Within a patch, each level halves the longer side of a
+// block of samples.
 std::int32_t SampleSet::add_patches(std::int32_t begin, std::int32_t end) {
   if (end - begin == 1) {
     const SampleCounts &counts = view(counts_)[begin];
@@ -131,8 +131,8 @@ void SampleSet::visit(std::int32_t at, Query &query) const {
       std::swap(near, far);
       std::swap(to_near, to_far);
     }
-    // A box that is exactly as far as the nearest sample is also visited. Of several equally near samples, any order of visits
-    // thus finds the first.
+    // A box that is exactly as far as the nearest sample so far is also visited. Of several equally near samples, the search thus
+    // always finds the first, in whatever order the boxes are visited.
     if (to_near <= query.most) visit(near, query);
     if (to_far <= query.most) visit(far, query);
     return;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs work in an arena of the pool, with TBB's limit of threads adjusted for this work. Embree's scenes are built in such an
-// arena, and concurrent walks run in one. TBB thus uses only the caller's n_threads threads for them, and not all threads of the
-// process.
+// Runs work in an arena of the pool, after TBB's limit on threads was adjusted for this work. Embree's scenes are built in such
+// an arena, and concurrent walks also run in one. TBB then uses only n_threads threads, as the caller has requested, and not all
+// threads of the process.
 #pragma once
 
 #if !defined(RIIS_STD_THREADS)
@@ -17,9 +17,9 @@
 
 namespace riis {
 
-// An arena is kept and used again. TBB frees an arena only when all workers that it has called have come and found no work. On a
-// busy machine, a short walk is over long before they come. With a new arena for each walk, the process would grow by some
-// kilobytes in each walk (TBB 2021.8).
+// An arena is kept and used again. TBB frees an arena only after all the workers that it called have arrived and found no work.
+// On a busy machine, a short walk ends long before they arrive. With a new arena for each walk, the process would therefore grow
+// by some kilobytes in each walk (TBB 2021.8).
 struct PooledArena {
   explicit PooledArena(int n_slots) : n_threads(n_slots), arena(n_slots, 1) { arena.initialize(); }
 
@@ -28,8 +28,9 @@ struct PooledArena {
   PooledArena *next = nullptr;  // the next idle arena in the pool
 };
 
-// Returns an arena of n_threads threads, which the caller must give back. The arena comes from the pool. If no idle arena has
-// this number of threads, the arena is new. There are therefore never more arenas of one size than were borrowed at one time.
+// Returns an arena of n_threads threads, which the caller must give back. The arena comes from the pool. A new arena is made only
+// if no idle arena has this number of threads. There are therefore never more arenas of one size than were borrowed at the same
+// time.
 PooledArena *borrow_arena(int n_threads);
 void give_back(PooledArena *arena) noexcept;
 
@@ -37,8 +38,9 @@ void give_back(PooledArena *arena) noexcept;
 std::size_t n_arenas() noexcept;
 
 // Borrows an arena of up to n_threads threads, including the calling thread, during the life of this object. TBB has a limit on
-// the threads of the process. A limit below n_threads is raised while this object lives, unless the caller has set it. An arena
-// never exceeds the limit, because TBB would then print a message on stderr. An arena of one thread uses only the calling thread.
+// the threads of the process. A limit below n_threads is raised while this object lives, unless the caller has set this limit. An
+// arena never has more threads than the limit, because TBB would then print a message on stderr. An arena of one thread uses only
+// the calling thread.
 class Arena {
  public:
   explicit Arena(int n_threads) {

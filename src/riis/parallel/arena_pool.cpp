@@ -44,7 +44,7 @@ PooledArena *take_idle(int n_threads) noexcept {
 void destroy(PooledArena *first) noexcept {
   std::optional<tbb::global_control> no_workers;
   try {
-    // Under a limit of one thread, TBB frees an arena at once, without waiting for the workers that it has called.
+    // While TBB's limit is one thread, TBB frees an arena at once, without waiting for the workers that it has called.
     no_workers.emplace(tbb::global_control::max_allowed_parallelism, 1);
   } catch (...) {  // there is no memory for the limit, so TBB frees the arena later or keeps it
   }
@@ -82,7 +82,8 @@ KeepsArenas::~KeepsArenas() {
   {
     const std::lock_guard<std::mutex> lock(pool_mutex);
     --pool.n_keepers;
-    // A child of fork() frees no arenas: it lacks the worker threads, and TBB might wait for locks that these held.
+    // A child of fork() frees no arenas. The child lacks the worker threads, and TBB might wait for locks that these threads
+    // held.
     if (pool.n_keepers > 0 || getpid() != pool.process) return;
     first = std::exchange(pool.idle, nullptr);
     for (const PooledArena *arena = first; arena; arena = arena->next) --pool.n_arenas;
@@ -98,7 +99,7 @@ KeepsArenas::~KeepsArenas() {
 
 namespace riis {
 
-// Without a pool, no arena is kept.
+// Without TBB there is no pool, so these functions do nothing.
 KeepsArenas::KeepsArenas() noexcept = default;
 KeepsArenas::~KeepsArenas() = default;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Loops whose bodies add more work. Only this file, arena.hpp and arena_pool.* use TBB.
+// Loops over a list of work to which the loop's body may add more work. Only this file, arena.hpp and arena_pool.* use TBB.
 #pragma once
 
 #if defined(RIIS_STD_THREADS)
@@ -19,11 +19,11 @@
 
 // Implements concurrent_walk with standard threads for the thread sanitizer, which does not understand TBB. This version
 // guarantees only the order that TBB guarantees: a range runs after the call of add() that added it, and the walk ends after all
-// its ranges. Everything else is counted by relaxed atomics, which impose no order. A lock around a common queue would put the
-// bodies in order, and thus hide their races from the sanitizer.
+// its ranges. All other counts use relaxed atomics, which impose no order. A lock around a common queue would put the bodies in
+// order, and thus hide their races from the sanitizer.
 namespace riis {
 
-// An array of slots for any number of ranges. A slot keeps its address.
+// An array of slots for any number of ranges. The address of a slot never changes.
 class RangeSlots {
  public:
   struct Slot {

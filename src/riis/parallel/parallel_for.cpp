@@ -17,11 +17,11 @@
 namespace riis {
 namespace {
 
-// The blocks of a loop. Each thread begins with its own share of the blocks, and then helps with the other shares. A thread
-// therefore finds most of its data in its own cache if the previous loop used the same data. The blocks of a share are handed out
-// in ascending order. If a body throws, no higher block begins, but all lower blocks are completed. After the loop, the exception
-// of the lowest failed block is rethrown, which is the exception that a single thread would meet. No block is forgotten, because
-// the calling thread goes through all shares in ascending order.
+// The blocks of a loop. Each thread begins with its own share of the blocks, and then helps with the other shares. If the
+// previous loop used the same data, a thread therefore finds most of its data in its own cache. The blocks of a share are handed
+// out in ascending order. If the body throws in a block, no block with a higher number begins, but all blocks with lower numbers
+// are completed. After the loop, the exception of the lowest failed block is rethrown, which is the exception that a single
+// thread would meet. No block is left out, because the calling thread goes through all shares in ascending order.
 class Blocks {
  public:
   Blocks(std::int64_t n_blocks, int n_threads, LoopBody body)
@@ -98,9 +98,9 @@ std::int64_t nanoseconds() noexcept {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
 }
 
-// For one thread, the calling thread runs the loop without OpenMP, whose run-time ends the process if memory is lacking. If there
-// are fewer blocks than threads, some threads stay idle. Fewer threads would be slower: GCC's run-time ends the threads that a
-// loop leaves out, so the next loop has to wait for new threads.
+// A loop on one thread does not use OpenMP, because OpenMP's run-time ends the process if memory is lacking. If there are fewer
+// blocks than threads, some threads stay idle. A loop on fewer threads would delay the next loop, because GCC's run-time ends the
+// threads that a loop leaves out, and later has to start new ones.
 int openmp_for(std::int64_t n_blocks, int n_threads, LoopBody body, TimesOfCaller *of_caller) {
   if (n_blocks <= 1 || n_threads == 1 || !begin_threads()) return run_alone(n_blocks, body);
   Blocks blocks(n_blocks, n_threads, body);
@@ -156,8 +156,8 @@ int parallel_for(std::int64_t n_blocks, int n_threads, LoopBody body) {
   return team_for(n_blocks, n_threads, body, loop_choice);
 #else
   const std::int64_t begin = nanoseconds();
-  // With more threads than processors, some thread waits for a processor in every loop of OpenMP, and all others wait for this
-  // thread.
+  // If there are more threads than processors, some thread has to wait for a processor in every loop of OpenMP. All other threads
+  // then wait for it.
   if (n_threads > processors_of_machine() || loop_choice.takes_team(begin))
     return team_for(n_blocks, n_threads, body, loop_choice);
   TimesOfCaller of_caller{begin, begin};

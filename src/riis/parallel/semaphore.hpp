@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A semaphore for the threads of this process. Darwin has a call for POSIX's unnamed semaphores, but this call fails with ENOSYS.
-// The semaphores of Darwin's dispatch library are used instead.
+// A semaphore for the threads of this process. On Darwin, the call that makes a POSIX semaphore without a name fails with ENOSYS.
+// The semaphores of Darwin's dispatch library are therefore used there.
 #pragma once
 
 #if defined(__APPLE__)
@@ -14,7 +14,7 @@ namespace riis {
 // A semaphore is never destroyed, because threads may wait on it until the process ends.
 class Semaphore {
  public:
-  // Returns whether the system made the semaphore. All other functions need a semaphore that was made.
+  // Returns whether the system could make the semaphore. If it could not, no other function may be called.
   bool is_made() const noexcept { return is_made_; }
 #if defined(__APPLE__)
   void post() noexcept { dispatch_semaphore_signal(semaphore_); }

@@ -22,10 +22,10 @@
 namespace riis {
 namespace {
 
-// A waiting thread first stays awake, because waking a sleeping thread takes some microseconds. At first a waiting worker keeps
-// its processor, so that it can begin at once. It does so even if a spinning thread of the caller wants the processor. Later the
-// worker offers the processor to other threads, and finally it sleeps. Under the thread sanitizer a thread sleeps at once,
-// because waiting awake would fill up the sanitizer's history of accesses.
+// A waiting thread first stays awake, because waking a sleeping thread takes some microseconds. A waiting worker goes through
+// three stages. First it keeps its processor, even if a spinning thread of the caller wants it, so that the worker can begin at
+// once. Then the worker offers the processor to other threads, and finally it sleeps. Under the thread sanitizer a thread sleeps
+// at once, because waiting awake would fill up the sanitizer's history of accesses.
 using std::chrono::microseconds;
 #if defined(RIIS_STD_THREADS)
 constexpr microseconds longest_awake{0}, longest_alone{0};
@@ -41,7 +41,7 @@ void pause_briefly() {
 #endif
 }
 
-// Waits without sleeping until the condition holds or the time is over, and returns whether the condition holds.
+// Waits without sleeping, at most for longest_awake, until the condition holds. Returns whether the condition holds.
 template <class Condition>
 bool wait_awake(const Condition &holds) {
   const auto start = std::chrono::steady_clock::now();
@@ -57,7 +57,7 @@ bool wait_awake(const Condition &holds) {
 }
 
 // The state of a team's loop, in one word. The word holds the loop's number, how many workers are inside the loop, and how many
-// more may enter. One atomic operation thus lets a worker enter only a loop that still has a place.
+// more may enter. With one atomic operation, a worker can thus enter the loop only if there is still a place.
 struct State {
   static constexpr std::uint64_t one_inside = 1, one_place = std::uint64_t{1} << 16, one_loop = std::uint64_t{1} << 32;
   static constexpr std::uint64_t all_places = one_loop - one_place;
@@ -101,7 +101,8 @@ class Team {
     const State closed{state_.load(std::memory_order_relaxed)};
     const auto n = static_cast<std::uint64_t>(n_places);
     state_.store(closed.word + State::one_loop + n * State::one_place);
-    // Workers that are awake find the loop by themselves, so only sleeping workers are woken.
+    // Workers that are awake notice the new loop by themselves. If the loop has places for more workers, sleeping workers are
+    // woken.
     const int n_awake = n_workers_ - n_asleep_.load();
     for (int n_to_wake = take_asleep(n_places - n_awake); n_to_wake > 0; --n_to_wake) may_start_.post();
     work(context, 0);
@@ -143,8 +144,8 @@ class Team {
   void wait_for_place(std::uint32_t last_loop) {
     const auto has_place = [&] { return State{state_.load()}.has_place_after(last_loop); };
     if (waits_awake_.load(std::memory_order_relaxed) && wait_awake(has_place)) return;
-    // A loop may have begun just before this worker was counted as sleeping, and then nobody wakes the worker. If take_asleep
-    // fails here, the calling thread has counted this worker and posts for it.
+    // If a loop began just before this worker was counted as sleeping, nobody wakes the worker. The worker therefore checks once
+    // more. If take_asleep fails here, the calling thread has already counted this worker, and posts for it.
     n_asleep_.fetch_add(1);
     if (has_place() && take_asleep(1) == 1) return;
     may_start_.wait();
@@ -153,7 +154,8 @@ class Team {
   void wait_for_workers() {
     const auto is_empty = [&] { return State{state_.load()}.n_inside() == 0; };
     if (waits_awake_.load(std::memory_order_relaxed) && wait_awake(is_empty)) return;
-    // A worker of an earlier loop may post late. The calling thread therefore checks after each post whether this loop has ended.
+    // A post may come late, from a worker of an earlier loop. The calling thread therefore checks after each post whether the
+    // present loop has ended.
     while (!is_empty()) {
       caller_sleeps_.store(true);
       if (is_empty() && caller_sleeps_.exchange(false)) return;
@@ -167,14 +169,14 @@ class Team {
   std::atomic<bool> waits_awake_{false}, caller_sleeps_{false};
   std::atomic<int> n_asleep_{0};  // the workers that sleep and that no post will wake
   // Threads sleep on semaphores, because a condition variable would need a mutex. If the system interrupted a thread that holds
-  // the mutex, the calling thread would have to wait for it.
+  // the mutex, the calling thread would have to wait for that thread.
   Semaphore may_start_, may_end_;
   int n_workers_ = 0, n_processors_ = 1;
 };
 
-// The idle teams. At the end of the process, idle teams are not destroyed, because their workers still wait. The number of teams
-// is the largest number of threads that the caller has had inside loops at one time. The first few teams are static, so a call
-// needs no memory for them.
+// The idle teams. At the end of the process, idle teams are not destroyed, because their workers still wait. There are as many
+// teams as the largest number of the caller's threads that were inside loops at the same time. The first few teams are static, so
+// a call needs no memory for them.
 constexpr std::size_t n_first_teams = 16;
 alignas(Team) unsigned char first_teams[n_first_teams][sizeof(Team)];
 std::mutex teams_mutex;

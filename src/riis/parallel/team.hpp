@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Threads for the loops of a time step on a busy machine. Between loops the threads wait, first awake and then asleep. The loop
-// does not wait for a thread that another process delays, because the calling thread does the work of this thread.
+// Threads for the loops of a time step on a busy machine. Between loops the threads wait, first awake and then asleep. A loop
+// does not wait for a thread that another process delays, because the calling thread does the delayed thread's work.
 #pragma once
 
 #include <algorithm>
@@ -12,18 +12,18 @@ namespace riis {
 
 // Calls work(context, 0) on the calling thread. Also calls work(context, thread), 0 < thread < n_threads, on each further thread
 // that arrives before the calling thread has finished. Returns after the calls of all threads have returned. Returns the number
-// of threads that took part. The number of threads is less than n_threads only if the system refuses a thread, a semaphore or
-// memory. No call may throw.
+// of threads that took part. This number is less than n_threads only if the system refuses a thread, a semaphore or memory.
+// `work` must not throw.
 int run_by_team(int n_threads, void (*work)(void *context, int thread), void *context);
 
-// Chooses between OpenMP's threads, a team and the calling thread. OpenMP's threads begin a loop sooner, and they also run the
-// caller's own loops. However, a loop of OpenMP waits for all its threads, even if another process occupies one of the processors
-// for long. After a long wait, teams run the loops for some time, and then OpenMP again. If the next long wait comes after only a
-// few loops, the machine is busy, and teams run the loops for twice the time. A team also waits if another process interrupts its
-// thread inside a block. The calling thread therefore begins a team's loop alone. It calls the team only after it has worked for
-// some time: the mean time that recent loops lost by calling their teams. Suppose that the team of this loop loses no more than
-// this mean time. Then the loop takes at most twice as long as on the calling thread alone, or as on a team from the beginning.
-// All times are in nanoseconds.
+// Chooses between OpenMP's threads, a team and the calling thread. OpenMP's threads begin a loop sooner than a team does, and
+// they also run the caller's own loops. However, a loop of OpenMP waits for all its threads, even if another process occupies one
+// of the processors for long. After a long wait, teams therefore run the loops for some time, and then OpenMP runs them again. If
+// OpenMP's next long wait comes after only a few loops, the machine is busy. Teams then run the loops for twice as long as
+// before. A team also loses time if another process interrupts one of its threads inside a block. The calling thread therefore
+// begins a team's loop alone. The time after which it calls the team is the mean time that recent loops lost by calling their
+// teams. Suppose that this loop's team loses no more than that mean time. The loop then takes at most twice as long as without
+// the team, or as with the team from the beginning. All times are in nanoseconds.
 class LoopChoice {
  public:
   static constexpr std::int64_t long_wait = 2'000'000, first_pause = 250'000'000, longest_pause = 2'000'000'000;
@@ -36,8 +36,8 @@ class LoopChoice {
     return pause_.load(std::memory_order_relaxed) > 0 || n_served_.load(std::memory_order_relaxed) > 0;
   }
   // Records that a loop of OpenMP ended now. `waited` is the time that the calling thread waited for the other threads, at the
-  // beginning and at the end of this loop. On a quiet machine it waits for one block at most, which takes less than a
-  // millisecond.
+  // beginning and at the end of this loop. On a quiet machine, the calling thread waits for one block at most, which takes less
+  // than a millisecond.
   void record(std::int64_t waited, std::int64_t now) noexcept {
     const int n_served = n_served_.load(std::memory_order_relaxed);
     if (waited < long_wait) {
@@ -51,14 +51,14 @@ class LoopChoice {
     until_.store(now + pause, std::memory_order_relaxed);
   }
 
-  // Returns how long the calling thread works alone in a loop that begins now. While no losses are recorded, this time becomes
-  // shorter, so that teams are tried again.
+  // Returns how long the calling thread works alone in a loop that begins now. While no new losses are recorded, this time
+  // becomes shorter, so that teams are tried again.
   std::int64_t time_alone(std::int64_t now) const noexcept {
     const double mean = mean_loss(now);
     return mean < least_loss ? 0 : static_cast<std::int64_t>(mean);
   }
   // Records a loop that called a team and ended now. `lost` is the time that the calling thread waited at the end, minus the time
-  // that it would have needed for the other threads' work.
+  // that it would have needed for the work of the other threads.
   void record_team(std::int64_t lost, std::int64_t now) noexcept {
     const double before = mean_loss(now), more = static_cast<double>(std::max<std::int64_t>(lost, 0)) - before;
     mean_loss_.store(before + more / loops_in_mean, std::memory_order_relaxed);
@@ -70,7 +70,7 @@ class LoopChoice {
     const double mean = mean_loss_.load(std::memory_order_relaxed);
     if (mean < 1) return 0;
     const double n_halves = static_cast<double>(now - recorded_.load(std::memory_order_relaxed)) / half_life;
-    // The recorded loss is halved in each half life, and falls linearly within a half life.
+    // The recorded loss is halved after each half life. Within a half life it falls linearly.
     const double whole = std::clamp(std::floor(n_halves), 0.0, 64.0), rest = std::clamp(n_halves - whole, 0.0, 1.0);
     return std::ldexp(mean * (1 - 0.5 * rest), -static_cast<int>(whole));
   }
@@ -80,8 +80,8 @@ class LoopChoice {
   std::atomic<double> mean_loss_{0};
 };
 
-// The process's choice between OpenMP and a team. Several threads may record loops at the same time. It is enough if one of these
-// records is kept.
+// The process's choice between OpenMP and a team. Several threads may record loops at the same time. It is then enough that one
+// of their records is kept.
 extern LoopChoice loop_choice;
 
 }  // namespace riis

@@ -17,9 +17,9 @@ void begin_child() {
   if (are_used) are_lost = true;
 }
 
-// Keeps the library's code in memory once threads may run it, because the program may close a plug-in that uses riis. On Linux
-// the linker's option -z nodelete does that (cmake/RiisPlatform.cmake). Darwin's linker has no such option. `address` is the
-// address of any code or data of the library.
+// A program may close a plug-in that uses riis while threads still run the library's code. This function keeps the code in
+// memory. On Linux the linker's option -z nodelete does the same (cmake/RiisPlatform.cmake). Darwin's linker has no such option.
+// `address` is the address of any code or data of the library.
 void stay_loaded([[maybe_unused]] const void *address) noexcept {
 #if defined(__APPLE__)
   // The library's file is opened a second time and never closed, so the loader keeps it. If the file cannot be opened, the
@@ -33,7 +33,8 @@ void stay_loaded([[maybe_unused]] const void *address) noexcept {
 
 bool begin_threads() noexcept {
   if (!are_used.load(std::memory_order_relaxed)) {
-    // Without this handler, the library could not notice a fork. If there is no memory for it, the library starts no threads.
+    // Without this handler, the library could not notice a fork. If there is no memory for the handler, the library therefore
+    // starts no threads.
     static const bool is_watched = pthread_atfork(nullptr, nullptr, begin_child) == 0;
     if (!is_watched) return false;
     stay_loaded(&are_used);

@@ -16,8 +16,8 @@ class Threads {
  public:
   // A number that the caller requested.
   Threads(int n) : n_(n) {}  // NOLINT(google-explicit-constructor): most callers pass a number
-  // The number that the library chooses without a request: one thread, and one more for each `per_thread` items of work. The
-  // number is at most `most`.
+  // The number that the library chooses if the caller requests none: one thread, plus one for each `per_thread` items of work,
+  // but at most `most`.
   static Threads by_default(std::int64_t n_items, std::int64_t per_thread, int most) {
     Threads made(static_cast<int>(std::min<std::int64_t>(1 + std::max<std::int64_t>(n_items, 0) / per_thread, most)));
     made.is_default_ = true;
@@ -26,8 +26,8 @@ class Threads {
 
   operator int() const { return n_; }  // NOLINT(google-explicit-constructor)
 
-  // Returns the number of threads for a part of the call that has n_items of work. A number that the library chose becomes 1 for
-  // fewer than `few` items.
+  // Returns the number of threads for a part of the call that has n_items of work. If the library chose the number of threads,
+  // the result is 1 for fewer than `few` items.
   int for_part(std::int64_t n_items, std::int64_t few) const { return is_default_ && n_items < few ? 1 : n_; }
 
  private:
@@ -36,16 +36,16 @@ class Threads {
 };
 
 // Returns whether this process may use several threads, and records the use. A child of fork() may not use several threads if the
-// library used several threads before the fork. The run-times of OpenMP and TBB would wait for ever for these threads, because
-// the child lacks them.
+// library did so before the fork. The child lacks the threads of its parent, and the run-times of OpenMP and TBB would wait for
+// these threads for ever.
 bool begin_threads() noexcept;
 
 // Returns whether this process is a child of fork() that may not use several threads.
 bool has_lost_threads() noexcept;
 
 // The pool (arena.hpp) keeps its arenas while at least one object of this type exists. Each handle that walks over a mesh or has
-// a scene of Embree owns one. The arenas are freed with the last object, because TBB refuses to end (tbb::finalize) while there
-// are arenas.
+// a scene of Embree owns one such object. The arenas are freed with the last of these objects, because TBB refuses to end
+// (tbb::finalize) while there are arenas.
 class KeepsArenas {
  public:
   KeepsArenas() noexcept;

@@ -31,14 +31,14 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-// Bounds the difference between two approximations of the smooth surface. The bound is the sum of both errors and a margin for
-// rounding.
+// Bounds the difference between the triangles and the other approximation of the smooth surface. The bound is the sum of both
+// errors, with a margin for rounding.
 double largest_difference(double triangle_error, const PatchDistance &distance) {
   return (triangle_error + distance.patches().largest_error()) * (1 + 1e-6);
 }
 
-// With an offset, the normals of neighbouring triangles must agree. The check computes the normals, but every marking with an
-// offset needs them anyway.
+// With an offset, the normals of neighbouring triangles must agree. The normals that this check computes are also needed by every
+// marking with an offset.
 void check_normals_agree(const Surface &surface) {
   if (!surface.band().steps_aside()) return;
   const std::array<std::int64_t, 2> triangles = surface.pseudonormals().disagreeing();
@@ -80,7 +80,7 @@ SurfaceSeconds make_surface(const Valve &valve, const EarlierValve *moved, const
   if (triangles.n_triangles() == 0) fail(RIIS_INVALID_PARAMETER, "the valve has no area");
   triangles.skirt = valve.has_skirt() ? skirt_leaflet(patches) : -1;
   const double seconds_triangles = stopwatch.lap();
-  // If another method than the triangles measures distances, it is made first, because it may be refused.
+  // If distances are measured by another method than triangles, this method is made first, because its making may fail.
   std::unique_ptr<const PatchDistance> distance;
   if (accuracy.measure != RIIS_MEASURE_TRIANGLES)
     distance = make_distance(patches, {accuracy.measure, accuracy.distance_error}, placement, request.flip_normals);
@@ -127,16 +127,16 @@ void add_direction(const ValveDirection &direction, int n_threads, Surface &surf
 
 namespace {
 
-// The lines are chosen for `n_openings` openings, evenly spaced from 0 to 1.
+// The grid lines are chosen for `n_openings` openings, evenly spaced from 0 to 1.
 constexpr int n_openings = 33;
 // The chosen lines are then tested at `n_between` further openings between every two neighbouring openings. If the lines are too
-// coarse at some of the further openings, the lines are chosen again for all openings, these included. The test is repeated at
-// most `n_trials` times.
+// coarse at some of the further openings, these openings are added, and the lines are chosen again. The test is made at most
+// `n_trials` times.
 constexpr int n_between = 7, n_trials = 4;
-// The choice keeps the patches of all these openings in memory, so the number of patches is limited.
+// During the choice, the patches of all openings are kept in memory, so their number is limited.
 constexpr std::size_t max_patches = 10'000;
-// A warp may change after the triangles were planned, which also changes the error. The plan of a warped valve therefore uses
-// only `warped_share` of the allowed error.
+// A warp may change after the triangles were planned, and then their error also changes. The plan of a warped valve therefore
+// uses only `warped_share` of the allowed error.
 constexpr double warped_share = 0.6;
 
 PatchSet patches_at(Valve &valve, double opening) {

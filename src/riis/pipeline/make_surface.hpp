@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The whole pipeline. The pipeline turns a valve's parameters or the caller's arrays into a surface that answers queries for
-// closest points.
-// The pipeline also measures how many seconds its stages take.
+// The pipeline turns a valve's parameters or the caller's arrays into a surface that answers queries for closest points. It also
+// measures how many seconds its stages take.
 #pragma once
 
 #include <riis/riis.h>
@@ -17,14 +16,14 @@
 namespace riis {
 
 // A triangulation that stays the same while a valve opens and closes (docs/theory/triangles.md, "Fixed triangulation"). The plan
-// of the triangles serves all openings of the valve.
+// of its triangles is the same for all openings of the valve.
 class FixedTriangulation {
  public:
-  // Makes the plan. `max_error` bounds the distance between triangles and the smooth surface, before placement. Fails as the
-  // stages of the pipeline do, with a message that names the opening.
+  // Makes the plan. `max_error` is the largest allowed distance between the triangles and the smooth surface, before placement.
+  // Fails as the stages of the pipeline do, with a message that names the opening.
   FixedTriangulation(const Valve &valve, double max_error, int n_threads);
 
-  // Fails with RIIS_INVALID_PARAMETER if the valve is not the plan's valve. Only its opening and the values of its warp may
+  // Fails with RIIS_INVALID_PARAMETER if the valve is not the valve of the plan. Only the opening and the values of the warp may
   // differ.
   void check(const Valve &valve) const { valve_.check_same_but_for_opening(valve); }
   const TriangulationPlan &plan() const { return plan_; }
@@ -34,7 +33,7 @@ class FixedTriangulation {
   TriangulationPlan plan_;
 };
 
-// The values with which every surface is made. Lengths are in mesh units.
+// The values that are needed to make any surface. Lengths are in mesh units.
 struct SurfaceRequest {
   Band band;
   Placement placement;
@@ -54,7 +53,7 @@ struct ValveAccuracy {
 struct EarlierValve {
   const Valve &before;
   Placement placement_before;
-  double seconds;                            // the time from that state to the present one, not 0
+  double seconds;                            // the time from the earlier state to the present state, not 0
   const PatchSet *patches_before = nullptr;  // the patches of the earlier state, if they are known
 };
 
@@ -69,9 +68,9 @@ struct SurfaceSeconds {
   double triangles, scene;
 };
 
-// Both functions named make_surface replace the content of `surface` and reuse its memory. After a failure, `surface` can only be
-// made again. The first function fails as the stages of the pipeline do. The first function also fails with
-// RIIS_INVALID_PARAMETER for a valve without area, and for two states that are built differently. Without an earlier state the
+// Both functions named make_surface replace the content of `surface` and reuse its memory. After a failure, the only permitted
+// use of `surface` is to make it again. The first function fails as the stages of the pipeline do. It also fails with
+// RIIS_INVALID_PARAMETER for a valve without area, and for two states that are built differently. Without an earlier state, the
 // vertices have no velocity. `fixed` is null if accuracy.is_fixed is false. With an offset, both functions fail with
 // RIIS_INVALID_SURFACE if two neighbouring triangles have opposite windings.
 SurfaceSeconds make_surface(const Valve &valve, const EarlierValve *moved, const SurfaceRequest &request,

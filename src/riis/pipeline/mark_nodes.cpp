@@ -12,7 +12,8 @@
 namespace riis {
 namespace {
 
-// Returns whether clusters are faster. If the limit leaves out most nodes, clusters pay off only from a mesh's second marking on.
+// Returns whether a search over clusters is faster. If most nodes are outside the limit, it is faster only from the mesh's second
+// marking on.
 bool do_clusters_pay_off(const SearchRequest &request, bool is_first) {
   if (request.surface.other_distance()) return false;
   if (request.mesh.nodes().grid) return true;
@@ -45,7 +46,8 @@ struct SearchRun {
   SearchReport report;
 };
 
-// Searches over clusters. Searches exhaustively if the mesh has too many nodes for clusters or single precision is too coarse.
+// Searches over clusters. If the mesh has too many nodes for clusters, or if single precision is too coarse, searches
+// exhaustively instead.
 SearchRun run_clusters(const SearchRequest &request, Marks &marks) {
   if (request.mesh.nodes().n <= max_clustered_nodes) {
     const Clusters &clusters = request.mesh.clusters(request.n_threads);
@@ -56,7 +58,7 @@ SearchRun run_clusters(const SearchRequest &request, Marks &marks) {
   return {RIIS_SEARCH_EXHAUSTIVE, search_exhaustively(request, marks.found)};
 }
 
-// Returns the nodes of a grid that may be within the limit. The box is enlarged by several times the rounding.
+// Returns the nodes of a grid that may be within the limit. The box is enlarged by several times the rounding error.
 GridBox box_near(const SearchRequest &request, const Grid &grid) {
   const TriangleScene &scene = request.surface.scene();
   Bounds bounds = scene.bounds();
@@ -93,14 +95,14 @@ SearchRun run(const SearchRequest &request, std::int32_t search, Marks &marks) {
   marks.found.numbers = {0, request.mesh.nodes().n};
   if (const Grid *const grid = request.mesh.nodes().grid) return run_on_grid(request, *grid, search, marks);
   if (request.mesh.nodes().n == 0) {
-    // A process of a parallel solver may have no nodes. For a process without nodes, every search finds nothing and is complete.
+    // A process of a parallel solver may have no nodes. There every search finds nothing, and its result is complete.
     marks.found.prepare(1);
     return {search, {0, 1, true, 0}};
   }
   switch (search) {
     case RIIS_SEARCH_NEIGHBOR: {
-      // A moving valve is near its last position, so the walk starts at the nodes that were found last. If these belong to
-      // another mesh with as many nodes, the wrong start does no harm.
+      // A moving valve is near its last position, so the walk starts at the nodes that were found last. If they belong to another
+      // mesh with the same number of nodes, this wrong start does no harm.
       const bool fits = marks.stats.n_nodes == request.mesh.nodes().n;
       return {search, search_neighbors(request, fits ? marks.within.nodes.node_id : nowhere, marks.neighbor_scratch,
                                        marks.found)};
@@ -114,7 +116,7 @@ SearchRun run(const SearchRequest &request, std::int32_t search, Marks &marks) {
   }
 }
 
-// Returns the data that the caller requested, together with the fields from which K and K u_surface are computed.
+// Returns the data that the caller requested, and the fields that are needed to compute K and K u_surface.
 WantedData wanted_data(const SearchRequest &request, const MarkingRequest &asked) {
   WantedData data;
   data.fields = data.given_fields = asked.fields;
@@ -128,7 +130,8 @@ WantedData wanted_data(const SearchRequest &request, const MarkingRequest &asked
   return data;
 }
 
-// Copies the nodes in the band and their fields from a list with heights. Both arguments may be the same list.
+// Copies those nodes of a list that are in the band, and their fields. The list must have heights. Both arguments may be the same
+// list.
 void take_marked(const Band &band, const FieldSet &fields, const ListedNodes &from, ListedNodes &to) {
   const std::int64_t n_from = from.nodes.size();
   const auto is_marked = [&](std::int64_t i) {
@@ -136,7 +139,7 @@ void take_marked(const Band &band, const FieldSet &fields, const ListedNodes &fr
   };
   to.fields.resize(fields, n_from);
   std::int64_t n = 0;
-  // Copies neighbouring nodes together.
+  // Copies each run of successive marked nodes at once.
   for (std::int64_t begin = 0, end = 0; begin < n_from; begin = end + 1) {
     for (end = begin; end < n_from && is_marked(end);) ++end;
     copy_nodes(from.nodes, {begin, end}, to.nodes, n);
@@ -147,8 +150,8 @@ void take_marked(const Band &band, const FieldSet &fields, const ListedNodes &fr
   to.fields.resize(fields, n);
 }
 
-// Gives both lists room for their new entries. If either list lacks room, two new lists replace both lists, once all memory for
-// the new lists is reserved.
+// Gives both lists room for their new entries. If one of them lacks room, both are replaced by new lists. This happens only after
+// all memory for the new lists has been reserved.
 void make_room(const WantedData &data, const OrderScratch::Counts &n, Marks &marks) {
   if (!marks.within.has_room(data, n.n_within) || !marks.marked.has_room(data, n.n_marked)) {
     ListedNodes within, marked;
@@ -188,9 +191,9 @@ void mark_nodes(const SearchRequest &asked, const MarkingRequest &marking, Marks
   const Band &band = request.surface.band();
   const bool limit_is_wider =
       band.steps_aside() ? !marking.listed : request.distance_limit > request.surface.half_thickness();
-  // With an offset, only the fields tell which nodes are marked.
+  // With an offset, it is known only from the fields which nodes are marked.
   const bool sorts_marked = limit_is_wider && !band.steps_aside();
-  // Everything that may fail comes first, so that a failure leaves the old lists intact.
+  // All steps that may fail come first, so that a failure leaves the old lists unchanged.
   marks.field_scratch.prepare(request, data.fields, marks.found);
   if (need_normals(request.surface, data.fields, marks.found.size())) request.surface.pseudonormals();
   marks.leaflet_ids.reserve(request.surface.leaflet_ids().size());

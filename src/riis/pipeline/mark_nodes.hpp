@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The whole marking, from the request to the marks: runs the search and then makes the lists.
+// Makes the marks for a request: runs the search, and then makes the lists.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ struct MarkingRequest {
   const Band *listed = nullptr;  // null, or the band whose nodes alone are listed; it must step aside
 };
 
-// Marks the nodes. After a failure, the marks' lists keep their content and their addresses.
+// Marks the nodes. After a failure, the lists of `marks` have their old content and their old addresses.
 void mark_nodes(const SearchRequest &asked, const MarkingRequest &marking, Marks &marks);
 
 // Writes the marks to the caller's arrays. The caller must have checked far_distance.

@@ -25,8 +25,8 @@ constexpr const char *cure = ": name the attached vertices by arrays.attached";
 
 // ---- Attachment ----
 
-// Returns the corner of the edge's triangle at the place of a vertex. The vertex itself may be a corner of another triangle,
-// which can move elsewhere later.
+// Returns the corner of the edge's triangle that has the same place as `vertex`. The vertex itself may belong to another
+// triangle, which may later move away.
 std::int64_t corner_at(const TriangleSet &set, std::int64_t triangle, std::int64_t vertex) {
   for (std::int64_t k = 0; k < 3; ++k) {
     const std::int64_t corner = view(set.vertex_id)[3 * triangle + k];
@@ -113,11 +113,12 @@ Moving operator/(const Moving &a, const MovingNumber &s) {
   return {(1 / s.now) * a.now, (1 / s.now) * (a.rate - (s.rate / s.now) * a.now)};
 }
 
-// The line from which the skirt leads away, and the mean distance of the attachment from it.
+// The line from which the skirt leads away, and the mean distance between the attachment and this line.
 class SkirtLine {
  public:
   explicit SkirtLine(const TriangleSet &set) : set_(set) {
-    // Taking the first vertex as origin keeps the rounding small if the surface is far from the origin of coordinates.
+    // The first vertex is the origin, because this keeps rounding errors small if the surface is far from the origin of
+    // coordinates.
     const Moving origin = vertex(set.attached.front().from);
     MovingNumber whole{0, 0};
     Moving moment{}, area{};
@@ -219,7 +220,7 @@ class StripMaker {
            "; it must be at most arrays.skirt_length, ", faces_.skirt.length);
   }
 
-  // Returns the vertex beyond an attached vertex.
+  // Returns the outer vertex of the skirt that belongs to an attached vertex.
   std::int64_t outer(std::int64_t id) {
     const auto [found, is_new] = outer_of_.try_emplace(id, set_.n_vertices());
     if (!is_new) return found->second;

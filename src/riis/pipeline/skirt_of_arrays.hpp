@@ -10,15 +10,16 @@
 
 namespace riis {
 
-// Finds the edges of the attachment, with the vertices of the arrays. Does nothing if the arrays have neither a skirt nor
-// attached vertices. The edges stay the same when the vertices of the faces move later. Fails with RIIS_INVALID_SURFACE if the
-// faces do not determine the edges.
+// Finds the edges of the attachment from the vertices of the arrays. Does nothing if the arrays have neither a skirt nor attached
+// vertices. If the vertices move later, the edges stay the same. Fails with RIIS_INVALID_SURFACE if the faces do not determine
+// the edges.
 void find_attachment(UserFaces &faces, const riis_surface_arrays &arrays);
 
-// Gives the placed triangles of these faces their attachment and their skirt. The outer vertices follow the caller's vertices,
-// and have velocities if the caller's vertices have them. `scale` is the scale of the placement. Fails with RIIS_INVALID_SURFACE
-// if the outward direction is not determined, and with RIIS_INVALID_ARGUMENT for a length that does not fit. Fails with
-// RIIS_LIMIT_EXCEEDED for too many triangles, and if no larger leaflet_id is left.
+// Adds the attachment and the skirt to the placed triangles of these faces. In the list of vertices, the skirt's outer vertices
+// come after the caller's vertices. They have velocities if the caller's vertices have velocities. `scale` is the scale of the
+// placement. Fails with RIIS_INVALID_SURFACE if the outward direction is not determined, and with RIIS_INVALID_ARGUMENT for a
+// length that does not fit. Fails with RIIS_LIMIT_EXCEEDED if there are too many triangles, or if no leaflet_id is left for the
+// skirt.
 void add_skirt_of_arrays(const UserFaces &faces, double scale, bool flip_normals, TriangleSet &set);
 
 }  // namespace riis

@@ -15,8 +15,8 @@
 namespace riis {
 namespace {
 
-// If there are more than `max_triangles_kept` new triangles, the memory of the old surface is freed. Keeping so much memory would
-// cost more than a new allocation. A triangle takes about 300 bytes.
+// If the new surface has more than `max_triangles_kept` triangles, the memory of the old surface is freed. Keeping so much memory
+// would cost more than allocating it again. A triangle takes about 300 bytes.
 constexpr std::int64_t max_triangles_kept = 1'000'000;
 
 }  // namespace
@@ -48,7 +48,7 @@ void UpdatableSurface::update_from_valve(const Valve &valve, const EarlierValve 
     newly_fixed =
         std::make_unique<FixedTriangulation>(valve, accuracy.triangle_error / request.placement.scale, whole.n_threads);
   const FixedTriangulation *fixed = newly_fixed ? newly_fixed.get() : fixed_.get();
-  // In a time loop, the earlier state is often the state of the last update, whose patches are known.
+  // In a time loop, the earlier state is often the state of the last update. The patches of that state are then known.
   std::optional<EarlierValve> moved;
   if (earlier) moved.emplace(*earlier);
   if (moved && moved->before.revision() == revision_) moved->patches_before = surface_->patches();
@@ -112,7 +112,7 @@ void UpdatableSurface::add_direction(const ValveDirection &direction, std::int32
 
 namespace {
 
-// Only pairs count whose depth is at least `least_depth` half thicknesses, as by default in riis_find_crossings.
+// Pairs of triangles whose depth is below `least_depth` half thicknesses are left out, as by default in riis_find_crossings.
 constexpr double least_depth = 1e-6;
 
 // Logs a warning if leaflets cross deeper than touching leaflets can. Returns whether it has logged a warning.
@@ -123,8 +123,8 @@ bool say(const Valve &valve, const Surface &surface, int n_threads) {
   const auto leaflet = [&](std::int64_t pair, int k) {
     return view(set.leaflet_id)[view(pairs.triangle)[2 * pair + k]];
   };
-  // Hinges reach into recesses of the housing, and the model of the housing lacks these recesses. Crossings with the housing
-  // therefore do not count.
+  // Hinges reach into recesses of the housing, but the model of the housing has no recesses. Crossings with the housing are
+  // therefore left out.
   const std::int32_t housing = valve.kind().housing;
   std::int64_t n = 0, deepest = -1;
   for (std::int64_t i = 0; i < view(pairs.depth).size(); ++i) {
@@ -167,7 +167,8 @@ void CrossingWatch::look(const Valve &valve, const Surface &surface, int n_threa
   try {
     shape.is_said = say(valve, surface, n_threads);
   } catch (...) {
-    // The search ran out of memory. This is no failure, because the caller did not request the search, and the surface is good.
+    // The search ran out of memory. This is not reported as a failure, because the caller did not request the search, and the
+    // surface itself is good.
   }
 }
 

@@ -18,12 +18,12 @@
 
 namespace riis {
 
-// Logs a warning if leaflets go through each other. Each shape of the valve gets at most one warning.
+// Logs a warning if leaflets go through each other, at most once for each shape of the valve.
 class CrossingWatch {
  public:
   // The openings are divided into ranges. For each shape, the function examines the first surface in each range, until it has
-  // warned about the shape. Without a log function the search does nothing and allocates nothing. The search reports no failure,
-  // because the surface itself is good. If the search lacks memory, there is no warning.
+  // logged a warning about this shape. Without a log function, it does nothing and allocates nothing. If there is too little
+  // memory for the search, no warning and no failure follow, because the surface itself is good.
   void look(const Valve &valve, const Surface &surface, int n_threads) noexcept;
 
  private:
@@ -34,8 +34,8 @@ class CrossingWatch {
   };
   Shape &remembered(std::uint64_t digest);
 
-  // The number of shapes that are remembered. A caller that alternates between at most `n_remembered` shapes gets one warning for
-  // each shape.
+  // The number of shapes that are remembered. A caller that alternates between at most this many shapes gets one warning for each
+  // shape.
   static constexpr std::size_t n_remembered = 8;
 
   std::array<Shape, n_remembered> shapes_{};
@@ -49,18 +49,19 @@ class UpdatableSurface {
   const SurfaceSeconds &seconds() const { return seconds_; }
 
   // The update functions fail as make_surface does, and a failure leaves the surface unchanged. If request.n_threads is 0, the
-  // number of triangles of the last surface determines the number of threads. The first update with accuracy.is_fixed
-  // chooses the fixed triangulation. An update without this option ends the fixed triangulation.
+  // number of threads depends on the number of triangles of the last surface. The first update with accuracy.is_fixed chooses the
+  // fixed triangulation. An update without accuracy.is_fixed ends it.
   void update_from_valve(const Valve &valve, const EarlierValve *earlier, const SurfaceRequest &request,
                          const ValveAccuracy &accuracy);
-  // Updates the surface from arrays. If the arrays contain no faces, the surface keeps the faces of the last arrays, with the new
-  // vertices.
+  // Updates the surface from arrays. If the arrays contain no faces, the surface keeps the faces of the last arrays, and only the
+  // vertices are new.
   void update_from_arrays(const riis_surface_arrays &arrays, bool skip_zero_area, const SurfaceRequest &request);
-  // Takes the vertices at a time and the mean velocities since dt before that time (Keyframes::at).
+  // Updates the surface to the keyframes' vertices at `time`. The velocities are means over the time dt that ends at `time`
+  // (Keyframes::at).
   void update_from_keyframes(const Keyframes &frames, double time, double dt, bool skip_zero_area,
                              const SurfaceRequest &request);
 
-  // Switches off the search for crossings in later updates, because the caller did not choose their shapes.
+  // Switches off the search for crossings in later updates. This is for shapes that the caller did not choose.
   void ignore_crossings() { ignores_crossings_ = true; }
 
   // Adds a direction to the surface of a valve, until the next update.

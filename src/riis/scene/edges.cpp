@@ -17,7 +17,7 @@
 namespace riis {
 namespace {
 
-// Returns, for each vertex, the first vertex with the same coordinates.
+// For each vertex, returns the first vertex that has the same coordinates.
 std::vector<std::int64_t> first_with_place(const TriangleSet &set) {
   std::int64_t n_positions = 0;
   const auto position = distinct_positions(set, n_positions);
@@ -67,8 +67,9 @@ std::vector<OpenEdge> edges_of_one_triangle(const TriangleSet &set, const std::v
   return open;
 }
 
-// Cancels open edges that cover each other. A patch of triangles may have vertices inside the edges of its neighbour. The short
-// edges that cover a long edge lead from one of its ends to the other. The search therefore follows them from end to end.
+// Removes open edges that cover each other. A patch of triangles may have vertices inside the edges of a neighbouring patch.
+// Several short edges then cover a long edge, and lead from one end of the long edge to the other. The search follows these short
+// edges from end to end.
 class Cancelling {
  public:
   Cancelling(const TriangleSet &set, std::vector<OpenEdge> edges) : set_(set), edges_(std::move(edges)) {
@@ -89,7 +90,7 @@ class Cancelling {
   }
 
  private:
-  // For each vertex, the edges that begin there, or else those that end there. `end` says which.
+  // For each vertex, either the edges that begin there, or the edges that end there. `end` says which of the two.
   struct Ends {
     std::int64_t OpenEdge::*end;
     std::multimap<std::int64_t, std::size_t> with;
@@ -103,9 +104,8 @@ class Cancelling {
     }
   };
 
-  // Looks for an edge in the opposite direction that covers one end of a given edge. The found edge lies between the vertex at
-  // this end and a point on the given edge. The given edge and the found edge cancel up to this point. Returns false if there is
-  // no such edge.
+  // Looks for an edge in the opposite direction that covers edge i from one end up to some point of edge i. Removes the found
+  // edge, and shortens edge i to the remaining part. Returns false if there is no such edge.
   bool shorten(std::size_t i, Ends &here, const Ends &there) {
     const OpenEdge edge = edges_[i];
     for (auto [at, last] = there.with.equal_range(edge.*here.end); at != last; ++at) {
@@ -145,7 +145,7 @@ class Cancelling {
   Ends from_{&OpenEdge::from, {}}, to_{&OpenEdge::to, {}};
 };
 
-// The triangles around each vertex, in groups. Edges from the vertex connect the triangles of a group.
+// The triangles around each vertex, in groups. The triangles of a group are connected by edges that begin at the vertex.
 class Fans {
  public:
   Fans(const TriangleSet &set, const std::vector<std::int64_t> &place, const std::set<std::int64_t> &vertices) {
@@ -156,7 +156,7 @@ class Fans {
         if (vertices.count(vertex) != 0) around[vertex].push_back(i);
       }
     for (const auto &[vertex, triangles] : around) {
-      // Two triangles belong together if they share a second vertex. The lowest triangle names the group.
+      // Two triangles belong to the same group if they share a second vertex. The number of a group is its lowest triangle.
       std::map<std::int64_t, std::int64_t> group_of, first_with;
       for (const std::int64_t triangle : triangles) group_of[triangle] = triangle;
       const auto root = [&](std::int64_t triangle) {
@@ -187,7 +187,7 @@ double length_of(const TriangleSet &set, const std::vector<OpenEdge> &edges) {
   return sum;
 }
 
-// Returns, for each edge, the edge that continues its line. A line ends at a vertex whose open edges cannot be paired.
+// For each edge, returns the next edge of its line. A line ends at a vertex whose open edges cannot be paired.
 std::vector<std::optional<std::size_t>> next_edges(const TriangleSet &set, const std::vector<std::int64_t> &place,
                                                    const std::vector<OpenEdge> &edges) {
   std::map<std::int64_t, std::vector<std::size_t>> from, to;
@@ -290,8 +290,8 @@ std::vector<OpenEdge> longest_boundary(const TriangleSet &set) {
 
 namespace {
 
-// Finds the vertices on a side of a patch, in their order along the side. Vertices of a subdivided quad may lie at the same
-// place. Of these, only the first is returned.
+// Finds the vertices on a side of a patch, in their order along the side. If several vertices lie at the same place, as in a
+// subdivided quad, only the first of them is returned.
 Vector<std::int64_t> vertices_on(const TriangleSet &set, std::int64_t begin, std::int64_t end, PatchRim side) {
   const std::int64_t of_along = side == rim_v0 || side == rim_v1 ? 0 : 1;
   const auto along = [&](std::int64_t id) { return view(set.uv)[2 * id + of_along]; };
@@ -305,8 +305,8 @@ Vector<std::int64_t> vertices_on(const TriangleSet &set, std::int64_t begin, std
   return found;
 }
 
-// Returns for each patch the side that choose(patch, rim) chooses. `rim` holds the patch's bits of PatchRim. The function
-// choose() returns 0 for a patch without such a side.
+// For each patch, returns the side that choose(patch, rim) returns. `rim` has the bits PatchRim of the patch. For a patch without
+// such a side, choose() returns 0.
 template <class Choose>
 std::vector<SideLine> sides(const TriangleSet &set, const Choose &choose) {
   std::vector<SideLine> lines;
@@ -382,7 +382,8 @@ Attachment attachment_of(const TriangleSet &set) {
 
 namespace {
 
-// Returns the open edges of each leaflet, except those on the outline of the orifice. Edges between two leaflets count as open.
+// Returns the open edges of each leaflet, except those on the outline of the orifice. An edge between two leaflets counts as an
+// open edge.
 std::vector<EdgePart> free_edges_of_arrays(const TriangleSet &given) {
   const std::optional<TriangleSet> leaflets = given.skirt < 0 ? std::nullopt : std::optional(without_skirt(given));
   const TriangleSet &set = leaflets ? *leaflets : given;

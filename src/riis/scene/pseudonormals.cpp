@@ -32,11 +32,12 @@ std::array<double, 3> angles_of(const TriangleMeasures &measures, int lane) {
   return {at_a, at_b, std::max(0.0, pi - at_a - at_b)};
 }
 
-// The normals of faces that are folded onto each other cancel up to rounding. The triangle's own normal then replaces their sum.
+// If faces are folded onto each other, the sum of their normals is 0 up to rounding. The triangle's own normal then replaces this
+// sum.
 bool has_direction(Vec3 sum) { return dot(sum, sum) > 1e-18; }
 
-// Sorts edges by their second ends. Most lists are short and already in the order of their slots. Edges with equal ends keep this
-// order. The sort is written out here, because the standard library's stable sort would allocate memory.
+// Sorts edges by their second ends. Most lists are short. A list is already in the order of the edges' slots, and edges with
+// equal ends stay in this order. The sort is written out here, because the standard library's stable sort would allocate memory.
 template <class Edge>
 void sort_few(Edge *begin, Edge *end) {
   constexpr std::ptrdiff_t few = 32;
@@ -82,7 +83,7 @@ UnfilledShortVector<std::int32_t> distinct_positions(const TriangleSet &set, std
 
 Vec3 triangle_normal(const std::array<Vec3, 3> &corners) {
   const auto &[a, b, c] = corners;
-  // Scales the edges first. Even for very small or large triangles, the numbers then stay within the range of doubles.
+  // Scales the edges first, so that the numbers stay within the range of doubles even for very small or very large triangles.
   const Vec3 ab = b - a, bc = c - b, ca = a - c;
   const double longest = std::sqrt(std::max({dot(ab, ab), dot(bc, bc), dot(ca, ca)}));
   const Vec3 n = cross((1.0 / longest) * (b - a), (1.0 / longest) * (c - a));
@@ -99,7 +100,8 @@ Pseudonormals::Pseudonormals(const TriangleSet &set) {
   resize(edge_is_rim_, 3 * n);
   resize(corner_, n_positions);
   resize(corner_is_rim_, n_positions);
-  // Edges are listed by the end with the lower number. Each list is short. After sorting, equal edges follow each other.
+  // For each position, there is a list of the edges whose end with the lower number lies there. Each list is short. After the
+  // list is sorted, equal edges follow each other.
   Vector<std::int32_t> end_of_list;
   resize(end_of_list, n_positions + 1);
   const auto ends_at = view(end_of_list);
@@ -128,8 +130,8 @@ Pseudonormals::Pseudonormals(const TriangleSet &set) {
   };
   UnfilledShortVector<Edge> edges;
   resize(edges, 3 * n);
-  // Each list is filled from its end, which puts equal edges in the order of their slots. The sums thus have the same bits for
-  // any numbering of the positions.
+  // Each list is filled from its end, which puts equal edges in the order of their slots. The sums thus have the same bits,
+  // however the positions are numbered.
   for (std::int64_t slot = 3 * n; slot-- > 0;) {
     const auto [lower, upper] = ends_of(slot);
     view(edges)[--ends_at[lower]] = {upper, static_cast<std::int32_t>(slot)};
@@ -158,7 +160,7 @@ void Pseudonormals::note_rim(std::int64_t slot) {
   view(edge_is_rim_)[slot] = view(corner_is_rim_)[lower] = view(corner_is_rim_)[upper] = 1;
 }
 
-// Records two triangles if both have the same edge in the same direction.
+// Records the two triangles of an edge if both have the edge in the same direction.
 void Pseudonormals::note_directions(std::int64_t slot, std::int64_t other) {
   if (disagreeing_[0] >= 0 || view(position_)[slot] != view(position_)[other]) return;
   disagreeing_ = {slot / 3, other / 3};
@@ -251,7 +253,7 @@ Pseudonormals::Rates Pseudonormals::rates_of(const TriangleSet &set, const doubl
   Rates made;
   resize(made.rim_edge, 3 * n);
   resize(made.corner, view(corner_).size());
-  // The triangles' edges that lie on an edge of the rim, because they have the same two ends. They are ordered by their ends.
+  // Edges of triangles that coincide with an edge of the rim: both ends are the same. The list is ordered by these ends.
   struct Edge {
     Ends ends;
     std::int64_t slot;

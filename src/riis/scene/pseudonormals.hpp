@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Angle-weighted normals of vertices and edges. These normals tell on which side of a surface a point is, even if the closest
 // point lies on an edge or a vertex (J. A. Baerentzen, H. Aanaes, "Signed distance computation using the angle weighted
-// pseudonormal", IEEE TVCG 11(3), 2005). On an open surface, the side refers to the nearest part of the surface. The same edges
-// and vertices also give the rim of the surface. For any closest point, this file gives the normal, the normal's rate, and
-// whether the point is on the rim.
+// pseudonormal", IEEE TVCG 11(3), 2005). On an open surface, the side is that of the nearest part of the surface. For any closest
+// point, this file gives the normal, the rate of the normal, and whether the point is on the rim of the surface.
 #pragma once
 
 #include <array>
@@ -21,8 +20,8 @@ UnfilledShortVector<std::int32_t> distinct_positions(const TriangleSet &set, std
 // Returns the unit normal of a triangle by the right-hand rule.
 Vec3 triangle_normal(const std::array<Vec3, 3> &corners);
 
-// Returns the side of the surface that a point is on: +1, -1 or 0. `way` leads from the closest point to the point, and `normal`
-// is the normal at the closest point.
+// Returns on which side of the surface a point is: +1, -1 or 0. `way` leads from the closest point of the surface to the point,
+// and `normal` is the normal at the closest point.
 inline int side_of(Vec3 way, Vec3 normal) {
   const double height = dot(way, normal);
   return (height > 0) - (height < 0);
@@ -34,9 +33,9 @@ class Pseudonormals {
 
   Vec3 of_face(std::int64_t triangle) const { return view(face_)[triangle]; }
 
-  // The normal and the rim at a closest point. The point lies on a face, an edge or a vertex, as its barycentric weights tell.
-  // The normal may have any length. The rim of a valve consists of the sides that only one patch has (valve/rims.hpp). The rim of
-  // triangles from arrays consists of the edges that only one triangle has.
+  // The normal at a closest point, and whether the point is on the rim. The barycentric weights tell whether the point lies on a
+  // face, an edge or a vertex. The normal may have any length. The rim of a valve consists of the sides that only one patch has
+  // (valve/rims.hpp). The rim of triangles from arrays consists of the edges that only one triangle has.
   struct Feature {
     Vec3 normal;
     bool is_on_rim;
@@ -47,13 +46,14 @@ class Pseudonormals {
     return is_inside ? Feature{of_face(triangle), false}
                      : at_border(triangle, {barycentric[0], barycentric[1], barycentric[2]});
   }
-  // Returns the normal and the rim for a point that may be on an edge or a vertex.
+  // Returns the normal, and whether the point is on the rim, for a point that may lie on an edge or a vertex.
   Feature at_border(std::int64_t triangle, Vec3 barycentric) const;
 
-  // Returns two triangles that run along a shared edge in the same direction, or -1 and -1.
+  // Returns two triangles whose windings disagree: both run along a shared edge in the same direction. If there are none, returns
+  // -1 and -1.
   const std::array<std::int64_t, 2> &disagreeing() const { return disagreeing_; }
 
-  // The rates of the sums of normals while the vertices move. Each edge of the rim and each vertex has such a sum.
+  // Each edge of the rim and each vertex has a sum of normals. This struct has the rates of these sums while the vertices move.
   struct Rates {
     Vector<Vec3> rim_edge;  // three for each triangle; 0 for edges off the rim
     Vector<Vec3> corner;    // one for each distinct position
@@ -65,7 +65,8 @@ class Pseudonormals {
                    Vec3 barycentric) const;
 
  private:
-  // The vertex, edge or face on which barycentric weights lie. `corner` is the vertex, or the corner where the edge begins.
+  // The vertex, edge or face on which a point with given barycentric weights lies. `corner` is the vertex, or the corner at which
+  // the edge begins.
   enum class Kind { face, edge, vertex };
   struct Simplex {
     Kind kind;

@@ -10,7 +10,7 @@
 namespace riis {
 namespace {
 
-// Sums one number of each triangle. Sums in blocks lose fewer digits to rounding.
+// Sums one number for each triangle. The sum is made in blocks, because this loses fewer digits to rounding.
 template <class OfTriangle>
 double sum_over_triangles(std::int64_t n, const OfTriangle &of_triangle) {
   constexpr std::int64_t triangles_per_block = 4096;
@@ -34,7 +34,7 @@ double area_rate_of(const TriangleSet &set, const double *rates, std::int64_t tr
   return 0.5 / twice_area * dot(normal, cross(rate(1) - of_a, ac) + cross(ab, rate(2) - of_a));
 }
 
-// Collects the ids of the leaflets. Only few ids are sorted for a valve, whose triangles follow each other leaflet by leaflet.
+// Collects the ids of the leaflets. The triangles of a valve are ordered by leaflet, so only few ids have to be sorted.
 void collect_leaflets(const TriangleSet &set, std::vector<std::int32_t> &ids) {
   ids.clear();
   for (const std::int32_t id : set.leaflet_id)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A surface that answers queries. The surface has triangles, their scene and their band, and optionally another method to measure
-// distances. A surface finds closest triangles and sides.
+// A surface that answers queries. A surface has triangles, their scene and their band, and perhaps another method to measure
+// distances. It finds closest triangles and sides.
 #pragma once
 
 #include <atomic>
@@ -36,7 +36,7 @@ class Surface {
   // Makes the surface. A later call, for example after the valve has moved, reuses the surface's memory. After a failure the
   // surface must not be used.
   void make(TriangleSet triangles, const Band &band, int n_threads);
-  // Gives the triangles away, so that the next surface's triangles can reuse their memory.
+  // Moves the triangles out of the surface, so that the next surface's triangles can reuse their memory.
   TriangleSet take_triangles() { return std::move(triangles_); }
   // Sets another method to measure distances. Without this call, distances are measured to the triangles.
   void measure_by(std::unique_ptr<const PatchDistance> other_distance, double triangle_error);
@@ -50,8 +50,8 @@ class Surface {
   // Returns the patches that the triangles come from, or null for a surface from arrays.
   const PatchSet *patches() const { return patches_ ? &*patches_ : nullptr; }
 
-  // Adds a direction in which the patches change. The two states of the direction must have the ids of patches()
-  // (check_same_ids).
+  // Adds a direction in which the patches change. The images in the direction's two states must have the same ids as those of
+  // patches() (check_same_ids).
   void add_direction(const Direction &direction, int n_threads);
   std::int64_t n_directions() const { return n_directions_; }
   // Returns the rates of the vertices in a direction, (3, n_vertices).
@@ -65,10 +65,11 @@ class Surface {
   double half_thickness() const { return band_.half_thickness; }
   // The leaflet ids of the triangles, each once, ascending.
   const std::vector<std::int32_t> &leaflet_ids() const { return leaflet_ids_; }
-  // Returns the area of all triangles. The first call computes it. Several threads may call this function at once.
+  // Returns the area of all triangles, which the first call computes. Several threads may call this function at once.
   double area() const;
 
-  // Tells whether the attachment is known. For arrays, the caller has to name the attachment or to request a skirt.
+  // Tells whether the attachment is known. The attachment of arrays is known only if the caller has named it or has requested a
+  // skirt.
   bool has_attachment() const { return triangles_.is_of_patches() || !triangles_.attached.empty(); }
   // Returns the sides at which leaflets are attached, or the attached edges of arrays. The first call makes them. Several threads
   // may call this function at once.
@@ -98,7 +99,8 @@ class Surface {
   TriangleScene scene_;
   Band band_;
   std::vector<std::int32_t> leaflet_ids_;
-  // The area is computed on demand, because marking never needs it. Threads that compute it at the same time get the same bits.
+  // The area is computed only when it is requested, because marking never needs it. If several threads compute it at the same
+  // time, all get the same bits.
   mutable std::atomic<double> area_{not_known};
   std::optional<SourceValve> source_valve_;
   std::optional<PatchSet> patches_;

@@ -46,8 +46,8 @@ void TriangleGroups::make(const TriangleSet &set, const SurfaceFrame &surface_fr
   frame = surface_frame;
   const bool is_by_place = set.grouping.end.empty(), was_by_place = is_by_place_;
   is_by_place_ = is_by_place;
-  // An unchanged number of triangles suggests that they have only moved. Groups that were made by position are therefore kept,
-  // until their boxes become much larger.
+  // If the number of triangles is unchanged, the triangles have probably only moved. Groups that were made by position are
+  // therefore kept, until their boxes become much larger.
   const bool is_kept = is_by_place && was_by_place && view(by_place_.order).size() == set.n_triangles();
   if (is_by_place && !is_kept) group_all_by_place(set, by_place_);
   bool are_same = enclose(is_by_place ? by_place_ : set.grouping, n_threads);
@@ -56,15 +56,14 @@ void TriangleGroups::make(const TriangleSet &set, const SurfaceFrame &surface_fr
     enclose(by_place_, n_threads);
     are_same = false;
   }
-  // Finds the longest edge only after the groups have been made for the last time.
+  // Finds the longest edge only now, because the groups may have been made a second time above.
   longest_edge = 0;
   for (const GroupBounds &pack : packs) longest_edge = std::max(longest_edge, pack.longest_edge);
   are_as_before = are_same && size() <= much * size_at_first_;
   if (!are_as_before) size_at_first_ = size();
 }
 
-// Returns the sum of the extents of all boxes, in the frame's units. The sum of the extents grows as the triangles of a group
-// move apart.
+// Returns the sum of the extents of all boxes, in the frame's units. This sum grows when the triangles of a group move apart.
 double TriangleGroups::size() const {
   double sum = 0;
   for (const OfPack &pack : of_packs_) sum += pack.size;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Puts neighbouring triangles into groups of up to 16, which is the form that the filters take (kernels/kernels.hpp). The groups
-// are in the surface's frame, and have bounds. The corners of all triangles are also kept unchanged.
+// Puts neighbouring triangles into groups of up to 16, because the filters work on such groups (kernels/kernels.hpp). The groups
+// are in the surface's frame, and have bounds. The original corners of all triangles are also stored.
 #pragma once
 
 #include <algorithm>
@@ -15,8 +15,8 @@
 
 namespace riis {
 
-// Takes a coordinate x to (x - centre) * scale. The scale is the power of two that brings the surface's half extent between 1/2
-// and 1. The only errors are the rounding of the difference and of the product.
+// The frame takes a coordinate x to (x - centre) * scale. The scale is the power of two that brings the surface's half extent
+// between 1/2 and 1. The only errors are the rounding of the difference and of the product.
 struct SurfaceFrame {
   Vec3 centre{0, 0, 0};
   double scale = 1;
@@ -30,9 +30,9 @@ struct SurfaceFrame {
 float round_down(double x);
 float round_up(double x);
 
-// Bounds the error of the filters' distances in the surface's frame (docs/theory/clusters.md). The points come from a frame
-// that is `ratio` times as large and moved by `shift`. The points are within `reach` of the triangles, whose edges are at most
-// `longest_edge` long.
+// Bounds the error of the filters' distances in the surface's frame (docs/theory/clusters.md). A coordinate x of a point is taken
+// from another frame to x * ratio + shift. The points are within `reach` of the triangles, whose edges are at most `longest_edge`
+// long.
 inline float filter_error(double ratio, double shift, double reach, double longest_edge) {
   return static_cast<float>(0x1p-21 * (ratio + shift + 5 * reach + 7 * longest_edge + 3));
 }
@@ -49,17 +49,17 @@ struct TriangleGroups {
   std::vector<TriangleGroup> groups;
   Bounds of_all;  // bounds of all corners, in the set's own coordinates
   std::vector<GroupBounds> bounds;
-  // Packs of groups_per_pack neighbouring groups in order. The last pack may have fewer groups. A pack has only its box along the
-  // coordinate axes, its longest edge, and its corner, which is the corner of one of its groups.
+  // A pack consists of groups_per_pack successive groups, or of fewer at the end. Only these bounds of a pack are set: the box
+  // along the coordinate axes, the longest edge, and the corner, which is the corner of one group.
   std::vector<GroupBounds> packs;
   float longest_edge = 0;
-  // True if the groups have the same triangles as before, and are not much larger than before. A tree over the groups then stays
-  // usable.
+  // True if the groups have the same triangles as before, and are not much larger than before. A tree over the groups can then be
+  // kept.
   bool are_as_before = false;
 
   // Copies the corners of a set's triangles, and computes their bounds.
   void take_corners(const TriangleSet &set, int n_threads);
-  // Replaces the groups by new groups of the triangles of the last take_corners. Reuses the groups' memory.
+  // Makes new groups of the triangles that take_corners has copied last. Reuses the memory of the old groups.
   void make(const TriangleSet &set, const SurfaceFrame &surface_frame, int n_threads);
 
   Range groups_of(std::int64_t pack) const {
@@ -67,7 +67,7 @@ struct TriangleGroups {
   }
 
  private:
-  // What a thread finds out about the groups of one pack.
+  // Facts about the groups of one pack, found by the thread that makes the pack.
   struct OfPack {
     double size;    // the sum of the extents of its groups' boxes
     bool are_same;  // whether each group has the same triangles as before

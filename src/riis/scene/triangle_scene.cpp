@@ -54,15 +54,16 @@ std::shared_ptr<std::remove_pointer_t<RTCDevice>> shared_device() {
 }
 
 // A point more than `far_away` half extents from the centre is compared with all triangles, because single precision cannot
-// separate triangles there.
+// distinguish the triangles at this distance.
 constexpr double far_away = 1e6;
 
 // Returns the radius, in the frame's units, that makes Embree visit every triangle whose computed distance from q is at most
 // `distance`. Embree works in single precision. It compares the square of the radius with the squared distance from the rounded
-// point to a box, which is rounded outwards. The unit roundoff is e = 2^-24. The point is off by at most sqrt(3) e max|q|. The
-// relative error is at most 6 e for the subtractions, squares and sums together, and at most e for the radius' square. The factor
-// 1 + 2^-20 = 1 + 16 e and the term 4 e max|q| cover all these errors, and this function's own rounding. `rounding` covers the
-// rounding of the kernel. The term 2^-60 keeps the radius' square a normal float.
+// point to a box, which is rounded outwards. The unit roundoff is e = 2^-24. Rounding moves the point by at most sqrt(3) e
+// max|q|. The subtractions, squares and sums together have a relative error of at most 6 e. The square of the radius has a
+// relative error of at most e. The factor 1 + 2^-20 = 1 + 16 e and the term 4 e max|q| cover all these errors, and this
+// function's own rounding. `rounding` covers the rounding of the decision kernel. The term 2^-60 keeps the square of the radius
+// in the range of normal floats.
 float inflated_radius(double distance, Vec3 q, double rounding) {
   const double largest = largest_coordinate(q);
   return round_up(distance * (1.0 + 0x1p-20) + largest * 0x1p-22 + rounding + 0x1p-60);
@@ -101,8 +102,8 @@ struct Query {
   bool is_out_of_memory;
 };
 
-// Queries one triangle. Returns true if the triangle is the closest so far. The function is not inlined, because the loops over
-// groups would then need too many registers.
+// Queries one triangle. Returns true if the triangle is the closest so far. The function is not inlined, because inlining would
+// make the loops over groups need too many registers.
 template <bool keeps_ties>
 __attribute__((noinline)) bool query_triangle(Query &query, std::int64_t triangle) {
   const double *c = query.in->groups.corners.data() + 9 * triangle;
@@ -118,8 +119,8 @@ __attribute__((noinline)) bool query_triangle(Query &query, std::int64_t triangl
   return true;
 }
 
-// Queries a triangle in a callback from Embree. No exception may pass through Embree. Only a lack of memory for the lists of ties
-// can throw one.
+// Queries a triangle in a callback from Embree. No exception may pass through Embree. The only possible exception is a lack of
+// memory for the lists of ties.
 template <bool keeps_ties>
 bool query_in_embree(Query &query, std::int64_t triangle) {
   if constexpr (keeps_ties) {
@@ -197,9 +198,9 @@ bool add_group(RTCPointQueryFunctionArguments *arguments) {
   return false;
 }
 
-// Bounds the rounding of a distance. The kernel computes a point of the triangle. The point's coordinates are accurate to a few
-// units of rounding of the largest coordinate, and 16 units are ample. The distance from a given point to the computed point has
-// only a small relative error.
+// Bounds the rounding of a distance. The kernel computes a point of the triangle. The error of this point's coordinates is a few
+// units of rounding of the largest coordinate. The bound of 16 units is ample. The distance from a given point to the computed
+// point has only a small relative error.
 double rounding_of_distances(const Bounds &bounds) { return 0x1p-49 * bounds.largest_coordinate(); }
 
 }  // namespace
@@ -222,8 +223,8 @@ void TriangleScene::Implementation::build(Scene &made) {
     made = std::move(of_geometry);
     geometry = std::move(of_groups);
   } else {
-    // A moving scene is built more often, and each build serves fewer queries. If the groups are unchanged, the tree is kept and
-    // gets new boxes.
+    // The scene of a moving surface is built often, and each build is used for few queries, so a quick build is better. If the
+    // groups are unchanged, the tree is kept and gets new boxes.
     rtcSetSceneFlags(made.get(), RTC_SCENE_FLAG_DYNAMIC);
     rtcSetSceneBuildQuality(made.get(), RTC_BUILD_QUALITY_LOW);
     rtcSetGeometryBuildQuality(geometry.get(), tree_fits ? RTC_BUILD_QUALITY_REFIT : RTC_BUILD_QUALITY_LOW);
@@ -276,15 +277,15 @@ ClosestTriangle TriangleScene::find_closest(Vec3 p, double limit, InstructionSet
   Query query{&in, &kernels(instructions), p, q, largest, {infinity, -1}, ties, false};
   if constexpr (keeps_ties) ties->candidates.clear();
   if (!(largest <= far_away)) {
-    // In the frame's units, the coordinates of such a far point may overflow. Its distance exceeds the surface's size, so with
-    // most limits the query ends here.
+    // In the frame's units, the coordinates of so distant a point may overflow. The point is farther away than the surface's
+    // size, so with most limits the query ends here.
     if (!may_be_within(p, limit)) return {infinity, -1};
     const std::int64_t n = view(in.groups.corners).size() / 9;
     for (std::int64_t i = 0; i < n; ++i) query_triangle<keeps_ties>(query, i);
   } else {
     double reach = limit;
     if (!(reach * frame.scale < 4 * far_away)) {
-      // A limit far beyond the surface's size would exclude nothing, so the distance of the first triangle replaces it.
+      // A limit far above the surface's size would exclude nothing. The distance to the first triangle replaces such a limit.
       query_triangle<keeps_ties>(query, 0);
       reach = std::sqrt(query.best.distance_sq);
     }
@@ -325,8 +326,8 @@ void TriangleScene::collect_along(Vec3 a, Vec3 b, std::vector<std::int32_t> &fou
     const float point[3] = {static_cast<float>(middle.x), static_cast<float>(middle.y), static_cast<float>(middle.z)};
     collect_groups(point, round_up(radius + 0x1p-22 * largest), found);
   }
-  // Converting coordinates to the frame rounds them but keeps their order. Boxes with a common point therefore keep a common
-  // point.
+  // Coordinates are rounded when they are converted to the frame, but their order stays. Boxes with a common point therefore
+  // still have a common point.
   Bounds framed;
   framed.add(from);
   framed.add(to);

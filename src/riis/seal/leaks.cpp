@@ -21,17 +21,17 @@ struct Edge {
   bool operator==(const Edge &other) const { return a == other.a && b == other.b; }
 };
 
-// Returns a length up to which no edge leaks. If an edge of at most this length meets the surface in a point, one of its nodes is
-// at most half the length away from this point. This node is thus within the half thickness and marked. With an offset, the
-// length is smaller, because only nodes within a smaller distance are certainly in the band. With margins of several times the
-// rounding, the length is also right for computed distances. Returns -1, so that no edge counts as short, in two cases: marks may
-// be missing, or they come from other distances than those to the triangles.
+// Returns a length up to which no edge can leak. If an edge of at most this length meets the surface in a point, one of its nodes
+// is at most half the length away from this point. This node is thus within the half thickness, and therefore marked. With an
+// offset, the length is smaller, because only nodes within a smaller distance are certainly in the band. The length includes
+// margins of several times the rounding error, so it also holds for computed distances. Returns -1, so that no edge counts as
+// short, in two cases: marks may be missing, or the distances were not measured to the triangles.
 double length_that_cannot_leak(const Surface &surface, const Marks &marks) {
   if (surface.other_distance() || !marks.stats.complete) return -1;
   return 2 * surface.band().sure_distance() * (1 - 0x1p-40) - 4 * surface.scene().rounding();
 }
 
-// The search of one thread and its memory.
+// The search of one thread, with its memory.
 template <class Edges>
 struct alignas(64) Finder {
   const SearchRequest *request = nullptr;
@@ -57,15 +57,16 @@ struct alignas(64) Finder {
     return crosses;
   }
 
-  // With an offset, an edge may cut across a sharp fold of the surface. Both its ends are then outside the band on the same side.
+  // With an offset, an edge may cut across a sharp fold of the surface. Both ends of the edge are then outside the band, and on
+  // the same side of the surface.
   bool only_cuts_off_fold(Vec3 p, Vec3 q) const {
     if (!request->surface.band().steps_aside()) return false;
     const NodePlace from = places->of(p), to = places->of(q);
     return !from.is_beyond_rim && !to.is_beyond_rim && from.side == to.side;
   }
 
-  // Returns false only if no point of the surface is within the radius of p. One query with a radius often replaces the queries
-  // of many edges. The margin is several times the rounding, including the rounding of p, which lies near the surface.
+  // Returns false only if no point of the surface is within the radius of p. One such query often makes the queries of many edges
+  // unnecessary. The margin is several times the rounding error, including that of p, which lies near the surface.
   bool may_be_within(Vec3 p, double radius) const {
     const TriangleScene &scene = request->surface.scene();
     return scene.closest(p, radius * (1 + 1e-9) + 4 * scene.rounding(), request->instructions).triangle >= 0;
@@ -79,7 +80,7 @@ struct alignas(64) Finder {
     for (std::int64_t i = begin; i < end; ++i) search_row(i);
   }
 
-  // Searches the edges from the nodes of a box of a grid to nodes with higher numbers.
+  // Searches the edges that lead from the nodes of a box of the grid to nodes with higher numbers.
   void search_box(const Grid &grid, const GridBox &box) {
     constexpr std::int64_t few = 64;
     GridBox ends = box;
@@ -187,7 +188,8 @@ Leaks listed(const SearchRequest &request, const std::vector<Edge> &edges) {
       view(list.node_id)[2 * i] = edge.a;
       view(list.node_id)[2 * i + 1] = edge.b;
       view(list.length)[i] = edge.length;
-      // The least half thickness that marks either end of the edge, with the same bits as in the marking.
+      // The least half thickness at which at least one end of the edge is marked. The computed number has the same bits as in a
+      // marking.
       view(list.distance)[i] =
           std::min(places.of(nodes[edge.a]).half_thickness, places.of(nodes[edge.b]).half_thickness);
     }

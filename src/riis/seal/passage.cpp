@@ -18,8 +18,8 @@
 namespace riis {
 namespace {
 
-// Each node is marked from some half thickness on, and the nodes are ordered by it. Without an offset, this half thickness is the
-// node's distance.
+// For each node there is a least half thickness that marks it, and the nodes are ordered by this number. Without an offset, the
+// number is the node's distance.
 
 // Returns the least half thickness that marks all of these nodes. Refuses nodes in the band.
 double largest_thickness(const SearchRequest &request, const char *name, ArrayView<const std::int64_t> ids) {
@@ -54,7 +54,7 @@ struct Candidate {
   }
 };
 
-// An edge between `node` and `other` that only the row of `other` lists.
+// An edge between `node` and `other` that is listed only in the row of `other`.
 struct OneWayEdge {
   std::int64_t node, other;
 
@@ -95,8 +95,8 @@ class Opening {
     return is_joined();
   }
 
-  // Opens closed nodes one by one, among those that are farther than `nearest`, until a node joins the ends. Returns this node,
-  // or a candidate with the id -1 if none does.
+  // Opens those closed nodes that are farther than `nearest`, one by one, until a node joins the two ends. Returns this node. If
+  // no node joins the ends, returns a candidate with the id -1.
   Candidate open_until_joined(double nearest) {
     const std::vector<OneWayEdge> one_way = one_way_edges();
     OpenSets sets = this->sets();
@@ -134,8 +134,8 @@ class Opening {
     return made;
   }
 
-  // Returns the edges that lead to closed nodes but are missing in these nodes' own rows. Most adjacencies are symmetric and have
-  // no such edges.
+  // Returns the edges that lead to a closed node but are not listed in the row of this node. Most adjacencies are symmetric and
+  // have no such edges.
   std::vector<OneWayEdge> one_way_edges() {
     constexpr std::int64_t rows_per_task = 4096;
     if (Edges::is_symmetric) return {};
@@ -169,8 +169,8 @@ template <class Edges>
 riis_passage find_passage_along(const SearchRequest &request, const Edges &edges, const PassageEnds &ends) {
   const auto start = std::chrono::steady_clock::now();
   const double half_thickness = request.surface.half_thickness(), beyond_all = thickest(request.surface.band());
-  // A path includes its ends. The half thickness at which the first node of a path becomes marked is therefore at most the one
-  // that marks either end.
+  // A path includes its two ends. As the half thickness grows, some node of the path is therefore marked no later than either
+  // end.
   const double widest =
       std::min(largest_thickness(request, "from", ends.from), largest_thickness(request, "to", ends.to));
   Opening<Edges> opening(request, edges, ends);

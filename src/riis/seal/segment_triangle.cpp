@@ -54,7 +54,7 @@ Exact<2> difference(double a, double b) {
   return made;
 }
 
-// Adds the doubles of b one after another. Each pass appends at most as many parts as it has read, so it overwrites only parts
+// Adds the doubles of b one after another. Each pass writes at most as many parts as it has read, so it overwrites only parts
 // that are no longer needed.
 template <int n, int m>
 Exact<n + m> operator+(const Exact<n> &a, const Exact<m> &b) {
@@ -101,7 +101,7 @@ Exact<2 * n> scaled(const Exact<n> &a, double factor) {
   return made;
 }
 
-// Multiplies by a number of at most two parts. Longer factors do not occur.
+// Multiplies by a number of at most two parts. No other factors are needed.
 template <int n>
 Exact<4 * n> operator*(const Exact<n> &a, const Exact<2> &b) {
   Exact<4 * n> made;
@@ -117,8 +117,8 @@ Exact<4 * n> operator*(const Exact<n> &a, const Exact<2> &b) {
 
 int sign(double x) { return (x > 0) - (x < 0); }
 
-// Each coordinate is 0 or at least negligible_coordinate in magnitude. A product of three coordinate differences therefore
-// changes by far less than the constant `underflow` if it underflows.
+// Each coordinate is 0 or at least negligible_coordinate in magnitude. If a product of three differences of coordinates
+// underflows, its error is therefore far below the constant `underflow`.
 constexpr double underflow = 1e-290;
 
 struct Point2 {
@@ -133,7 +133,7 @@ int orientation_exactly(Point2 a, Point2 b, Point2 c) {
 int orientation(Point2 a, Point2 b, Point2 c) {
   const double left = (a.u - c.u) * (b.v - c.v), right = (a.v - c.v) * (b.u - c.u);
   const double determinant = left - right;
-  // Shewchuk's bound of the error is (3 + 16 e) e with e = 2^-53. To be safe, the code uses 2^-51, which is larger.
+  // Shewchuk's bound on the relative error is (3 + 16 e) e with e = 2^-53. The code uses a larger number, 2^-51.
   if (std::abs(determinant) > 0x1p-51 * (std::abs(left) + std::abs(right)) + underflow) return sign(determinant);
   return orientation_exactly(a, b, c);
 }
@@ -154,7 +154,7 @@ int orientation(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
   const double magnitude = std::abs(p.z) * (std::abs(qxry) + std::abs(qyrx)) +
                            std::abs(q.z) * (std::abs(rxpy) + std::abs(rypx)) +
                            std::abs(r.z) * (std::abs(pxqy) + std::abs(pyqx));
-  // Shewchuk's bound of the error is (7 + 56 e) e with e = 2^-53. To be safe, the code uses 2^-50, which is larger.
+  // Shewchuk's bound on the relative error is (7 + 56 e) e with e = 2^-53. The code uses a larger number, 2^-50.
   if (std::abs(determinant) > 0x1p-50 * magnitude + underflow) return sign(determinant);
   return orientation_exactly(a, b, c, d);
 }
@@ -214,8 +214,8 @@ bool segment_meets_triangle(Vec3 a, Vec3 b, const std::array<Vec3, 3> &corners) 
   const int a_side = orientation(c[0], c[1], c[2], a), b_side = orientation(c[0], c[1], c[2], b);
   if (a_side * b_side > 0) return false;
   if (a_side == 0 && b_side == 0) return meets_in_plane(a, b, c);
-  // The segment's line meets the plane in one point. The point is in the triangle if the line passes all three edges on the same
-  // side.
+  // The line of the segment meets the plane in one point. This point is in the triangle if the line passes all three edges on the
+  // same side.
   return agree(orientation(a, b, c[0], c[1]), orientation(a, b, c[1], c[2]), orientation(a, b, c[2], c[0]));
 }
 

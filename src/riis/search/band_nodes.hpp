@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Places single nodes relative to a band with an offset. For a point at any distance from a surface, this file finds the half
-// thickness that marks the point, and the point's side.
+// Finds where single nodes are relative to a band with an offset. For a point at any distance from a surface, this file finds the
+// least half thickness that marks the point, and the point's side.
 #pragma once
 
 #include "search/search.hpp"
@@ -14,7 +14,7 @@ struct NodePlace {
   bool is_beyond_rim;
 };
 
-// Places nodes of a request, at any distance from the surface. Several threads may use one object at once.
+// Finds the places of nodes of a request, at any distance from the surface. Several threads may use one object at once.
 class NodePlaces {
  public:
   explicit NodePlaces(const SearchRequest &request);

@@ -19,7 +19,7 @@ namespace riis {
 namespace {
 
 // The number of points that are sorted together. A large batch takes 2 MB of memory. If consecutive points are near each other,
-// small batches are better: their leaves are as compact as those of large batches, and their points stay in the cache.
+// small batches are better. Their leaves are as compact as those of large batches, and their points stay in the cache.
 constexpr std::int64_t points_per_batch = 1 << 16, points_per_small_batch = 1 << 13;
 
 constexpr std::int64_t points_per_block = 2048;
@@ -41,14 +41,14 @@ class ClosestPoints {
         to_(to) {}
 
   void write() {
-    // If memory runs out later, the points are queried one by one, which needs the tree. The tree is therefore built before
-    // anything is written.
+    // If memory runs out later, the points are queried one by one with Embree's tree. The tree is therefore built before anything
+    // is written.
     scene_.build_tree();
     const int n_threads = request_.n_threads;
     if (!are_enough_for_clusters(wanted_.n, surface_)) {
       write_one_by_one({0, wanted_.n}, n_threads, [](Vec3) { return true; });
     } else if (wanted_.n >= n_threads * points_per_small_batch && follow_each_other()) {
-      // Each thread takes its own batches. The number of batches is a multiple of the number of threads.
+      // Each thread works on its own batches. The number of batches is a multiple of the number of threads.
       const std::int64_t of_all = n_threads * points_per_small_batch;
       const std::int64_t n_batches = (wanted_.n + of_all - 1) / of_all * n_threads;
       std::vector<Batch> batches;
@@ -64,8 +64,8 @@ class ClosestPoints {
 
  private:
   // `far` and `wide` are distances from the middle of the surface, as multiples of its half extent. For a point beyond `far`,
-  // single precision does not separate triangles. A single point beyond `far` would make the frame of its batch useless for the
-  // other points. If no point is beyond `wide`, one frame serves all batches.
+  // single precision cannot distinguish the triangles. Even one such point would make the frame of its batch useless for the
+  // other points. If no point is beyond `wide`, all batches use the same frame.
   static constexpr double far = 0x1p10, wide = 0x1p4;
 
   double reach_of(Vec3 p) const { return largest_coordinate(scene_.groups().frame(p)); }
@@ -74,9 +74,9 @@ class ClosestPoints {
   }
   bool is_far(Vec3 p) const { return may_be_far_ && !(reach_of(p) <= far); }
 
-  // Returns whether consecutive points are near each other. A small batch from the middle shows it: along some axis, the batch
-  // has at most half the extent of all points. The batch comes from the middle because many meshes begin with the nodes of their
-  // boundary. The function needs enough points for a small batch.
+  // Returns whether consecutive points are near each other. This is decided by one small batch: its extent along some axis must
+  // be at most half the extent of all points. The batch is taken from the middle of the list, because many meshes begin with the
+  // nodes of their boundary. The function needs enough points for a small batch.
   bool follow_each_other() const {
     const std::int64_t begin = (wanted_.n - points_per_small_batch) / 2;
     Bounds bounds;
@@ -99,7 +99,7 @@ class ClosestPoints {
     std::vector<OfThread> threads;
   };
 
-  // Queries and writes those points of a range for which is_asked(point) is true. The function needs no memory.
+  // Queries and writes those points of a range for which is_asked(point) is true. The function allocates no memory.
   template <class IsAsked>
   void write_one_by_one(const Range &all, int n_threads, const IsAsked &is_asked) const {
     constexpr std::int64_t few = 512;  // a query takes longer than a point of a batch
@@ -127,8 +127,8 @@ class ClosestPoints {
     write_one_by_one(range, n_threads, [](Vec3) { return true; });
   }
 
-  // Searches the points of a range over clusters, and writes them. If clusters cannot be used, returns false and has written
-  // nothing. If memory runs out, some points may already be written.
+  // Searches the points of a range over clusters, and writes them. If clusters cannot be used, returns false and writes nothing.
+  // If memory runs out, some points may already be written.
   bool search(const Range &range, int n_threads, Batch &batch) const {
     Bounds bounds = wanted_.bounds;
     if (is_spread_) {
@@ -187,8 +187,8 @@ class ClosestPoints {
   };
 
   // Calls visit(k, point, place) for the wanted points of a range. Leaves out far points, and points that are certainly beyond
-  // the limit. The first point of the range has the place k = 0. Within a block, the visited points get consecutive places, from
-  // the block's first k on.
+  // the limit. The first point of the range has k = 0. Within a block, the visited points get consecutive places, which begin
+  // with the block's first k.
   template <class Visit>
   std::array<Block, points_per_batch / points_per_block> visit_blocks(const Range &all, int n_threads,
                                                                       const Visit &visit) const {
@@ -219,7 +219,7 @@ class ClosestPoints {
     return blocks;
   }
 
-  // Makes items of those points of a range that are searched over clusters. Returns whether there are also far points.
+  // Makes items from those points of a range that are searched over clusters. Returns whether there are also far points.
   bool gather(const Range &all, int n_threads, Batch &batch) const {
     const std::int64_t n = all.end - all.begin;
     resize(batch.items, n);
@@ -242,7 +242,7 @@ class ClosestPoints {
     return has_far;
   }
 
-  // Writes the points that were found. The node `node` belongs to the point with the id id_of(node).
+  // Writes the points that were found. A found node is the point with the id id_of(node).
   template <class IdOf>
   void write_found(const UnfilledVector<FoundNode> &list, const IdOf &id_of) const {
     const TriangleSet &set = surface_.triangles();
@@ -256,7 +256,7 @@ class ClosestPoints {
     const double *const corners = scene_.groups().corners.data();
     const Kernels &simd = kernels(best_instruction_set());
     const bool is_located = to_.point || to_.barycentric || to_.side;
-    // With fewer triangles than points, a normal for each triangle takes less time than a normal for each point.
+    // If there are fewer triangles than points, the normals of all triangles take less time than a normal for each point.
     const bool has_normals = to_.side || (to_.normal && wanted_.n > set.n_triangles());
     const Pseudonormals *const normals = has_normals ? &surface_.pseudonormals() : nullptr;
     for (std::int64_t first = 0; first < view(list).size(); first += pairs_at_once) {
@@ -330,7 +330,7 @@ template <class Real>
 void find_closest_points(const ClosestPointsRequest &request, const StridedReals<Real> &points,
                          const riis_closest_arrays &to) {
   if (request.wanted.n == 0) return;
-  // Makes the pseudonormals before anything is written. If memory runs out meanwhile, the arrays are unchanged.
+  // Makes the pseudonormals before anything is written, so that the arrays stay unchanged if memory runs out here.
   if (to.side || (to.normal && request.wanted.n > request.surface.triangles().n_triangles()))
     request.surface.pseudonormals();
   ClosestPoints<Real>(request, points, to).write();

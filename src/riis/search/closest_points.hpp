@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the closest points on a surface's triangles for many points that belong to no mesh. The points and the results are in the
-// caller's arrays.
+// Finds, on the triangles of a surface, the closest points to many points that belong to no mesh. The points and the results are
+// in the caller's arrays.
 #pragma once
 
 #include <riis/riis.h>
@@ -14,7 +14,7 @@
 
 namespace riis {
 
-// The points that the caller wants: all points, the points of a mask, or the points of a list.
+// The points for which the caller wants results: all points, the points of a mask, or the points of a list.
 struct WantedPoints {
   std::int64_t n;  // the length of the list, or the number of all points
   const std::uint8_t *mask = nullptr;

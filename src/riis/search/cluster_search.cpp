@@ -16,11 +16,11 @@
 namespace riis {
 namespace {
 
-// At lengths above `large` in the surface's frame, single precision does not separate triangles.
+// For lengths above `large` in the surface's frame, single precision cannot distinguish the triangles.
 constexpr double large = 0x1p20;
 
-// If more than `most_groups` groups are near a leaf, querying each node is faster. So many groups are near only if a leaf is
-// large and the triangles near it are small.
+// If more than `most_groups` groups are near a leaf, querying each node is faster. This many groups are near a leaf only if the
+// leaf is large and the triangles near it are small.
 constexpr std::size_t most_groups = 4096;
 
 // Maps the mesh's frame to the surface's frame.
@@ -36,9 +36,9 @@ struct Placing {
 };
 
 #if defined(__SIZEOF_INT128__)
-// A number for each triangle. If the squares of the distances are finite, the numbers have the order of is_closer. The first 64
-// bits of the number are the bits of the square. Squares are not negative, so their bits have the same order. The last 64 bits
-// are the triangle, or the largest number if there is no triangle.
+// A number for each triangle. If the squares of the distances are finite, these numbers have the order of is_closer. The first 64
+// bits of the number are the bits of the square. Squares are never negative, so the order of their bits is the order of the
+// squares. The last 64 bits are the triangle, or the largest number if there is no triangle.
 __extension__ typedef unsigned __int128 Rank;
 Rank rank_of(const ClosestTriangle &closest) {
   std::uint64_t square;
@@ -61,7 +61,7 @@ ClosestTriangle closer_of(const ClosestTriangle &a, const ClosestTriangle &b) {
 }
 #endif
 
-// Nodes whose clusters are stored. GridClusters has the same functions, and makes its clusters when they are needed.
+// Nodes whose clusters are stored. GridClusters, which makes its clusters when they are needed, has the same functions.
 class StoredClusters {
  public:
   typedef GridClusters::Room Room;  // is not used
@@ -153,8 +153,8 @@ class ClusterSearch {
     own_.prepare(request.n_threads, !is_stored);
   }
 
-  // Finds the clusters that may be near the surface. For each such cluster, lists the groups that may be near the cluster. Each
-  // of these groups gets a bit for each leaf of the cluster that may be near it.
+  // Finds the clusters that may be near the surface. For each such cluster, lists the groups that may be near the cluster. For
+  // each of these groups, sets the bits of those leaves of the cluster that may be near the group.
   void find_near_clusters() {
     std::int64_t n_near;
     if constexpr (is_stored) {
@@ -188,11 +188,11 @@ class ClusterSearch {
     n_threads_ = std::max(n_threads_, n_ran);
   }
 
-  // Searches with a limit that excludes few triangles, or none. Instead of the limit, each box has a bound: its distance from a
-  // near point of the surface (docs/theory/clusters.md, "Every distance").
+  // Searches with a limit that excludes few or no triangles. Each box of nodes has its own bound instead: the distance from a
+  // point of the surface near the box (docs/theory/clusters.md, "Every distance").
   void search_every_cluster() {
     const auto n = nodes_.n_clusters();
-    // Threads that share the clusters of a region must each compare the region with the groups.
+    // If several threads share the clusters of a region, each thread has to compare the region with the groups.
     const std::int64_t per_block = n < 64 * request_.n_threads ? 1 : Clusters::clusters_per_region;
     constexpr std::int64_t few = 4;  // searching this many clusters takes about half a millisecond
     n_threads_ =
@@ -251,8 +251,8 @@ class ClusterSearch {
   void search_region(std::int64_t region, ClusterScratch::Thread &own) {
     ++own.n_queries;
     own.candidates.clear();
-    // A group's box is within its pack's box, also after rounding. A group near a cluster is therefore in a pack near the
-    // cluster.
+    // The box of a group lies within the box of its pack, even after rounding. If a group is near a cluster, its pack is
+    // therefore near also.
     own.bits.resize(groups_.packs.size());
     const Boxes &clusters = nodes_.region(region, own.room.get());
     if (!kernels_.near_boxes(of_packs_, clusters, own_.all_groups.data(),
@@ -268,7 +268,7 @@ class ClusterSearch {
     for (std::int64_t cluster = first; cluster < end; ++cluster) add_cluster(cluster, cluster - first, own);
   }
 
-  // Appends each numbers[k] whose bits[k] has the given bit. Returns how many numbers were appended.
+  // Appends numbers[k] for each k whose bits[k] has the given bit. Returns how many numbers were appended.
   std::size_t add_marked(const std::int32_t *numbers, const std::uint16_t *bits, std::size_t n, std::int64_t bit,
                          std::vector<std::int32_t> &to) const {
     const std::size_t first = to.size();
@@ -301,8 +301,8 @@ class ClusterSearch {
     const std::int32_t *const near_groups = own.near_groups.data() + first;
     std::uint16_t *const leaf_bits = own.leaf_bits.data() + first;
     const auto n_near = static_cast<std::int32_t>(n);
-    // Many groups are near a cluster if groups are smaller than its leaves. The boxes along the groups' own axes then exclude few
-    // clusters.
+    // If many groups are near a cluster, the groups are smaller than the cluster's leaves. The boxes along the groups' own axes
+    // then exclude few clusters.
     constexpr std::size_t many = 32;
     if (kernels_.near_boxes(task_, leaves, near_groups, n_near, leaf_bits) &&
         (n > many || kernels_.near_own_boxes(task_, leaves, near_groups, n_near, leaf_bits))) {
@@ -333,7 +333,8 @@ class ClusterSearch {
       near &= near - 1;
     }
   };
-  // Returns the near leaves of a cluster. Leaves of a grid need no prefetch, because each thread fills its leaves itself.
+  // Returns the near leaves of a cluster. The leaves of a grid need no prefetch, because the thread that reads them has filled
+  // them itself.
   LeavesAhead leaves_ahead(std::int64_t cluster, std::uint32_t near) const {
     if constexpr (is_stored)
       return {&nodes_.stored().leaves.get()[cluster * leaves_per_cluster], near};
@@ -350,8 +351,8 @@ class ClusterSearch {
     }
   }
 
-  // The pairs of a cluster's nodes and of triangles that the filter did not dismiss. The pairs are stored until double precision
-  // decides them.
+  // Pairs of a node of the cluster and a triangle, which the filter did not dismiss. The pairs are stored until double precision
+  // decides between the triangles.
   struct Pairs {
     const Open &cluster;
     Ties *ties;  // or null
@@ -360,11 +361,11 @@ class ClusterSearch {
     std::uint32_t nodes[leaves_per_cluster] = {};  // for each leaf, a bit for each node that has or had pairs
   };
 
-  // Sets the limits of a filter, for a limit in the surface's frame. Returns the filter's error.
+  // Computes the filter's limits for a distance limit in the surface's frame. Returns the filter's error.
   double limits_within(double limit, FilterLimits &limits) const {
     const double scale = groups_.frame.scale;
     // The first term is the filter's own error. The second term covers the rounding of the distances in double precision. The
-    // third term covers ties, which may be a little farther than the closest triangle.
+    // third term covers ties, which may be slightly farther than the closest triangle.
     const double error = filter_error(placing_.ratio, placing_.largest_shift, limit, groups_.longest_edge) +
                          4 * scene_.rounding() * scale + request_.ties.of_leaflets * scale;
     limits.reach_sq = static_cast<float>((limit + 2 * error) * (limit + 2 * error));
@@ -373,8 +374,8 @@ class ClusterSearch {
     return error;
   }
 
-  // Prepares the filter for a band with an offset, so that it leaves out nodes on the other side (docs/theory/clusters.md, "One
-  // side").
+  // Prepares the filter for a band with an offset. The filter then leaves out nodes far behind the surface
+  // (docs/theory/clusters.md, "One side").
   void look_at_one_side(const Band &band, double error) {
     const double half_thickness = band.half_thickness * groups_.frame.scale;
     if (!(half_thickness <= large)) return;
@@ -414,7 +415,8 @@ class ClusterSearch {
     return has_one;
   }
 
-  // Compares the normals of a group's triangles with the group's first axis. Returns a lower bound of the cosines of the angles.
+  // Compares the normals of a group's triangles with the group's first axis. Returns a lower bound on the cosine of the angle
+  // between a normal and this axis.
   static double least_cosine(const TriangleGroup &group, const GroupBounds &bounds) {
     const float(&axis)[3] = bounds.axis[0];
     float least = 1;
@@ -423,7 +425,7 @@ class ClusterSearch {
     return static_cast<double>(least) - 0x1p-20;
   }
 
-  // Returns the point of the surface that is closest to `to` on the group's nearest triangle.
+  // Finds the triangle of the group that is nearest to `to`, and returns the closest point on this triangle.
   Vec3 point_of_surface(std::int32_t group, Vec3 to) const {
     const float point[3] = {static_cast<float>(to.x), static_cast<float>(to.y), static_cast<float>(to.z)};
     float distance_sq[triangles_per_group];
@@ -437,12 +439,12 @@ class ClusterSearch {
                      .point);
   }
 
-  // One number for each of 16 boxes: the upper bound of its nodes' distances, in the surface's frame.
+  // For each of 16 boxes, an upper bound on the distances of the nodes in the box, in the surface's frame.
   struct UpperBounds {
     double of_box[leaves_per_cluster];
   };
 
-  // For each candidate group, sets a bit for each box that may have nodes whose closest triangle is in the group.
+  // For each candidate group, sets the bits of the boxes that may have nodes whose closest triangle is in the group.
   UpperBounds compare(const Boxes &boxes, const std::int32_t *candidates, std::size_t n,
                       std::uint16_t *competes) const {
     std::int32_t nearest[leaves_per_cluster];
@@ -538,7 +540,7 @@ class ClusterSearch {
       }
     Pairs pairs{cluster, found_.ties_of(thread), ahead};
     ClusterTask &task = own.task;
-    // So many pairs of a leaf and a group have bounds of 8 kB, which stay in the processor's first cache.
+    // The bounds of this many pairs of a leaf and a group take 8 kB, and thus stay in the processor's first cache.
     constexpr std::size_t many = 64;
     std::int32_t *const leaf_groups = own.room_for_groups(many + item.n);
     while (near) {
@@ -559,7 +561,8 @@ class ClusterSearch {
     }
     decide(own, pairs);
     while (pairs.ahead.near) pairs.ahead.request_one();
-    // Every node with pairs is written, without a branch. The position in the list advances only after a node within the limit.
+    // Every node with pairs is written, because this needs no branch. The loop moves to the next position only after a node
+    // within the limit.
     UnfilledVector<FoundNode> &found = view(found_.by_thread)[thread];
     const std::size_t n_before = found.size();
     std::size_t n_paired = 0;
@@ -580,7 +583,7 @@ class ClusterSearch {
     if (pairs.ties) settle_ties(own, pairs);
   }
 
-  // Turns the cluster's candidates for ties into ties, for the nodes within the limit.
+  // For the nodes within the limit, decides which candidates of the cluster are ties.
   __attribute__((noinline)) void settle_ties(const ClusterScratch::Thread &own, const Pairs &pairs) const {
     const auto closest_to = [&](std::int64_t node) -> auto & {
       const ClosestTriangle &closest = view(own.closest)[node];
@@ -619,7 +622,7 @@ class ClusterSearch {
     const auto request = [&](const void *from, std::size_t size) {
       for_each_line(from, size, [&](const char *line) { task.ahead.line[task.ahead.n++] = line; });
     };
-    // Many leaves near the surface have no pairs, so points and node numbers are prefetched only here.
+    // Many leaves near the surface turn out to have no pairs. Points and node numbers are therefore prefetched only now.
     for (std::int32_t i = 0; i < task.n_leaves; ++i) {
       const LeafTask &leaf = task.leaf[i];
       if (!leaf.may_be_near) continue;
@@ -656,7 +659,7 @@ class ClusterSearch {
     pairs.n = 0;
   }
 
-  // Each pair competes with its node's closest triangle so far.
+  // For each pair, compares the triangle with the closest triangle that the node has so far.
   static void take_closest(std::int32_t n, const std::int32_t *node, const std::int32_t *triangle,
                            const double *decided, ClosestTriangle *closest) {
     for (std::int32_t i = 0; i < n; ++i) {

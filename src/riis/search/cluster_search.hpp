@@ -63,19 +63,19 @@ struct ClusterScratch {
   void prepare(int n_threads, bool needs_room);
 };
 
-// Returns false if single precision cannot tell near triangles from far ones. This is so if the mesh or its distance from the
-// surface is about a million times the surface's size. It is also so for an extremely small mesh.
+// Returns false if single precision cannot tell near triangles from far triangles. This happens if the mesh, or its distance from
+// the surface, is about a million times as large as the surface. It also happens if the mesh is extremely small.
 bool separates_in_single_precision(const NodeSearch &request, const NodeFrame &nodes);
 
-// Returns whether clusters pay off for this number of nodes when the limit leaves out few of them. With fewer nodes, comparing
-// all groups with the first clusters takes longer than querying each node.
+// Returns whether a search over clusters is faster for this number of nodes, if the limit leaves out few nodes. With too few
+// nodes, comparing all groups with the first clusters takes longer than querying each node.
 bool are_enough_for_clusters(std::int64_t n_nodes, const Surface &surface);
 
 // Returns whether most triangles are beyond the limit for most nodes near the surface.
 bool has_few_near(const NodeSearch &request);
 
 // Searches over clusters. The clusters must belong to the request's mesh, and separates_in_single_precision must hold. `kernels`
-// must use the instructions of the request. Only ./run bench roofline passes other kernels, which count operations.
+// must use the instructions of the request. Only ./run bench roofline passes special kernels, which count operations.
 SearchReport search_clusters(const NodeSearch &request, const Clusters &clusters, const Kernels &kernels,
                              ClusterScratch &scratch, FoundNodes &found);
 SearchReport search_clusters(const NodeSearch &request, const GridClusters &clusters, const Kernels &kernels,

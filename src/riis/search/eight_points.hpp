@@ -35,8 +35,8 @@ struct EightPoints {
     if (side) simd.find_sides(pairs, on, normal_there, side);
   }
 
-  // Finds two things for each point: its height over the closest point, as Band takes it, and whether the closest point is on the
-  // rim. The height's magnitude is at most the distance.
+  // For each point, finds its height above the surface, as Band uses it, and whether the closest point is on the rim. The
+  // magnitude of the height is at most the distance.
   void find_heights(const Pseudonormals &normals, const Kernels &simd, const double *distance, double *height,
                     std::int32_t *is_on_rim) const {
     alignas(64) Lanes normal_there;

@@ -10,8 +10,8 @@
 namespace riis {
 namespace {
 
-// Blocks are small, so that two threads get equal shares of a coarse mesh's band. They are large enough to be distributed in
-// little time.
+// Blocks are small enough to give two threads equal shares of the band, even in a coarse mesh. They are also large enough to be
+// distributed in little time.
 constexpr std::int64_t nodes_per_block = 2048;
 
 struct EveryPoint {

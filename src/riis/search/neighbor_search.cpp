@@ -16,7 +16,8 @@ namespace riis {
 namespace {
 
 constexpr std::int64_t nodes_per_range = NeighborScratch::nodes_per_range, balls_per_block = 16;
-// One thread suffices for fewer balls than these numbers, because each part of the search then takes only a millisecond or two.
+// If there are fewer balls than these numbers, one thread is used, because each part of the search then takes only a millisecond
+// or two.
 constexpr std::int64_t few_balls = 256, few_large_balls = 64;
 
 template <class Distances>
@@ -70,8 +71,8 @@ class NeighborSearch {
     n_threads_ = std::max(n_threads_, n_ran);
   }
 
-  // Finds the balls that may hold a node within the limit. For each such ball, stores a lower bound on the distance of its centre
-  // from the surface.
+  // Finds the balls that may hold a node within the limit. For each such ball, stores a lower bound on the distance from the
+  // centre of the ball to the surface.
   void find_near_balls(const NodeBalls &balls) {
     std::vector<NearBall> &near = walked_.near_balls;
     near.clear();
@@ -109,7 +110,7 @@ class NeighborSearch {
     std::sort(near.begin(), near.end(), [](const auto &a, const auto &b) { return a.ball < b.ball; });
   }
 
-  // In every near ball, starts the walk at the first node that is not proved to be far.
+  // Starts the walk at one node of every near ball: the first node that is not proved to be far from the surface.
   void begin_in_near_balls(const NodeBalls &balls) {
     for (const NearBall &near : walked_.near_balls) {
       const Range range = balls.nodes_of(near.ball);
@@ -122,7 +123,8 @@ class NeighborSearch {
     }
   }
 
-  // Queries the nodes of near balls that the walk did not reach, except the nodes that the ball's centre proves to be far.
+  // Queries those nodes of near balls that the walk did not reach. Leaves out nodes that are proved to be far by the distance of
+  // the ball's centre.
   void prove(const NodeBalls &balls) {
     const auto n = view(walked_.near_balls).size();
     const int n_ran = parallel_for_ranges(n, balls_per_block, threads_near(), [&](const Range &block, int thread) {
@@ -171,8 +173,8 @@ class NeighborSearch {
     return near.distance - from_centre > limit_ + slack(near.distance + from_centre, centre);
   }
 
-  // Bounds the rounding errors in two distances and in a ball's radius. The bound is proportional to the two distances, the
-  // radius, and the coordinates of the nodes and the triangles.
+  // Bounds the sum of the rounding errors of two distances and of a ball's radius. The bound is proportional to the two
+  // distances, the radius, and the coordinates of the nodes and the triangles.
   double slack(double distances, Vec3 centre) const {
     return 1e-14 * (distances + std::abs(centre.x) + std::abs(centre.y) + std::abs(centre.z)) +
            2 * distances_.rounding();

@@ -56,13 +56,14 @@ class NeighborScratch {
   std::uint8_t walk_ = 0;
 };
 
-// Walks from neighbour to neighbour (paper, 4.2.2 "Recursive neighbor search"). After the walk, the search proves that a
-// remaining node is far, or queries the node (docs/theory/search.md). The walk starts at the nodes in `last`, which usually are
+// Walks from neighbour to neighbour (paper, 4.2.2 "Recursive neighbor search"). After the walk, the search proves for each
+// remaining node that it is far, or queries it (docs/theory/search.md). The walk starts at the nodes in `last`, which usually are
 // the nodes that the last marking found. The mesh must have an adjacency.
 SearchReport search_neighbors(const SearchRequest &request, const std::vector<std::int64_t> &last,
                               NeighborScratch &scratch, FoundNodes &found);
 
-// Runs the paper's algorithm exactly, without the proof that the remaining nodes are far. The mesh must have an adjacency.
+// Runs exactly the algorithm of the paper, which does not prove that the remaining nodes are far. The mesh must have an
+// adjacency.
 SearchReport search_as_the_paper(const SearchRequest &request, NeighborScratch &scratch, FoundNodes &found);
 
 }  // namespace riis

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The request and the report that all searches share.
-// A search takes a surface, a mesh and a limit. The search finds the nodes within the limit in any order, with their distances
-// and triangles.
+// A search takes a surface, a mesh and a limit. It finds the nodes within the limit, with their distances and closest triangles,
+// in any order.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,7 @@ namespace riis {
 // The nodes that a search finds, in one list for each thread. The lists' memory is reused, so the library allocates nothing in a
 // steady run of time steps.
 
-// A limit on the number of nodes. No memory can hold the coordinates of so many nodes.
+// A limit on the number of nodes. No machine has memory for the coordinates of this many nodes.
 inline constexpr std::int64_t max_nodes = std::int64_t{1} << 40;
 
 // A node within the distance limit. `triangle` is a position in the surface's set of triangles. If another method measures the
@@ -41,8 +41,9 @@ struct FoundNode {
 };
 static_assert(sizeof(FoundNode) == 16);
 
-// Each thread's list gets room for twice the longest list, because the threads' shares differ from step to step. The room is a
-// power of two. No memory is thus allocated in a step that finds a few more nodes than all previous steps.
+// Each thread's list gets room for twice the length of the longest list, because a thread finds more nodes in one step than in
+// another. The room is rounded up to a power of two. A step that finds slightly more nodes than all previous steps thus allocates
+// no memory.
 template <class Threads, class ListOf>
 void make_room(Threads &threads, const ListOf &list_of) {
   std::size_t largest = 0, room = 1;
@@ -60,7 +61,8 @@ struct FoundNodes {
 
   // Empties the lists, and makes room for the next search.
   void prepare(int n_threads, const TieRule &ties = {}) {
-    // Checks each list separately, because an earlier call may have run out of memory after the first list.
+    // Checks the size of each array of lists separately, because an earlier call may have run out of memory after the first
+    // array.
     if (view(by_thread).size() < n_threads) resize(by_thread, n_threads);
     if (view(ties_by_thread).size() < n_threads) resize(ties_by_thread, n_threads);
     make_room(
@@ -98,7 +100,7 @@ struct FoundNodes {
   }
 };
 
-// A search among nodes, wherever they are stored.
+// The request of a search that does not depend on how the nodes are stored.
 struct NodeSearch {
   const Surface &surface;
   double distance_limit;
@@ -106,7 +108,7 @@ struct NodeSearch {
   Threads n_threads;
   InstructionSet instructions;
   TieRule ties = {};
-  // If not null, the search may leave out nodes outside of this band, because the caller does not want them.
+  // If this pointer is not null, the search may leave out nodes outside of the band, because the caller does not want them.
   const Band *listed = nullptr;
 
   bool is_masked_out(std::int64_t node) const { return node_mask && !node_mask[node]; }
@@ -123,15 +125,15 @@ struct SearchReport {
   std::int64_t n_unreached;  // the nodes that the neighbour search found only by its proof
 };
 
-// Every search fills FoundNodes in any order. A search that reads an unusable coordinate fails with RIIS_INVALID_MESH.
+// Every search fills FoundNodes, in no particular order. A search that reads an unusable coordinate fails with RIIS_INVALID_MESH.
 
 // Queries every node (paper, 4.2.1 "Exhaustive node iteration").
 SearchReport search_exhaustively(const SearchRequest &request, FoundNodes &found);
-// Queries the nodes of a grid's box.
+// Queries every node in a box of a grid.
 SearchReport search_exhaustively(const NodeSearch &request, const Grid &grid, const GridBox &box, FoundNodes &found);
 
-// The two ways to measure distances in a search: to a surface's triangles, or by the surface's other method. Searches are
-// compiled for each of the two, so that distances to triangles need no virtual call.
+// A search measures distances in one of two ways: to a surface's triangles, or by another method of the surface. The code of
+// searches is compiled for both ways, so that distances to triangles need no virtual call.
 
 // Distances to the triangles of a surface.
 struct TriangleDistances {
@@ -144,8 +146,8 @@ struct TriangleDistances {
     return scene.closest(p, limit, instructions, ties);
   }
 
-  // Returns a number d: every point q is at least d - |q - p| away from the surface. A large d proves that all points near p are
-  // far from the surface. The result is infinity if d is above the limit.
+  // Returns a number d such that every point q is at least d - |q - p| away from the surface. A large d thus proves that all
+  // points near p are far from the surface. If d is above the limit, the result is infinity.
   double lower_bound(Vec3 p, double limit) const {
     return std::sqrt(scene.closest(p, limit, instructions).distance_sq);
   }
@@ -167,9 +169,9 @@ struct OtherDistances {
     return {found.distance_sq, found.patch};
   }
 
-  // Sampling measures the distance to fixed points, so the distance itself is the bound. Minimisation may end anywhere on S, so
-  // its result at p bounds no result at another point. However, every result is the distance to some point of S. It is therefore
-  // at least the distance to the triangles minus triangle_error.
+  // Sampling measures the distance to fixed points, so this distance itself is the bound. Minimisation may end at any point of S,
+  // so its result at p gives no bound for other points. However, every result is the distance to some point of S. Every result is
+  // therefore at least the distance to the triangles, minus triangle_error.
   double lower_bound(Vec3 p, double limit) const {
     if (method.is_of_fixed_points()) return std::sqrt(method.closest(p, limit).distance_sq);
     constexpr double far = std::numeric_limits<double>::infinity();

@@ -17,10 +17,10 @@
 namespace riis {
 namespace {
 
-// A curve may be halved `max_rounds` times. More halvings would make more triangles than the library can hold.
+// A curve may be halved at most `max_rounds` times. With more halvings, there would be more triangles than the library can hold.
 constexpr int max_rounds = 24;
 
-// The largest number of parts between two lines for the bound on the offset O (geometry/bulge.hpp).
+// To bound the offset O (geometry/bulge.hpp), the space between two lines is divided into at most this many parts.
 constexpr int most_parts = 8;
 
 // The errors of a patch of arcs between two lines of its grid.
@@ -68,7 +68,7 @@ class PlannedArcs {
     return polyline(edge_, set_.curve_of(patch_.v1), errors, &ColumnErrors::edge);
   }
 
-  // Neighbouring patches must have the same bits, so the offsets at both ends are taken from the sides.
+  // The offsets at both ends are taken from the sides, so that neighbouring patches have the same bits there.
   ArcLines arc_lines(const Vector<ColumnErrors> &errors, const Vector<int> &n_parts) const {
     ArcLines made;
     made.u_lines.reserve(lines_.size());
@@ -108,8 +108,7 @@ class PlannedArcs {
     const Vector<Bezier> &on_base = base_.between(i, j), &on_edge = edge_.between(i, j);
     const Curve &base = set_.curve_of(patch_.v0), &edge = set_.curve_of(patch_.v1);
     if (on_base.size() > 1 || on_edge.size() > 1) {
-      // bound_offset does not allow for jumps of O'. Where O' may jump inside the range, Bulge::linear_error gives the bound
-      // instead.
+      // bound_offset is not valid if O' jumps. If O' may jump inside the range, Bulge::linear_error gives the bound instead.
       const Bulge bulge(along(set_, patch_.v0), along(set_, patch_.v1), patch_.bulge);
       made.off_line = made.largest =
           bulge.linear_error(bulge.place(shares_[i]), bulge.place(shares_[j]), offset_share * max_error_);
@@ -146,7 +145,7 @@ class PlannedArcs {
   Vector<Vec3> offsets_;
 };
 
-// Returns the polyline of a curve with vertices at these shares.
+// Returns a polyline that replaces a curve, with its vertices at the given shares.
 Polyline polyline_at(const Curve &curve, const Vector<double> &shares, double enough) {
   CurvePoints points(curve, false, shares);
   Polyline made{{}, shares, {}, curve.length()};
@@ -159,13 +158,13 @@ Polyline polyline_at(const Curve &curve, const Vector<double> &shares, double en
   return made;
 }
 
-// Ascending positions, and a number `need` for each step between two neighbouring positions. The need, times the square of a
-// segment's width, bounds the error of a segment inside the step. This error is a share of the allowed error.
+// Ascending positions, and a number `need` for each step between two neighbouring positions. `need` times the square of a
+// segment's width bounds the error of a segment inside the step, as a share of the allowed error.
 struct Needs {
   Vector<double> at, need;
 };
 
-// Takes as few positions as possible, always including the first and the last. Each segment's error stays within the share `most`
+// Chooses as few positions as possible, among them the first and the last. The error of each segment is at most the share `most`
 // of the allowed error.
 Vector<double> segments(const Needs &needs, double most) {
   Vector<double> made{needs.at.front()};
@@ -182,7 +181,7 @@ Vector<double> segments(const Needs &needs, double most) {
   return made;
 }
 
-// Takes as many positions as segments(), but chooses them so that the segments' errors are as equal as possible.
+// Chooses as many positions as segments() does, but such that the errors of the segments are as equal as possible.
 Vector<double> balanced_segments(const Needs &needs, double most) {
   Vector<double> made = segments(needs, most);
   double low = 0, high = most;
@@ -196,14 +195,15 @@ Vector<double> balanced_segments(const Needs &needs, double most) {
   return made;
 }
 
-// Needs are computed on narrow steps, and the bound of a wide segment is a little larger than they say. The lines therefore use
-// up only `most_of_allowed` of the allowed error.
+// The needs are computed on narrow steps. The bound for a wide segment is slightly larger than these needs predict. The lines are
+// therefore chosen for only `most_of_allowed` of the allowed error.
 constexpr double most_of_allowed = 0.9;
-// Needs are computed on `steps_per_segment` times as many steps as the largest number of segments of a curve. The number of steps
-// stays between `least_steps` and `most_steps`.
+// The number of steps for the needs is `steps_per_segment` times the largest number of segments of a curve, but is kept between
+// `least_steps` and `most_steps`.
 constexpr int steps_per_segment = 4;
 constexpr std::size_t least_steps = 64, most_steps = 4096;
-// To save time, needs are computed only at every n-th opening. Later the lines are checked at every opening.
+// To save time, the needs are computed only at every `states_per_need`-th opening. The chosen lines are then checked at every
+// opening.
 constexpr std::size_t states_per_need = 4;
 
 // Halves those steps of a list that are too large. `is_too_large` has an entry for each step.
