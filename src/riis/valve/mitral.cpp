@@ -45,7 +45,7 @@ ValveKind make_kind() {
     {"anterior_length", length, "length of the anterior leaflet", 1, {2.12}, shortest, longest},
     {"posteromedial_commissure_height", length, "length of the leaflets at the commissures and the clefts",
      1, {0.8}, shortest, longest},
-    {"posterior_scallop_length1", length, "length of the two side scallops when open", 1, {1.35}, shortest, longest},
+    {"posterior_scallop_length1", length, "length of each of the two side scallops when open", 1, {1.35}, shortest, longest},
     {"posterior_scallop_length2", length, "length of the middle scallop when open", 1, {1.35}, shortest, longest},
     {"leaflet_arc_angle", degree, "angle of the arc that the free edges follow", 1, {120}, 1, 300},
     {"leaflet_inward_angle", degree, "direction of the open leaflets: 0 is inwards, 90 is straight down", 1, {75}, 0, 180},
