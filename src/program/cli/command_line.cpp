@@ -169,7 +169,7 @@ std::optional<Request> parse_command_line(int argc, char **argv) {
   checks->require_subcommand(1);
   add(*checks, "crossings", "Tell whether leaflets go through each other, at 101 openings", declare_crossings,
       finish_crossings, MarkOptions());
-  add(*checks, "leaks", "Tell whether a mesh lets flow through the marked valve", declare_leaks, finish_leaks,
+  add(*checks, "leaks", "Tell whether flow can pass through the marked valve in a mesh", declare_leaks, finish_leaks,
       MarkOptions());
   add(app, "size-field", "Write the edge lengths that a mesh needs near a valve, for gmsh", declare_size_field,
       finish_size_field, SizeFieldOptions());

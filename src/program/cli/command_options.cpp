@@ -94,8 +94,8 @@ void declare_valve(Command &command, ValveOptions &options) {
                "A kind of valve, such as aortic (default) or mitral; or a disease; or a file of patches (see riis help "
                "valves and riis help diseases)",
                options.valve);
-  command.text("--params,--params-closed", "FILE.json", "Parameters of the valve, or of its closed state",
-               options.params);
+  command.text("--params,--params-closed", "FILE.json",
+               "Parameters of the valve; with --params-open, of its closed state", options.params);
   declare_settings(command, "Set one parameter to a number or X,Y,Z; may be repeated", options);
 }
 
@@ -268,7 +268,8 @@ void declare_marking(Command &command, MarkOptions &options) {
 }
 
 void declare_loudness(Command &command, ValveOptions &options) {
-  command.flag("--quiet", "Print no table on stdout and no progress on stderr; warnings stay", options.quiet);
+  command.flag("--quiet", "Print no table on stdout and no progress on stderr, but still print warnings",
+               options.quiet);
   command.flag("--strict", "Exit with status 4 if there was a warning", options.strict);
 }
 
@@ -386,7 +387,10 @@ void declare_series(Command &command, MarkOptions &options) {
       .parsed("--frame-rate", "N", "Frames of the movie per second (default 10)", series.frame_rate,
               parse_positive_finite)
       ->needs(movie);
-  command.choice("--movie-view", "As --view (default oblique)", view_names, series.movie_view, "VIEW")->needs(movie);
+  command
+      .choice("--movie-view", "View of the movie, as for --view (default oblique)", view_names, series.movie_view,
+              "VIEW")
+      ->needs(movie);
   exclude_by_case(command, all_of_it);
   command.option("--opening")->excludes(times);
   command.option("--time")->excludes(times);
@@ -420,10 +424,10 @@ void declare_mark(Command command, MarkOptions &options) {
   declare_surface_in_place(command, options);
   declare_marking(command, options);
   command.group("Output");
-  CLI::Option *const output = command.text(
-      "--output", "OUT",
-      "Write the marked mesh: .vtu or .xdmf; .pvtu, .vti or .vtr if MESH has this format; with --cells also CASE/TIME",
-      options.output);
+  CLI::Option *const output = command.text("--output", "OUT",
+                                           "Write the marked mesh: .vtu or .xdmf; .pvtu, .vti or .vtr if MESH has this "
+                                           "format; with --cells also CASE/TIME of OpenFOAM",
+                                           options.output);
   command
       .text("--prefix", "NAME", "Begin the names of the arrays with NAME, as in NAME_marked (default riis)",
             options.prefix)
@@ -612,7 +616,7 @@ void declare_export(Command command, ExportOptions &options) {
     command.option(name)->needs(command.option("--cycle"));
   for (const char *name : {"--opening-seconds", "--closing-seconds"})
     command.option(name)->excludes(command.option("--cycle"));
-  command.parsed("--largest-edge", "L", "Cut triangles until no edge is longer than this in any frame",
+  command.parsed("--largest-edge", "L", "Cut triangles until no edge is longer than L in any frame",
                  options.largest_edge, parse_positive_finite);
   command.text("--name", "NAME", "Name of the valve in the solver and in its files (default the name of FOLDER)",
                options.name);
@@ -621,8 +625,7 @@ void declare_export(Command command, ExportOptions &options) {
             "State of the valve at the solver's first step (default closed, or with --cycle the state at time 0)",
             options.starts)
       ->check(CLI::IsMember(std::vector<std::string>{"closed", "open"}));
-  command.choice("--ring",
-                 "Export the ring of a bileaflet valve as a face beside the leaflets (default), or leave it out",
+  command.choice("--ring", "Export the ring of a bileaflet valve as one more face (default), or leave it out",
                  ring_names, options.ring);
   command.parsed("--density", "RHO", "Density of the fluid in kg/m3, used with MESH (default 1060, for blood)",
                  options.given_density, positive_amount_of(a_density));

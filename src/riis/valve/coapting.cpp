@@ -114,7 +114,7 @@ ValveKind make_kind(const char *name, double default_stretch) {
     {"commissure_expansion", number, "how far the commissures move outwards during opening, as a multiple of commissure_radius",
      1, {0.05}, 0, 0.3},
     {"translation", length, "shift of the valve", 3, {0, 0, 0}, -longest, longest},
-    opening_spec("0 closed to 1 open", 0),
+    opening_spec("from 0 (closed) to 1 (open)", 0),
   }, opening, true, check_values<n_cusps>, make_patches<n_cusps>, nullptr}, SkirtAxis::of_cusp);
   kind.has_exact_contacts = true;
   kind.is_seen_along_z = true;
