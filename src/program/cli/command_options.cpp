@@ -114,7 +114,7 @@ void declare_shape(Command &command, ValveOptions &options) {
       options.skirt, parse_positive_finite);
   command
       .text("--wall", "FILE",
-            "File of the wall where the skirt ends, in the mesh's coordinates and in a format of --surface",
+            "The wall at which the skirt ends: a file in a format of --surface, in the mesh's coordinates",
             options.wall)
       ->needs(skirt);
 }
@@ -341,7 +341,7 @@ void declare_pictures(Command &command, MarkOptions &options) {
 }
 
 void declare_stats(Command &command, MarkOptions &options) {
-  command.text("--stats", "FILE.json|-", "Write counts and seconds as JSON; - is stdout", options.stats);
+  command.text("--stats", "FILE.json|-", "Write counts, and times in seconds, as JSON; - is stdout", options.stats);
 }
 
 void declare_cycle(Command &command, std::string &cycle, std::int32_t &interpolation) {
@@ -537,7 +537,8 @@ void declare_states(Command command, StatesOptions &options) {
             options.output)
       ->required();
   command.parsed("--count", "N", "Number of openings (default 101)", options.n_states, parse_count);
-  command.flag("--coaptation", "Also give the area and the length over which leaflets touch", options.has_contacts);
+  command.flag("--coaptation", "Also write the area and the length of the contacts between leaflets",
+               options.has_contacts);
   declare_loudness(command, options);
   declare_valve(command, options);
   declare_shape(command, options);
@@ -743,8 +744,8 @@ void declare_patient(Command command, PatientOptions &options) {
                  positive_amount_of(a_resistance));
   command.parsed("--hold", "X", "With --solver openfoam: hold the valve at an opening below 1", options.hold,
                  parse_opening);
-  command.parsed("--heart-rate", "N", "With a solver: beats a minute, 40 to 180 (default 75)", options.heart_rate,
-                 parse_positive_finite);
+  command.parsed("--heart-rate", "N", "With a solver: heart rate in beats a minute, 40 to 180 (default 75)",
+                 options.heart_rate, parse_positive_finite);
 }
 
 void declare_params(Command command, ParamsOptions &options) {

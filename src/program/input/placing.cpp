@@ -516,7 +516,7 @@ std::string place_report(const Placed &placed, Reader reader) {
               : "\nThe landmarks do not determine " + joined_by(undetermined, ", ") +
                     ".\nThe table has guesses of these sizes, from the usual proportions of this kind of valve. The "
                     "error of a "
-                    "guess may move the valve by more\nthan a fifteenth of its radius. Add landmarks" +
+                    "guess may move the valve by more\nthan a fifteenth of the valve's radius. Add landmarks" +
                     (reader == Reader::program
                          ? ", or give known sizes in cm, for example by --set " + undetermined.front() + "=VALUE"
                          : ", or give known sizes") +
