@@ -107,7 +107,7 @@ void declare_opening(Command &command, ValveOptions &options) {
 void declare_shape(Command &command, ValveOptions &options) {
   command.text("--params-open", "FILE.json", "Parameters of the open state of the valve", options.params_open);
   command.text("--warp", "FILE.json|.csv",
-               "Pairs of landmarks, on the valve and in the patient, by which the valve is warped", options.warp);
+               "Pairs of landmarks on the valve and in the patient, which define a warp of the valve", options.warp);
   CLI::Option *const skirt = command.parsed(
       "--skirt", "L",
       "Length of the skirt from the valve to the wall, in the mesh's unit; with --wall, its largest length",
@@ -437,7 +437,8 @@ void declare_mark(Command command, MarkOptions &options) {
   declare_allow_none(command, options);
   command.text("--surface-output", "OUT.vtp", "Write the placed triangles", options.surface_output);
   declare_pictures(command, options);
-  command.text("--picture-velocity", "NAME", "Draw the speed of this array, such as U, in place of the marked cells",
+  command.text("--picture-velocity", "NAME",
+               "Draw the speed from this array of velocities, such as U, in place of the marked cells",
                options.style.velocity);
   declare_stats(command, options);
   declare_loudness(command, options);
@@ -650,7 +651,7 @@ void declare_place(Command command, PlaceOptions &options) {
                "Write the placed valve to this file, for --valve of other commands; - is stdout", options.output);
   command.text("--foam", "OUT", "Write the placed valve for OpenFOAM, in metres", options.foam_output);
   command
-      .parsed("--skirt", "L", "The longest skirt that OpenFOAM accepts, in the mesh's unit (default 6 mm)",
+      .parsed("--skirt", "L", "Largest length of the skirt to the wall in OpenFOAM, in the mesh's unit (default 6 mm)",
               options.skirt, parse_positive_finite)
       ->needs(command.option("--foam"));
   command.text("--c", "OUT", "The placed valve as lines of C", options.c_output);

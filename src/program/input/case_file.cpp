@@ -205,7 +205,7 @@ class CaseReader {
       values.refuse("surface_unit", "it needs the unit of the mesh, as in \"unit\": \"mm\"");
     const bool is_file = !options.surface.empty() || is_valve_file(options.valve);
     if (options.unit && is_file && !options.surface_unit)
-      values.refuse("surface_unit", "it is missing: \"unit\" needs the unit of the file");
+      values.refuse("surface_unit", "it is missing, but with \"unit\" it must give the unit of the file");
     if (options.surface_unit && !is_file && options.surface_unit != Unit::centimetre)
       values.refuse("surface_unit", "the parameters of the " + options.valve + " valve are in centimetres");
     if (options.unit) apply_units(options);
