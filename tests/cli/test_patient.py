@@ -455,7 +455,8 @@ exec '{shutil.which("gmsh")}' "$@" $longer
         self.refused(2, "--heart-rate needs --solver", "--heart-rate", "60")
         self.refused(2, "--heart-rate: 39.9 is not from 40 to 180 beats a minute", "--heart-rate", "39.9", "--solver", "openfoam")
         self.refused(2, "--hold needs --solver openfoam", "--hold", "0.5")
-        self.refused(2, "--hold: the opening must be below 1, but it is 1: write --hold 0.999", "--hold", "1", "--solver", "openfoam")
+        self.refused(2, "--hold: the opening must be below 1, but it is 1: write --hold 0.999", "--hold", "1",
+                     "--solver", "openfoam")
         self.refused(2, "--valve: .* are those of an aortic valve, and mitral is a mitral valve: leave out --valve",
                      "--valve", "mitral")
         self.refused(2, "--valve: the aortic valve does not close: write --valve coapting", "--valve", "aortic")
