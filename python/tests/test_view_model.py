@@ -1219,7 +1219,7 @@ def test_refused_sessions(tmp_path, small):
     (lambda m: m.set(0, "scale", -2.0), riis.InvalidArgumentError, "scale: is -2.0; it must be above 0"),
     (lambda m: m.set(0, "resistance", -1), riis.InvalidArgumentError, "resistance: is -1; it must be at least 0"),
     (lambda m: m.set(0, "triangulation", "x"), riis.InvalidArgumentError, "triangulation: is 'x'; it must be adapted or fixed"),
-    (lambda m: m.set(0, "name", "a b"), riis.InvalidArgumentError, "name: is 'a b'; it must be 1 to 64 letters"),
+    (lambda m: m.set(0, "name", "a b"), riis.InvalidArgumentError, "name: is 'a b'; it must have 1 to 64 characters: letters"),
     (lambda m: m.set(2, "gap", 1), riis.InvalidArgumentError, "i: is 2; there are 1 valves, from 0"),
     (lambda m: m.unset(0, "gapp"), riis.UnknownParameterError, "name: is 'gapp'"),
     (lambda m: m.place(0, (0, 0)), riis.InvalidArgumentError, r"origin: is \(0, 0\); it must be three finite numbers"),

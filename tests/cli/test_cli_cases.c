@@ -298,7 +298,8 @@ TEST(test_refused_cases) {
                       "{\"name\": \"a\", \"valve\": \"mitral\"}, {\"valve\": \"mitral\"}", "");
   expect_case_refused("name: \"a\" is already the name of another valve",
                       "{\"name\": \"a\", \"valve\": \"mitral\"}, {\"name\": \"a\", \"valve\": \"mitral\"}", "");
-  expect_case_refused("name: \"a b\" must be 1 to 64 letters", "{\"name\": \"a b\", \"valve\": \"mitral\"}", "");
+  expect_case_refused("name: \"a b\" must have 1 to 64 characters: letters",
+                      "{\"name\": \"a b\", \"valve\": \"mitral\"}", "");
   expect_case_refused("valve: either it or \"surface\" must be given", "{\"name\": \"a\"}", "");
   expect_case_refused("valve 0: 'pulmonary' is not a kind of valve", "{\"valve\": \"pulmonary\"}", "");
   expect_case_refused("opening: 1.5 is not from 0 to 1", "{\"valve\": \"mitral\", \"opening\": 1.5}", "");

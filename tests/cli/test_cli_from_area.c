@@ -202,8 +202,9 @@ TEST(test_refusals) {
   REFUSED(2, "--from is 2; it must be from 0 to 1", "--area", "1", "--from", "2");
   REFUSED(2, "--to is 0.2; it must be above the start of the range, 0.3", "--area", "1", "--from", "0.3", "--to",
           "0.2");
-  REFUSED(2, "an opening has no effect, because the command finds the opening", "--area", "1", "--opening", "0.5");
-  REFUSED(2, "an opening has no effect, because the command finds the opening", "--area", "1", "--set", "opening=0.5");
+  REFUSED(2, "a given opening has no effect, because the command finds the opening", "--area", "1", "--opening", "0.5");
+  REFUSED(2, "a given opening has no effect, because the command finds the opening", "--area", "1", "--set",
+          "opening=0.5");
   REFUSED(1, "'radus' is not a parameter of the bileaflet valve; did you mean 'radius'?", "--area", "1", "--solve",
           "radus");
   RUN_REFUSED(1, "parameter 'translation' has 3 values, not 1", "from-area", "--area", "1", "--valve", "trileaflet",

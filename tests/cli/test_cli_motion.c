@@ -95,8 +95,8 @@ TEST(test_usage) {
   RUN_REFUSED(2, "--time has no effect with --surface", "surface", "--surface", still, "--time", "0", "--output",
               moved);
   RUN_REFUSED(2, "--time requires --surface", "surface", "--valve", "mitral", "--time", "0", "--output", moved);
-  RUN_REFUSED(2, "--period needs a motion that repeats: --surface FILE.pvd or --cycle", "surface", "--period", "1",
-              "--output", moved);
+  RUN_REFUSED(2, "--period needs a motion that repeats: --surface FILE.pvd, --surface FILE.dat or --cycle", "surface",
+              "--period", "1", "--output", moved);
   RUN_REFUSED(2, "it needs --time T", "surface", "--surface", motion, "--period", "1", "--output", moved);
   RUN_REFUSED(2, "--time: 'soon' is not a number", "surface", "--surface", motion, "--time", "soon", "--output", moved);
   RUN_REFUSED(2, "--time is nan; it must be finite", "surface", "--surface", motion, "--time", "nan", "--output",

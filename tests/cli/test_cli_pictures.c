@@ -246,8 +246,9 @@ TEST(test_refused_looks) {
               "--picture-velocity", "U");
   RUN_REFUSED(2, "--picture-velocity has no effect with --picture-panels valve", "mark", scratch_path("in.vtu"),
               "--picture", scratch_path("no.png"), "--picture-velocity", "U", "--picture-panels", "valve");
-  RUN_REFUSED(2, "--picture-velocity: U has one time, and a movie has many", "mark", scratch_path("in.vtu"), "--times",
-              "0,1", "--cycle", "no.csv", "--movie", scratch_path("no.gif"), "--picture-velocity", "U");
+  RUN_REFUSED(2, "--picture-velocity: U is read at one time, but a movie shows many times", "mark",
+              scratch_path("in.vtu"), "--times", "0,1", "--cycle", "no.csv", "--movie", scratch_path("no.gif"),
+              "--picture-velocity", "U");
   RUN_REFUSED(2, "--picture-background: a movie cannot be transparent", "mark", scratch_path("in.vtu"), "--times",
               "0,1", "--cycle", "no.csv", "--movie", scratch_path("no.gif"), "--picture-background", "transparent");
   RUN_REFUSED(2, "--picture-size: both numbers must be even for the movie ", "mark", scratch_path("in.vtu"), "--times",

@@ -213,7 +213,8 @@ TEST(closed_curve_is_an_annulus) {
   /* Eight points do not determine all sizes. */
   RUN_FINE("place", scratch_path("a.json"), "--valve", "mitral");
   assert_non_null(strstr(program_out, "\nThe landmarks do not determine "));
-  assert_non_null(strstr(program_out, "The table has guesses of these sizes, from the usual proportions of the kind."));
+  assert_non_null(
+      strstr(program_out, "The table has guesses of these sizes, from the usual proportions of this kind of valve."));
   assert_non_null(strstr(program_out, "Add landmarks, or give known sizes in cm, for example by --set "));
   /* In an open curve, a label that names no landmark makes a point of the annulus. Other labels keep their meaning. */
   m = snprintf(curve, sizeof curve,
@@ -694,7 +695,7 @@ TEST(folds_are_refused) {
   RUN_REFUSED(1, "points.json: the warp folds near \"", "place", json_of_points(8, labels, points), "--valve",
               "coapting", "--warp", "exact", "--quiet");
   assert_non_null(strstr(program_err, "its determinant is -"));
-  assert_non_null(strstr(program_err, "; --warp smoothed folds too: look for a landmark in the wrong place"));
+  assert_non_null(strstr(program_err, "; --warp smoothed folds too: look for a misplaced landmark"));
   for (int i = 0; i < 2; ++i) {
     const double angle = (i ? 24 : 20) * acos(-1.0) / 180, radius = 10 * R - (i ? 6 : 0);
     points[6 + i][0] = 3 + 2, points[6 + i][1] = radius * sin(angle) + 1, points[6 + i][2] = -radius * cos(angle) - 3;

@@ -216,7 +216,8 @@ TEST(test_new_usage) {
   RUN_REFUSED(2, "--leaflets", "mark", mesh, "--leaflets", "connected");
   RUN_REFUSED(2, "--prefix requires --output", "mark", mesh, "--prefix", "left");
   RUN_REFUSED(2, "--replace requires --output", "mark", mesh, "--replace");
-  RUN_REFUSED(2, "--prefix: 'a b' must be 1 to 64 letters, digits", "mark", mesh, "--output", out, "--prefix", "a b");
+  RUN_REFUSED(2, "--prefix: 'a b' must have 1 to 64 characters: letters, digits", "mark", mesh, "--output", out,
+              "--prefix", "a b");
   RUN_REFUSED(2, "--prefix: the value is empty", "mark", mesh, "--output", out, "--prefix=", "--quiet");
   RUN_REFUSED(2, "--unit", "mark", mesh, "--unit", "km");
   RUN_REFUSED(2, "--scale excludes --unit", "mark", mesh, "--unit", "m", "--scale", "0.01");

@@ -81,7 +81,8 @@ TEST(test_options) {
   RUN_REFUSED(2, "--cycle needs --times", "mark", mesh, "--cycle", cycle);
   RUN_REFUSED(2, "--times needs --cycle", "mark", mesh, "--times", "0,1");
   RUN_REFUSED(2, "nothing to do: a MESH is needed", "mark", "--cycle", cycle, "--times", "0,1");
-  RUN_REFUSED(2, "--period needs a motion that repeats: --surface FILE.pvd or --cycle", "mark", mesh, "--period", "1");
+  RUN_REFUSED(2, "--period needs a motion that repeats: --surface FILE.pvd, --surface FILE.dat or --cycle", "mark",
+              mesh, "--period", "1");
   RUN_REFUSED(2, "--frame-rate requires --movie", "mark", mesh, "--times", "0,1", "--frame-rate", "1");
   RUN_REFUSED(2, "--opening excludes --times", "mark", mesh, "--cycle", cycle, "--times", "0,1", "--opening", "1");
   RUN_REFUSED(2, "--set opening has no effect with --times", "mark", mesh, "--cycle", cycle, "--times", "0,1", "--set",

@@ -191,8 +191,8 @@ TEST(test_names) {
   uris_valve valve = EXPORTED("--time-step", "0.01", RAMPS, "--valve", "mitral", "--name", "MV-1");
   assert_string_equal(valve.name, "MV-1");
   uris_free(&valve);
-  REFUSED(2, "--name: 'a b' must be 1 to 64 letters, digits, _, . and single -", EXPORT, "--time-step", "0.01", RAMPS,
-          "--name", "a b");
+  REFUSED(2, "--name: 'a b' must have 1 to 64 characters: letters, digits, _, . and -, without two - in a row", EXPORT,
+          "--time-step", "0.01", RAMPS, "--name", "a b");
   REFUSED(2, "--name: 'a--b' must be", EXPORT, "--time-step", "0.01", RAMPS, "--name", "a--b");
   REFUSED(2, "--ring has no effect: only a bileaflet valve has a ring", EXPORT, "--time-step", "0.01", RAMPS, "--ring",
           "none");

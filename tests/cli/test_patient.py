@@ -376,7 +376,7 @@ exec '{shutil.which("gmsh")}' "$@" $longer
         moved("nadir_left", aside, -6)
         for words in ["--warp", "exact"], []:
             self.refused(1, r"the warp (folds|turns) .*\. It does not fold with --warp smoothed --noise '0.6 mm', but first look "
-                            "for a landmark in the wrong place", *words)
+                            "for a misplaced landmark", *words)
         self.assertEqual((place("--warp", "smoothed"), place("--warp", "smoothed", "--noise", "0.6")), (1, 0))
         moved("commissure_right_left", self.root.e3, -10)
         done = self.refused(1, "the landmarks give .* and then cusp . would fold .*--set")
@@ -455,7 +455,8 @@ exec '{shutil.which("gmsh")}' "$@" $longer
         self.refused(2, "--heart-rate needs --solver", "--heart-rate", "60")
         self.refused(2, "--heart-rate: 39.9 is not from 40 to 180 beats a minute", "--heart-rate", "39.9", "--solver", "openfoam")
         self.refused(2, "--hold needs --solver openfoam", "--hold", "0.5")
-        self.refused(2, "--hold: the opening 1 is not below 1: write --hold 0.999", "--hold", "1", "--solver", "openfoam")
+        self.refused(2, "--hold: the opening must be below 1, but it is 1: write --hold 0.999", "--hold", "1",
+                     "--solver", "openfoam")
         self.refused(2, "--valve: .* are those of an aortic valve, and mitral is a mitral valve: leave out --valve",
                      "--valve", "mitral")
         self.refused(2, "--valve: the aortic valve does not close: write --valve coapting", "--valve", "aortic")
@@ -531,7 +532,8 @@ exec '{shutil.which("gmsh")}' "$@" $longer
         case = self.folder / "case"
         case.mkdir()
         (case / "notes.txt").write_text("mine", encoding="utf-8")
-        self.refused(1, "--output: case: the folder is not empty, and riis patient did not make it: name another", "--replace")
+        self.refused(1, "--output: case: the folder is not empty, and riis patient did not make it: name another folder",
+                     "--replace")
         self.assertEqual((case / "notes.txt").read_text(encoding="utf-8"), "mine")
         self.refused(1, "--output: root.stl/case: cannot be made: Not a directory", output="root.stl/case")
         # Parent folders are made. A far wall is refused in the new folder.

@@ -290,7 +290,7 @@ TEST(test_xdmf_of_three_axes) {
       "axes.xdmf", tetrahedron,
       "<Geometry GeometryType=\"X_Y_Z\"><DataItem Dimensions=\"12\">0 1 0 0 0 0 1 0 0 0 0 1</DataItem></Geometry>");
   expect_refused(riis_vtk_mesh_read(scratch_path("axes.xdmf"), &mesh), RIIS_FILE_ERROR,
-                 "has a Geometry of the type X_Y_Z; it must have 3 DataItems of one length");
+                 "has a Geometry of the type X_Y_Z; it must have 3 DataItems of equal length");
   write_xdmf("axes.xdmf", tetrahedron, "<Geometry Reference=\"XML\">/Xdmf/Domain/Geometry[1]</Geometry>");
   expect_refused(
       riis_vtk_mesh_read(scratch_path("axes.xdmf"), &mesh), RIIS_FILE_ERROR,

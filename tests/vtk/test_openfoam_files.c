@@ -352,7 +352,7 @@ static void test_centers(const char *name) {
   expect_fine(riis_vtk_mesh_read(scratch_path(name), &mesh));
   snprintf(path, sizeof path, "%s/1", name);
   expect_refused(riis_vtk_mesh_write(mesh, scratch_path(path)), RIIS_FILE_ERROR,
-                 "holds only fields of cells, but the nodes of the mesh are its points");
+                 "holds only fields of cells, but the nodes of the mesh are not centres of cells");
   riis_vtk_mesh_destroy(&mesh);
 }
 

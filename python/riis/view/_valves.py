@@ -306,7 +306,7 @@ def share(value: Any, name: str) -> float:
 def check_valve_name(value: Any) -> str:
     """Returns a name that the program accepts for a valve and its arrays."""
     if not isinstance(value, str) or not re.fullmatch("[A-Za-z0-9_.-]{1,64}", value) or value == "riis":
-        raise refuse(f"name: is {value!r}; it must be 1 to 64 letters, digits, _, - and ., and not riis")
+        raise refuse(f"name: is {value!r}; it must have 1 to 64 characters: letters, digits, _, - and ., and not riis")
     return value
 
 

@@ -53,7 +53,7 @@ std::optional<std::uintmax_t> limited_memory() { return std::nullopt; }
 // VTK draws by Cocoa here, so a picture needs no X display.
 void check_virtual_display() {}
 VirtualDisplay::VirtualDisplay() {
-  refuse_data("a picture cannot be drawn: VTK finds no display, and riis cannot make one on macOS");
+  refuse_data("a picture cannot be drawn: VTK finds no display, and riis cannot start a display on macOS");
 }
 VirtualDisplay::~VirtualDisplay() = default;
 

@@ -57,7 +57,7 @@ void check_motion(const Command &command, const MarkOptions &options) {
   if (!moves && options.time)
     refuse_usage("--time has no effect with --surface " + options.surface + ": a motion is a .pvd or .dat file");
   if (command.has("--period") && !moves && options.series.cycle.empty())
-    refuse_usage("--period needs a motion that repeats: --surface FILE.pvd or --cycle");
+    refuse_usage("--period needs a motion that repeats: --surface FILE.pvd, --surface FILE.dat or --cycle");
 }
 
 void check_open_state(const ValveOptions &options) {
@@ -116,7 +116,8 @@ void finish_surface_in_place(const Command &command, MarkOptions &options, bool 
 
 void check_distance(const Command &command, const MarkOptions &options) {
   if (command.has("--distance-tolerance") && options.surface_options.measure == RIIS_MEASURE_TRIANGLES)
-    refuse_usage("--distance-tolerance has no effect with --distance triangles, whose error --tolerance sets");
+    refuse_usage(
+        "--distance-tolerance has no effect with --distance triangles: --tolerance sets the error of triangles");
 }
 
 // Refuses options for the looks of pictures if there is neither a picture nor a movie. Also refuses options that do not fit a
@@ -136,7 +137,8 @@ void check_style(const Command &command, const MarkOptions &options) {
   if (style.panels == RIIS_VTK_PANELS_MARKS && options.mesh.empty() && options.series.case_file.empty())
     refuse_usage("--picture-panels marks: there is no mesh, so nothing is marked");
   if (style.velocity.empty()) return;
-  if (!movie.empty()) refuse_usage("--picture-velocity: " + style.velocity + " has one time, and a movie has many");
+  if (!movie.empty())
+    refuse_usage("--picture-velocity: " + style.velocity + " is read at one time, but a movie shows many times");
   if (style.panels == RIIS_VTK_PANELS_VALVE)
     refuse_usage("--picture-velocity has no effect with --picture-panels valve, because this panel shows no flow");
 }
@@ -206,7 +208,8 @@ MarkOptions finish_mark(const Command &command, MarkOptions options) {
   finish_surface_in_place(command, options);
   check_distance(command, options);
   if (!is_prefix(options.prefix))
-    refuse_usage("--prefix: '" + options.prefix.substr(0, 64) + "' must be 1 to 64 letters, digits, _, - and .");
+    refuse_usage("--prefix: '" + options.prefix.substr(0, 64) +
+                 "' must have 1 to 64 characters: letters, digits, _, - and .");
   if (options.at_cells) {
     if (!options.pictures.empty()) refuse_usage("--cells: --picture shows marks of nodes");
     if (!options.series.movie.empty()) refuse_usage("--cells: --movie shows marks of nodes");
@@ -265,7 +268,8 @@ AreaOptions finish_from_area(const Command &command, AreaOptions options) {
     refuse_usage("--areas needs --output, the file to which the cycle is written");
   if (options.solve == "opening" && sets_opening(options))
     refuse_usage(
-        "an opening has no effect, because the command finds the opening; with --solve scale or --solve NAME it finds "
+        "a given opening has no effect, because the command finds the opening; with --solve scale or --solve NAME it "
+        "finds "
         "a size");
   finish_valve(command, options);
   finish_areas(options);
@@ -276,7 +280,8 @@ ExportOptions finish_export(const Command &command, ExportOptions options) {
   check_folder_name(options.folder);
   // Two dashes in a row would end the comment in the XML file.
   if (command.has("--name") && (!is_prefix(options.name) || options.name.find("--") != std::string::npos))
-    refuse_usage("--name: '" + options.name.substr(0, 64) + "' must be 1 to 64 letters, digits, _, . and single -");
+    refuse_usage("--name: '" + options.name.substr(0, 64) +
+                 "' must have 1 to 64 characters: letters, digits, _, . and -, without two - in a row");
   if (command.has("--ring") && options.valve != "bileaflet")
     refuse_usage("--ring has no effect: only a bileaflet valve has a ring");
   check_set_opening(options, "has no effect, because the export contains all openings");
@@ -312,7 +317,8 @@ PatientOptions finish_patient(const Command &command, PatientOptions options) {
   if (options.noise && options.noise->number < 0) refuse_usage("--noise: " + options.noise->text + " is below 0");
   if (options.hold && options.solver != "openfoam")
     refuse_usage("--hold needs --solver openfoam: only the case for OpenFOAM can hold a valve at an opening");
-  if (options.hold && *options.hold >= 1) refuse_usage("--hold: the opening 1 is not below 1: write --hold 0.999");
+  if (options.hold && *options.hold >= 1)
+    refuse_usage("--hold: the opening must be below 1, but it is 1: write --hold 0.999");
   if (options.heart_rate && options.solver == "none")
     refuse_usage("--heart-rate needs --solver: only the case of a solver has a heart rate");
   if (options.heart_rate && (*options.heart_rate < 40 || *options.heart_rate > 180))

@@ -158,7 +158,7 @@ std::optional<Request> parse_command_line(int argc, char **argv) {
     declare(command, *parsed);
     commands.emplace_back(in.get_subcommand(name), [=]() -> Request { return finish(command, std::move(*parsed)); });
   };
-  add(app, "mark", "Mark the nodes of a mesh near a valve, at one time or at many", declare_mark, finish_mark,
+  add(app, "mark", "Mark the mesh nodes near a valve, at one time or at many times", declare_mark, finish_mark,
       MarkOptions());
   add(app, "surface", "Write or draw the triangles of a valve, without a mesh", declare_surface, finish_surface,
       MarkOptions());
@@ -169,7 +169,7 @@ std::optional<Request> parse_command_line(int argc, char **argv) {
   checks->require_subcommand(1);
   add(*checks, "crossings", "Tell whether leaflets go through each other, at 101 openings", declare_crossings,
       finish_crossings, MarkOptions());
-  add(*checks, "leaks", "Tell whether a mesh lets flow through the marked valve", declare_leaks, finish_leaks,
+  add(*checks, "leaks", "Tell whether flow can pass through the marked valve in a mesh", declare_leaks, finish_leaks,
       MarkOptions());
   add(app, "size-field", "Write the edge lengths that a mesh needs near a valve, for gmsh", declare_size_field,
       finish_size_field, SizeFieldOptions());
@@ -178,12 +178,12 @@ std::optional<Request> parse_command_line(int argc, char **argv) {
   add(app, "params", "Print the parameters of a valve", declare_params, finish_params, ParamsOptions());
   add(app, "place", "Find a valve's sizes and placement from a patient's landmarks", declare_place, finish_place,
       PlaceOptions());
-  add(app, "patient", "Make a mesh with a valve from a patient's wall and landmarks, and a case that a solver runs",
+  add(app, "patient", "Make a mesh with a valve, and a case for a solver, from a patient's wall and landmarks",
       declare_patient, finish_patient, PatientOptions());
-  named(app, "view", "Show a valve in a mesh in a browser, with the Python package riis");
+  named(app, "view", "Show a mesh and a valve in a browser, with the Python package riis");
   CLI::App *help = named(app, "help", "Explain a topic, or list the topics");
   std::string topic;
-  help->add_option("TOPIC", topic, "A topic from the list of riis help");
+  help->add_option("TOPIC", topic, "A topic that riis help lists");
   const auto asks_for_help = [](const std::string &word) { return word == "--help" || word == "-h"; };
   if (argc > 1 && std::string("view") == argv[1] && std::none_of(argv + 2, argv + argc, asks_for_help))
     run_view(argc, argv);

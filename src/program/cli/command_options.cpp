@@ -94,8 +94,8 @@ void declare_valve(Command &command, ValveOptions &options) {
                "A kind of valve, such as aortic (default) or mitral; or a disease; or a file of patches (see riis help "
                "valves and riis help diseases)",
                options.valve);
-  command.text("--params,--params-closed", "FILE.json", "Parameters of the valve, or of its closed state",
-               options.params);
+  command.text("--params,--params-closed", "FILE.json",
+               "Parameters of the valve; with --params-open, of its closed state", options.params);
   declare_settings(command, "Set one parameter to a number or X,Y,Z; may be repeated", options);
 }
 
@@ -106,14 +106,15 @@ void declare_opening(Command &command, ValveOptions &options) {
 // Declares the options of a valve's shape, without its opening.
 void declare_shape(Command &command, ValveOptions &options) {
   command.text("--params-open", "FILE.json", "Parameters of the open state of the valve", options.params_open);
-  command.text("--warp", "FILE.json|.csv", "Landmarks on the valve and in the patient, for a warp of the valve",
-               options.warp);
+  command.text("--warp", "FILE.json|.csv",
+               "Pairs of landmarks on the valve and in the patient, which define a warp of the valve", options.warp);
   CLI::Option *const skirt = command.parsed(
-      "--skirt", "L", "Length of a skirt to the wall, in the mesh's unit; with --wall, the largest length of the skirt",
+      "--skirt", "L",
+      "Length of the skirt from the valve to the wall, in the mesh's unit; with --wall, its largest length",
       options.skirt, parse_positive_finite);
   command
       .text("--wall", "FILE",
-            "File of the wall to which the skirt reaches, in the mesh's coordinates; formats as for --surface",
+            "The wall at which the skirt ends: a file in a format of --surface, in the mesh's coordinates",
             options.wall)
       ->needs(skirt);
 }
@@ -166,8 +167,8 @@ void declare_file(Command &command, ValveOptions &options) {
   for (const char *name : {"--tolerance", "--triangulation"}) surface->excludes(command.option(name));
   command.parsed("--time", "T", "Time to which the motion of --surface is interpolated", options.time, parse_number)
       ->needs(surface);
-  command.parsed("--period", "P", "Period with which the motion of --surface, or --cycle, repeats (default none)",
-                 options.period, parse_positive);
+  command.parsed("--period", "P", "Period of the motion of --surface, or of --cycle (default none)", options.period,
+                 parse_positive);
 }
 
 void declare_unit(Command &command, ValveOptions &options) {
@@ -198,7 +199,7 @@ void declare_placement(Command &command, ValveOptions &options) {
 void declare_half_thickness(Command &command, ValveOptions &options) {
   command.parsed("--half-thickness", "L", "Half thickness of the band (default 0.1 times the scale)",
                  options.surface_options.half_thickness, parse_positive);
-  command.parsed("--offset", "O", "Shift of the band along the normals, in half thicknesses, -1 to 1 (default 0)",
+  command.parsed("--offset", "O", "Shift of the band along the normals, in half thicknesses, from -1 to 1 (default 0)",
                  options.surface_options.offset, parse_number);
 }
 
@@ -240,7 +241,7 @@ void declare_marking(Command &command, MarkOptions &options) {
       "--resistance", "R", "Write riis_K at each node: R/eps times the delta function, with R in kg/(m s)",
       options.given_resistance, amount_of(a_resistance));
   command
-      .parsed("--k-unit", "UNIT", "Unit of riis_K (default kg/(m3 s), g/(cm3 s) or g/(mm3 s), by the mesh's unit)",
+      .parsed("--k-unit", "UNIT", "Unit of riis_K (default by the mesh's unit: kg/(m3 s), g/(cm3 s) or g/(mm3 s))",
               options.chosen_K_unit, [](const std::string &text, const std::string &) { return text; })
       ->needs(resistance);
   command
@@ -251,7 +252,7 @@ void declare_marking(Command &command, MarkOptions &options) {
                  options.far_distance, parse_number);
   command
       .choice("--distance",
-              "Measure distances to triangles (default), or by sampling or minimization of the smooth valve",
+              "Measure distances to triangles (default), or to the smooth valve by sampling or minimization",
               distance_names, options.surface_options.measure)
       ->excludes(command.option("--surface"));
   command.parsed("--distance-tolerance", "F", "Tolerance of sampling or minimization, in half thicknesses",
@@ -267,7 +268,8 @@ void declare_marking(Command &command, MarkOptions &options) {
 }
 
 void declare_loudness(Command &command, ValveOptions &options) {
-  command.flag("--quiet", "Print no table on stdout and no progress on stderr; warnings stay", options.quiet);
+  command.flag("--quiet", "Print no table on stdout and no progress on stderr, but still print warnings",
+               options.quiet);
   command.flag("--strict", "Exit with status 4 if there was a warning", options.strict);
 }
 
@@ -325,7 +327,8 @@ void declare_pictures(Command &command, MarkOptions &options) {
           ->allow_extra_args(false);
   command
       .values("--view", "VIEW",
-              "View of --picture: side, top, oblique (default) or three; valve-side, ... use the valve's axes",
+              "View of --picture: side, top, oblique (default) or three, in the mesh's axes; or valve-side, ... in the "
+              "valve's axes",
               [&options](const std::vector<std::string> &views) {
                 if (views.size() > options.pictures.size()) refuse_usage("--view: there are more views than pictures");
                 for (std::size_t i = 0; i < views.size(); ++i)
@@ -338,7 +341,7 @@ void declare_pictures(Command &command, MarkOptions &options) {
 }
 
 void declare_stats(Command &command, MarkOptions &options) {
-  command.text("--stats", "FILE.json|-", "Write counts and seconds as JSON; - is stdout", options.stats);
+  command.text("--stats", "FILE.json|-", "Write counts, and times in seconds, as JSON; - is stdout", options.stats);
 }
 
 void declare_cycle(Command &command, std::string &cycle, std::int32_t &interpolation) {
@@ -376,14 +379,18 @@ void declare_series(Command &command, MarkOptions &options) {
   CLI::Option *const all_of_it = declare_case(command, series);
   command.flag("--all-cells", "At each time, write the whole mesh, not only the cells near the moving valve",
                series.all_cells);
-  command.text("--series-table", "OUT.csv", "Write time, opening, marked nodes and speed of each step", series.table);
+  command.text("--series-table", "OUT.csv", "Write a table of each step's time, opening, marked nodes and speed",
+               series.table);
   CLI::Option *const movie =
-      command.text("--movie", "OUT.mp4|OUT.gif", "Make a movie of all times, by ffmpeg", series.movie);
+      command.text("--movie", "OUT.mp4|OUT.gif", "Make a movie of all times, with ffmpeg", series.movie);
   command
       .parsed("--frame-rate", "N", "Frames of the movie per second (default 10)", series.frame_rate,
               parse_positive_finite)
       ->needs(movie);
-  command.choice("--movie-view", "As --view (default oblique)", view_names, series.movie_view, "VIEW")->needs(movie);
+  command
+      .choice("--movie-view", "View of the movie, as for --view (default oblique)", view_names, series.movie_view,
+              "VIEW")
+      ->needs(movie);
   exclude_by_case(command, all_of_it);
   command.option("--opening")->excludes(times);
   command.option("--time")->excludes(times);
@@ -391,7 +398,8 @@ void declare_series(Command &command, MarkOptions &options) {
 
 void declare_cells_where(Command &command, ValveOptions &options) {
   command.text("--cells-where", "NAME=VALUES",
-               "Use only the cells with these values of a cell array, or gmsh:physical=NAME; see riis help mesh",
+               "Use only the cells whose value in the array NAME is one of VALUES, as in gmsh:physical=lumen; see riis "
+               "help mesh",
                options.cells_where);
 }
 
@@ -416,10 +424,10 @@ void declare_mark(Command command, MarkOptions &options) {
   declare_surface_in_place(command, options);
   declare_marking(command, options);
   command.group("Output");
-  CLI::Option *const output = command.text(
-      "--output", "OUT",
-      "Write the marked mesh: .vtu or .xdmf; .pvtu, .vti or .vtr if MESH has this format; with --cells also CASE/TIME",
-      options.output);
+  CLI::Option *const output = command.text("--output", "OUT",
+                                           "Write the marked mesh: .vtu or .xdmf; .pvtu, .vti or .vtr if MESH has this "
+                                           "format; with --cells also CASE/TIME of OpenFOAM",
+                                           options.output);
   command
       .text("--prefix", "NAME", "Begin the names of the arrays with NAME, as in NAME_marked (default riis)",
             options.prefix)
@@ -429,7 +437,8 @@ void declare_mark(Command command, MarkOptions &options) {
   declare_allow_none(command, options);
   command.text("--surface-output", "OUT.vtp", "Write the placed triangles", options.surface_output);
   declare_pictures(command, options);
-  command.text("--picture-velocity", "NAME", "Draw the speed of this array, such as U, in place of the marked cells",
+  command.text("--picture-velocity", "NAME",
+               "Draw the speed from this array of velocities, such as U, in place of the marked cells",
                options.style.velocity);
   declare_stats(command, options);
   declare_loudness(command, options);
@@ -473,14 +482,15 @@ void declare_leaks(Command command, MarkOptions &options) {
       .flag("--first-passage", "Also report the first opening at which unmarked nodes connect the points",
             options.first_passage)
       ->needs(command.option("--between"));
-  command.flag("--demand-sealed", "Exit with status 4 if the valve leaks or if leaks are unknown",
+  command.flag("--demand-sealed",
+               "Exit with status 4 if the valve leaks, or if the command cannot tell whether it leaks",
                options.demand_sealed);
   CLI::Option *const resistance =
-      command.parsed("--resistance", "R", "Resistance of the valve in kg/(m s); reports the ideal leak",
+      command.parsed("--resistance", "R", "Resistance of the valve in kg/(m s), to report the ideal leak; needs --drop",
                      options.given_resistance, positive_amount_of(a_resistance));
-  CLI::Option *const drop =
-      command.parsed("--drop", "DP", "Pressure drop across the closed valve in Pa; reports the ideal leak",
-                     options.given_drop, amount_of(a_pressure));
+  CLI::Option *const drop = command.parsed(
+      "--drop", "DP", "Pressure drop across the closed valve in Pa, to report the ideal leak; needs --resistance",
+      options.given_drop, amount_of(a_pressure));
   drop->needs(resistance);
   resistance->needs(drop);
   declare_surface_in_place(command, options);
@@ -500,8 +510,8 @@ void declare_size_field(Command command, SizeFieldOptions &options) {
       ->required();
   command.parsed("--band-edge", "F", "Edge length in the band, in half thicknesses (default 0.95)", options.band_edge,
                  parse_positive_finite);
-  command.parsed("--growth", "F", "Growth of the edge length per distance from the band (default 0.3)", options.growth,
-                 parse_positive_finite);
+  command.parsed("--growth", "F", "Growth of the edge length per unit of distance from the band (default 0.3)",
+                 options.growth, parse_positive_finite);
   command.parsed("--largest-edge", "L", "Largest edge length, in the mesh's unit (default 4 half thicknesses)",
                  options.largest_edge, parse_positive_finite);
   command.parsed("--spacing", "L", "Spacing of the grid, in the mesh's unit (default 0.5 half thicknesses)",
@@ -528,7 +538,8 @@ void declare_states(Command command, StatesOptions &options) {
             options.output)
       ->required();
   command.parsed("--count", "N", "Number of openings (default 101)", options.n_states, parse_count);
-  command.flag("--coaptation", "Also give the area and the length over which leaflets touch", options.has_contacts);
+  command.flag("--coaptation", "Also write the area and the length of the contacts between leaflets",
+               options.has_contacts);
   declare_loudness(command, options);
   declare_valve(command, options);
   declare_shape(command, options);
@@ -543,9 +554,9 @@ void declare_states(Command command, StatesOptions &options) {
 }
 
 void declare_from_area(Command command, AreaOptions &options) {
-  CLI::Option *const area =
-      command.parsed("--area", "A", "The area in the mesh's unit squared, or with a unit, such as '2.5 cm2'",
-                     options.given_area, amount_of(an_area));
+  CLI::Option *const area = command.parsed(
+      "--area", "A", "The area of the orifice, in the mesh's unit squared or with a unit, such as '2.5 cm2'",
+      options.given_area, amount_of(an_area));
   CLI::Option *const areas = command.text(
       "--areas", "FILE.csv", "File with the columns time and area, from which the command makes a cycle of openings",
       options.areas);
@@ -563,7 +574,7 @@ void declare_from_area(Command command, AreaOptions &options) {
   command.parsed("--from", "X", "Least opening or size to consider", options.from, parse_number);
   command.parsed("--to", "X", "Largest opening or size to consider", options.to, parse_number);
   command
-      .text("--output", "OUT.csv|-", "Write the cycle, a file for --cycle of the other commands; - is stdout",
+      .text("--output", "OUT.csv|-", "Write the cycle to this file, for --cycle of other commands; - is stdout",
             options.output)
       ->needs(areas);
   command.parsed("--period", "P", "Period of --areas (default none)", options.period, parse_positive)->needs(areas);
@@ -593,21 +604,21 @@ void declare_export(Command command, ExportOptions &options) {
       .parsed("--resistance", "R", "Resistance of the valve in kg/(m s), for the solver's input",
               options.given_resistance, amount_of(a_resistance))
       ->required();
-  command.parsed("--opening-seconds", "T", "Open from 0 to 1 in this time, by a smooth ramp", options.opening_duration,
-                 parse_positive_finite);
-  command.parsed("--closing-seconds", "T", "Close from 1 to 0 in this time", options.closing_duration,
+  command.parsed("--opening-seconds", "T", "Time in which the valve opens from 0 to 1, by a smooth ramp",
+                 options.opening_duration, parse_positive_finite);
+  command.parsed("--closing-seconds", "T", "Time in which the valve closes from 1 to 0", options.closing_duration,
                  parse_positive_finite);
   declare_cycle(command, options.cycle, options.interpolation);
   command.parsed("--period", "P", "Period of --cycle (default none)", options.period, parse_positive);
-  command.parsed("--opening-span", "START:STOP", "Times of --cycle at which the valve opens", options.opening_span,
-                 parse_span);
-  command.parsed("--closing-span", "START:STOP", "Times of --cycle at which the valve closes", options.closing_span,
-                 parse_span);
+  command.parsed("--opening-span", "START:STOP", "Times of --cycle at which the valve starts and stops opening",
+                 options.opening_span, parse_span);
+  command.parsed("--closing-span", "START:STOP", "Times of --cycle at which the valve starts and stops closing",
+                 options.closing_span, parse_span);
   for (const char *name : {"--period", "--opening-span", "--closing-span"})
     command.option(name)->needs(command.option("--cycle"));
   for (const char *name : {"--opening-seconds", "--closing-seconds"})
     command.option(name)->excludes(command.option("--cycle"));
-  command.parsed("--largest-edge", "L", "Cut triangles until no edge is longer than this in any frame",
+  command.parsed("--largest-edge", "L", "Cut triangles until no edge is longer than L in any frame",
                  options.largest_edge, parse_positive_finite);
   command.text("--name", "NAME", "Name of the valve in the solver and in its files (default the name of FOLDER)",
                options.name);
@@ -616,12 +627,11 @@ void declare_export(Command command, ExportOptions &options) {
             "State of the valve at the solver's first step (default closed, or with --cycle the state at time 0)",
             options.starts)
       ->check(CLI::IsMember(std::vector<std::string>{"closed", "open"}));
-  command.choice("--ring",
-                 "Export the ring of a bileaflet valve as a face beside the leaflets (default), or leave it out",
+  command.choice("--ring", "Export the ring of a bileaflet valve as one more face (default), or leave it out",
                  ring_names, options.ring);
-  command.parsed("--density", "RHO", "Density of the fluid in kg/m3, used with MESH (default 1060, as blood)",
+  command.parsed("--density", "RHO", "Density of the fluid in kg/m3, used with MESH (default 1060, for blood)",
                  options.given_density, positive_amount_of(a_density));
-  command.parsed("--viscosity", "MU", "Viscosity of the fluid in Pa s, used with MESH (default 0.004, as blood)",
+  command.parsed("--viscosity", "MU", "Viscosity of the fluid in Pa s, used with MESH (default 0.004, for blood)",
                  options.given_viscosity, positive_amount_of(a_viscosity));
   for (const char *name : {"--density", "--viscosity"}) command.option(name)->needs(command.option("MESH"));
   declare_loudness(command, options);
@@ -637,11 +647,11 @@ void declare_place(Command command, PlaceOptions &options) {
       .text("LANDMARKS", "FILE.json|.csv|.fcsv", "The landmarks: JSON, CSV, or 3D Slicer's .mrk.json or .fcsv",
             options.landmarks)
       ->required();
-  command.text("--output", "OUT.json", "Write the placed valve, a file for --valve of the other commands; - is stdout",
-               options.output);
+  command.text("--output", "OUT.json",
+               "Write the placed valve to this file, for --valve of other commands; - is stdout", options.output);
   command.text("--foam", "OUT", "Write the placed valve for OpenFOAM, in metres", options.foam_output);
   command
-      .parsed("--skirt", "L", "The longest skirt that OpenFOAM accepts, in the mesh's unit (default 6 mm)",
+      .parsed("--skirt", "L", "Largest length of the skirt to the wall in OpenFOAM, in the mesh's unit (default 6 mm)",
               options.skirt, parse_positive_finite)
       ->needs(command.option("--foam"));
   command.text("--c", "OUT", "The placed valve as lines of C", options.c_output);
@@ -656,7 +666,7 @@ void declare_place(Command command, PlaceOptions &options) {
       ->check(CLI::IsMember(std::vector<std::string>{"LPS", "RAS"}));
   command.choice("--warp", "Warp the valve to the landmarks: none (default), exact, or smoothed by their noise",
                  warp_names, options.warp_choice);
-  command.value("--noise", "L", "Standard deviation of each coordinate of the landmarks (default 0.3 mm)",
+  command.value("--noise", "L", "Noise of the landmarks: the standard deviation of each coordinate (default 0.3 mm)",
                 [&options](const std::string &text) {
                   options.noise = parse_number(text, "--noise");
                   if (!(*options.noise >= 0)) refuse_usage("--noise: " + text + " is below 0");
@@ -691,17 +701,16 @@ void declare_patient(Command command, PatientOptions &options) {
                options.replace);
   declare_loudness(command, options);
   command.group("Landmarks and wall (points, and lengths without a unit, are in the unit of WALL)");
-  declare_unit_of(command, "--wall-unit", "Unit of WALL (default the unit in which the landmarks lie at the wall)",
+  declare_unit_of(command, "--wall-unit", "Unit of WALL (default the unit that puts the landmarks at the wall)",
                   options.wall_unit);
-  command
-      .text("--axes", "LPS|RAS", "Axes of WALL (default the axes in which the landmarks lie at the wall)", options.axes)
+  command.text("--axes", "LPS|RAS", "Axes of WALL (default the axes that put the landmarks at the wall)", options.axes)
       ->check(CLI::IsMember(std::vector<std::string>{"LPS", "RAS"}));
   declare_unit_of(command, "--unit",
                   "Unit of the files in FOLDER (default the solver's unit, or WALL's unit without a solver)",
                   options.unit);
   command.choice("--warp", "Warp the valve to the landmarks: none, exact, or smoothed by their noise (default)",
                  warp_names, options.warp_choice);
-  command.parsed("--noise", "L", "Standard deviation of each coordinate of the landmarks (default 0.3 mm)",
+  command.parsed("--noise", "L", "Noise of the landmarks: the standard deviation of each coordinate (default 0.3 mm)",
                  options.noise, amount_of(a_length));
   command.value("--flow", "X,Y,Z", "Direction of flow through the valve, in the axes of WALL",
                 [&options](const std::string &text) { options.flow = parse_list(text, "--flow", 3, "X,Y,Z"); });
@@ -727,7 +736,8 @@ void declare_patient(Command command, PatientOptions &options) {
   command.group("Mesh and flow");
   command.parsed("--half-thickness", "L", "Half thickness of the band (default 1 mm, and 1.5 mm for a mitral valve)",
                  options.given_half_thickness, positive_amount_of(a_length));
-  command.parsed("--band-edge", "F", "Edge length in the band, in half thicknesses (default 0.95; svmultiphysics 0.55)",
+  command.parsed("--band-edge", "F",
+                 "Edge length in the band, in half thicknesses (default 0.95, or 0.55 for svmultiphysics)",
                  options.band_edge, parse_positive_finite);
   command.parsed("--largest-edge", "L", "Largest edge length of the mesh (default 3 half thicknesses)",
                  options.given_largest_edge, positive_amount_of(a_length));
@@ -735,8 +745,8 @@ void declare_patient(Command command, PatientOptions &options) {
                  positive_amount_of(a_resistance));
   command.parsed("--hold", "X", "With --solver openfoam: hold the valve at an opening below 1", options.hold,
                  parse_opening);
-  command.parsed("--heart-rate", "N", "With a solver: beats a minute, 40 to 180 (default 75)", options.heart_rate,
-                 parse_positive_finite);
+  command.parsed("--heart-rate", "N", "With a solver: heart rate in beats a minute, 40 to 180 (default 75)",
+                 options.heart_rate, parse_positive_finite);
 }
 
 void declare_params(Command command, ParamsOptions &options) {

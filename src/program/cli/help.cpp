@@ -502,7 +502,7 @@ std::string list_of_topics() {
 }  // namespace
 
 const char *const description =
-    "Marks the nodes of a mesh whose distance to the surface of a heart valve is at most the half thickness.";
+    "Marks the mesh nodes whose distance to the surface of a heart valve is at most the half thickness.";
 
 std::string help_of(const std::string &command) {
   for (const Footer &footer : footers)

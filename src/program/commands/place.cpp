@@ -87,7 +87,7 @@ std::string c_of(const Placed &placed) {
         made += (i == 0 ? "\n  {" : ",\n  {") + numbers_text(xyz.data() + i, 3, ", ") + "}";
       return made + "};\n";
     };
-    text += "/* The warp takes landmarks on the valve to the patient's landmarks. */\n" +
+    text += "/* The warp moves landmarks on the valve to the patient's landmarks. */\n" +
             array("on_valve", placed.sources) + array("in_patient", placed.targets) +
             "riis_points sources, targets;\nriis_warp_options warp_options;\nriis_warp *warp = NULL;\n";
     for (const auto &[points, from] : {std::pair("sources", "on_valve"), std::pair("targets", "in_patient")}) {
@@ -133,7 +133,7 @@ std::string fortran_of(const Placed &placed) {
         made += "  " + numbers_text(xyz.data() + i, 3, ", ", in_fortran) + (i + 3 < xyz.size() ? ", &\n" : "");
       return made + "], [3, " + std::to_string(xyz.size() / 3) + "])";
     };
-    text += "! The warp takes landmarks on the valve to the patient's landmarks.\ncall warp%create(" +
+    text += "! The warp moves landmarks on the valve to the patient's landmarks.\ncall warp%create(" +
             array(placed.sources) + ", &\n  noise=" + in_fortran(placed.warp_noise) + ", " + where +
             "call warp%set_targets(" + array(placed.targets) + ")\ncall valve%set_warp(warp)\ncall warp%destroy()\n";
   }

@@ -19,13 +19,14 @@ namespace {
 std::string advice_on_band(const std::string &kind) {
   if (kind == "bileaflet") return "band: leave --offset at 0, because the flow passes on both sides of the leaflets\n";
   std::string advice =
-      "band: with a cut rim and a skirt, --offset 0.75 gives the flow the full width of an open valve. It\n"
+      "band: with a cut rim and a skirt, --offset 0.75 gives the flow the full width of an open valve. This offset\n"
       "needs a half thickness of at least twice the gap of the closed valve. If the half thickness is between the gap\n"
-      "and twice the gap, take --offset 0.5. If it is smaller than the gap, leave --offset at 0 (docs/choosing.md)\n";
+      "and twice the gap, take --offset 0.5. If the half thickness is below the gap, leave --offset at 0\n"
+      "(docs/choosing.md)\n";
   if (kind == "coapting")
     advice +=
-        "With a half thickness of 1 mm, a half-open coapting valve still leaves 5 % less area than its leaflets would\n"
-        "leave as thin walls (docs/validation.md)\n";
+        "Even with --offset 0.75, a half-open coapting valve with a half thickness of 1 mm leaves 5 % less area than\n"
+        "its leaflets would leave as thin walls (docs/validation.md)\n";
   return advice;
 }
 

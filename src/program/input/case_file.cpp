@@ -176,7 +176,8 @@ class CaseReader {
       if (n_valves > 1) values.refuse("name", "it is missing, and each of several valves needs a name");
       return all_.options.prefix;
     }
-    if (!is_prefix(name)) values.refuse("name", "\"" + name + "\" must be 1 to 64 letters, digits, _, - and .");
+    if (!is_prefix(name))
+      values.refuse("name", "\"" + name + "\" must have 1 to 64 characters: letters, digits, _, - and .");
     if (n_valves > 1 && name == all_.options.prefix)
       values.refuse("name", "\"" + name + "\" is already the name of the sums over all valves");
     if (!names_.insert(name).second) values.refuse("name", "\"" + name + "\" is already the name of another valve");
@@ -204,7 +205,7 @@ class CaseReader {
       values.refuse("surface_unit", "it needs the unit of the mesh, as in \"unit\": \"mm\"");
     const bool is_file = !options.surface.empty() || is_valve_file(options.valve);
     if (options.unit && is_file && !options.surface_unit)
-      values.refuse("surface_unit", "it is missing: \"unit\" needs the unit of the file");
+      values.refuse("surface_unit", "it is missing, but with \"unit\" it must give the unit of the file");
     if (options.surface_unit && !is_file && options.surface_unit != Unit::centimetre)
       values.refuse("surface_unit", "the parameters of the " + options.valve + " valve are in centimetres");
     if (options.unit) apply_units(options);
@@ -255,7 +256,7 @@ class CaseReader {
       source.warp = WarpSource(path_, object, values.needed("warp"), source.options.surface_options);
     }
     if (times.empty() && source.warp.moves())
-      values.refuse("warp", "landmarks that move need times in the file or from --times");
+      values.refuse("warp", "landmarks that move need times, from the case file or from --times");
     source.warp.apply(times.empty() ? 0 : times.front(), valve);
   }
 
@@ -278,7 +279,7 @@ class CaseReader {
       if (!found.file.empty()) all_.files.push_back(found.file);
     }
     if (times.empty() && !source.law.is_constant())
-      values.refuse("opening", "a valve that moves needs times in the file or from --times");
+      values.refuse("opening", "a valve that moves needs times, from the case file or from --times");
     check(riis_valve_set_scalar(valve, "opening", largest_opening(source.law, times)), source.subject);
   }
 
@@ -286,7 +287,8 @@ class CaseReader {
     for (const char *key : {"parameters", "open_parameters", "opening", "tolerance", "triangulation", "warp"})
       if (values.has(key)) values.refuse(key, "it cannot be combined with \"surface\"");
     if (is_motion(source.options)) {
-      if (!all_.is_series()) values.refuse("surface", "a surface that moves needs times in the file or from --times");
+      if (!all_.is_series())
+        values.refuse("surface", "a surface that moves needs times, from the case file or from --times");
       source.options.period = values.above_zero("period").value_or(0);
       source.options.frame_step = values.above_zero("time_step").value_or(1);
     } else {

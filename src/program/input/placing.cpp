@@ -166,7 +166,7 @@ Warp unfolded_warp(const Placed &placed, riis_valve *valve, double noise, Reader
 // Returns advice for a warp that meets the landmarks but folds the valve. To give the advice, tries a warp that is smoothed by
 // the landmarks' noise.
 std::string cure_of_folds(const Placed &placed, const riis_valve *valve, Reader reader) {
-  const std::string smoothed = option_text(reader, "warp", "smoothed"), look = "look for a landmark in the wrong place";
+  const std::string smoothed = option_text(reader, "warp", "smoothed"), look = "look for a misplaced landmark";
   if (!(placed.noise > 0))
     return "; the noise of the landmarks is 0: if the file states a larger noise, " + smoothed + " bends less";
   try {
@@ -515,8 +515,9 @@ std::string place_report(const Placed &placed, Reader reader) {
   text += undetermined.empty()
               ? "\nThe landmarks determine all sizes that are fitted to them, so no more landmarks are needed.\n"
               : "\nThe landmarks do not determine " + joined_by(undetermined, ", ") +
-                    ".\nThe table has guesses of these sizes, from the usual proportions of the kind. The error of a "
-                    "guess may move the valve by more\nthan a fifteenth of its radius. Add landmarks" +
+                    ".\nThe table has guesses of these sizes, from the usual proportions of this kind of valve. The "
+                    "error of a "
+                    "guess may move the valve by more\nthan a fifteenth of the valve's radius. Add landmarks" +
                     (reader == Reader::program
                          ? ", or give known sizes in cm, for example by --set " + undetermined.front() + "=VALUE"
                          : ", or give known sizes") +

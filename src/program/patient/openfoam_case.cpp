@@ -133,7 +133,8 @@ std::string flows_of(const Ends &ends, bool is_mitral) {
 void write_openfoam_case(const SolverCase &the) {
   if (!the.starts_closed)
     refuse_data(
-        "--solver openfoam: the law of the case, switch, starts with a closed valve, but this valve starts open");
+        "--solver openfoam: the case uses the law switch, which starts with a closed valve, but this valve starts "
+        "open");
   const Ends ends = ends_of(the, Unit::metre);
   const Pressures pressures = pressures_of(the, ends);
   const std::string placed = (fs::path(the.folder) / "placed.json").string();

@@ -319,10 +319,10 @@ class PatientRun {
       const double tried = rounded_mm(factor * own) * millimetre_;
       if (is_placed({"--warp", "smoothed", "--noise", shortest(tried), "--output", "placed.json"}))
         return ". It does not fold with --warp smoothed --noise " + option_mm(tried) +
-               ", but first look for a landmark in the wrong place";
+               ", but first look for a misplaced landmark";
     }
     return is_placed({"--warp", "none", "--output", "placed.json"})
-               ? ". --warp none places the valve without a warp, but first look for a landmark in the wrong place"
+               ? ". --warp none places the valve without a warp, but first look for a misplaced landmark"
                : "";
   }
 
@@ -336,7 +336,7 @@ class PatientRun {
   void check_valve() {
     const StepEnd end = steps_.run("crossings", with_valve({"check", "crossings"}, {"--stats", "logs/crossings.json"}));
     if (end.status == exit_warned)
-      refuse_data(end.reason() + ". Look for a landmark near there that is in the wrong place" +
+      refuse_data(end.reason() + ". Look for a misplaced landmark near there" +
                   (options_.warp_choice == no_warp ? "" : "; --warp none shows whether the warp is the cause"));
     if (!end.is_fine()) steps_.refuse("crossings", end, cure_of_missed_wall(end));
     show_warnings(end);
@@ -360,8 +360,8 @@ class PatientRun {
         return ". If the wall is right there, --skirt " + option_mm(longest * millimetre_) +
                " is long enough; otherwise look at the landmarks near there";
     }
-    return ". No skirt up to 20 mm reaches this wall at all openings: are the landmarks at their places, and do they "
-           "belong to this patient?";
+    return ". Even a skirt of 20 mm does not reach this wall at every opening: check that the landmarks are at their "
+           "places and belong to this patient";
   }
 
   void show_warnings(const StepEnd &end) const {
@@ -733,21 +733,22 @@ class PatientRun {
     steps_.say("done", "in " + printed("%.0f", steps_.seconds()) + " s. " + options_.folder + " has:");
     const std::pair<std::string, const char *> files[] = {
         {"mesh.msh",
-         "the mesh for programs that read gmsh's files; mesh.vtu is for ParaView, and faces/ has its boundaries"},
-        {"placed.json", "the valve, for --valve of every command of riis; wall.stl is its wall"},
+         "the mesh for programs that read gmsh's files; mesh.vtu is for ParaView, and faces/ has the mesh's "
+         "boundaries"},
+        {"placed.json", "the valve, for --valve of every command of riis; wall.stl is the wall"},
         {"closed.vtu", "the marked mesh with the closed valve; open.vtu has the open valve"},
         {"closed.png", "pictures of both"},
         {"beat.pvd", "a prescribed beat for ParaView, without a flow; leaflets.pvd has the leaflets"},
         {"beat.mp4", "the prescribed beat as a movie"},
-        {commands_file, "the commands of this run, and one for a picture for a talk; logs/ has what they print"},
+        {commands_file, "the commands of this run, whose output is in logs/, and a command for a picture for a talk"},
         {"patient.json", "all numbers of this run"}};
     for (const auto &[name, what] : files)
       if (exists(name.c_str())) steps_.say("  " + name + std::string(13 - name.size(), ' '), what);
     const std::string path = options_.folder + "/" + options_.solver;
     if (options_.solver != "none")
       steps_.say("beats",
-                 "in the case, the blood moves the valve, so it opens and closes at other times than in beat.pvd and "
-                 "beat.mp4");
+                 "in the solver's case, the blood moves the valve, so the valve opens and closes at other times than "
+                 "in beat.pvd and beat.mp4");
     if (options_.solver == "openfoam")
       steps_.say("once", "in the top folder of riis: ./run openfoam plugin (docs/patient_openfoam.md)");
     if (options_.solver == "fenicsx")

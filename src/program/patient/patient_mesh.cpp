@@ -115,7 +115,7 @@ class GmshReader {
     while (next_ < end && (*next_ == ' ' || *next_ == '\n' || *next_ == '\r')) ++next_;
     Number value{};
     const auto [after, error] = number_from_chars(next_, end, value);
-    if (error != std::errc()) refuse_file(path_, "a number is missing, so the file is not whole");
+    if (error != std::errc()) refuse_file(path_, "a number is missing, so the file is incomplete");
     next_ = after;
     return value;
   }
@@ -656,7 +656,8 @@ std::string require_gmsh() {
   const ProgramEnd end = run_program({"gmsh", "--version"}, nullptr, [&](const std::string &line) { version = line; });
   if (end.error == ENOENT)
     refuse_data(
-        "gmsh: there is no such program in PATH, but gmsh makes the mesh; on Debian and Ubuntu 'sudo apt-get install "
+        "gmsh: there is no such program in PATH, but riis needs it to make the mesh; on Debian and Ubuntu 'sudo "
+        "apt-get install "
         "gmsh' installs it");
   if (end.error != 0) refuse_data("gmsh: cannot be run: " + system_text(end.error));
   if (end.status != 0)

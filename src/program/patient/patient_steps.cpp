@@ -119,10 +119,10 @@ std::string taken_folder(const std::string &path, bool replace, const std::vecto
     const bool is_empty = fs::is_empty(folder, error);
     if (error) refuse_folder(path, "cannot be read: " + error.message());
     if (!is_empty && !is_own)
-      refuse_folder(path, "the folder is not empty, and riis patient did not make it: name another");
+      refuse_folder(path, "the folder is not empty, and riis patient did not make it: name another folder");
     removed = computed_in(folder);
     if (!is_empty && !is_unfinished && !replace)
-      refuse_folder(path, "the folder has the results of an earlier run: name another, or write --replace" +
+      refuse_folder(path, "the folder has the results of an earlier run: name another folder, or write --replace" +
                               (removed.empty() ? "" : ", which also removes " + removed));
     check_inputs(folder, path, inputs);
   } else {

@@ -176,12 +176,11 @@ class Forecaster {
       return;
     }
     if (!is_sensible(expected.drop)) {
-      say("expected drop: not found, because the solver's equations have no solution between 0 and 1/" +
-          shown(least_of_sensible) + " of (R/eps) u");
-      warn(
-          "the drop across the closed valve was not found, because the solver's equations have no solution between 0 "
-          "and 1/" +
-          shown(least_of_sensible) + " of (R/eps) u; the solver's stabilisation needs a density of about 1 g/cm3");
+      say("expected drop: not found, because no drop between 0 and 1/" + shown(least_of_sensible) +
+          " of (R/eps) u solves the solver's equations");
+      warn("the drop across the closed valve was not found, because no drop between 0 and 1/" +
+           shown(least_of_sensible) +
+           " of (R/eps) u solves the solver's equations; the solver's stabilisation needs a density of about 1 g/cm3");
       return;
     }
     say("expected drop of the closed valve: " + printed("%.4f", expected.drop) + " of (R/eps) u, with eps = " +

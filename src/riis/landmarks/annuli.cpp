@@ -173,7 +173,7 @@ std::string advice_for(const LandmarkFit &fit, const Landmarks &landmarks) {
   const auto worst = std::max_element(fit.residuals.begin(), fit.residuals.end());
   return std::string("the worst residual is ") + Message(rounded(landmarks.scale * *worst, 3)).text() + " at " +
          words_for(landmarks, static_cast<std::size_t>(worst - fit.residuals.begin())) +
-         ": look for a landmark in the wrong place, or that has another's name";
+         ": look for a landmark that is misplaced or misnamed";
 }
 
 // Returns the angle between the axis of a fitted valve and the annulus' normal, in degrees.
@@ -291,7 +291,7 @@ std::string cause_of(const LandmarkFit &fit, const Landmarks &landmarks, Vec3 no
   };
   return Message("the horns' heights make the valve lean: ", words(heights.anterior_landmark, heights.anterior),
                  " and ", words(heights.posterior_landmark, heights.posterior),
-                 " the annulus' sides, along the annulus' normal; look for a horn in the wrong place")
+                 " the annulus' sides, along the annulus' normal; look for a misplaced horn")
       .text();
 }
 

@@ -291,7 +291,7 @@ void check_converged(const LandmarkFit &fit, const Landmarks &landmarks) {
   if (fit.converged) return;
   const double worst = *std::max_element(fit.residuals.begin(), fit.residuals.end());
   fail(RIIS_INVALID_ARGUMENT, "the fit to the landmarks does not converge; the worst residual is ",
-       rounded(landmarks.scale * worst, 3), ": look for a landmark in the wrong place");
+       rounded(landmarks.scale * worst, 3), ": look for a misplaced landmark");
 }
 
 Rotation operator*(const Rotation &a, const Rotation &b) {

@@ -129,7 +129,7 @@ void refuse_exchanged(Landmarks landmarks, const LeafletsAround &leaflets, const
            name_of(leaflets, first), " and ", name_of(leaflets, second), ", but it is between ", leaflets.names[k],
            " and ", leaflets.names[leaflets.next(k)]);
   }
-  fail(RIIS_INTERNAL_ERROR, "the names of the landmarks fit after all");
+  fail(RIIS_INTERNAL_ERROR, "the names of the landmarks fit, although they were refused");
 }
 
 }  // namespace

@@ -516,7 +516,7 @@ PatchSet with_own_patches(const PatchSet &state, const PatchSet &like) {
 void check_same_build(const PatchSet &now, const PatchSet &before) {
   if (!have_same_build(now, before))
     fail(RIIS_INVALID_PARAMETER,
-         "the patches of the two states have different images: both states must belong to one valve");
+         "the two states have different patches or different mirror images: both states must belong to one valve");
 }
 
 void check_same_ids(const PatchSet &now, const PatchSet &before, const StateNames &names) {

@@ -260,7 +260,7 @@ void add_reaction(const Marks &marks, const Resistance &resistance, const riis_f
   const bool wants_edges = to.edge_force || to.edge_moment, wants_leaflets = to.leaflet_force || to.leaflet_moment;
   const bool wants_points = wants_edges || to.moment || to.leaflet_moment;
   if (wants_points)
-    require_field(marks, RIIS_FIELD_POINT, "RIIS_FIELD_POINT", "a moment or the force on an edge in reaction");
+    require_field(marks, RIIS_FIELD_POINT, "RIIS_FIELD_POINT", "reaction with a moment or with forces on edges");
   if (wants_leaflets) check_leaflets(marks, to);
   const Edges edges = wants_edges ? edges_of(to) : Edges{};
   const Vector<std::int64_t> nearest = wants_edges ? nearest_edges(marks, resistance, edges) : Vector<std::int64_t>();

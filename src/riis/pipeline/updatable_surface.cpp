@@ -81,8 +81,7 @@ void UpdatableSurface::update_from_arrays(const riis_surface_arrays &arrays, boo
   }
   if (faces_.leaflet_id.empty())
     fail(RIIS_INVALID_ARGUMENT,
-         "arrays.vertex_ids is NULL, but the surface has no faces to keep, because the last call did not make it from "
-         "arrays");
+         "arrays.vertex_ids is NULL, but the surface has no faces to keep, because its triangles are those of a valve");
   if (arrays.leaflet_id) fail(RIIS_INVALID_ARGUMENT, "arrays.leaflet_id is given without faces: it must be NULL");
   if (arrays.skirt_length != 0 || arrays.attached || arrays.skirt_lengths)
     fail(RIIS_INVALID_ARGUMENT,

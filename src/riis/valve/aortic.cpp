@@ -110,7 +110,8 @@ ValveKind make_kind() {
      3, {0.1, 0.1, 0.1}, 0, longest},
     {"xq", number, "radial position of the first inner control point of the symmetry curve", 1, {-0.2}, -10, 10},
     {"zq", number, "vertical position of the first inner control point of the symmetry curve", 1, {-0.2}, -10, 10},
-    opening_spec("from 0 (closed) to 1 (open); riis_valve_set_open_state or the last two parameters give the open state", 0),
+    opening_spec("from 0 (closed) to 1 (open); riis_valve_set_open_state, or open_radius_ratio and commissure_expansion, give "
+                 "the open state", 0),
   }, opening, true, check_values, make_patches, nullptr};
   for (std::size_t cusp = 0; cusp < n_cusps; ++cusp) {
     const std::string of = std::string(cusp_names[cusp]) + ".";

@@ -575,7 +575,7 @@ const ValveKind *new_kind(const char *name, KindSizes sizes) {
      1, {0.5}, 0.1, 0.9},
     {"open_angle", degree, "direction of the open leaflets: 0 is inwards, 90 is straight down", 1, {sizes.open_angle}, 30, 90},
     {"translation", length, "shift of the valve", 3, {0, 0, 0}, -longest, longest},
-    opening_spec("0 closed to 1 open", 0),
+    opening_spec("from 0 (closed) to 1 (open)", 0),
   };
   const std::size_t opening = sizes.of_leaflets.size() + opening_;
   Vector<ParameterSpec> specs = std::move(sizes.of_leaflets);

@@ -24,7 +24,7 @@ std::array<ParameterSpec, n_parameters> specs_of_one(std::size_t n_leaflets) {
       {"leaflet", "1", "the leaflet on which the bump is, or -1 for none", 1, {none}, none, last},
       {"commissure", "1", "the commissure at which the bump is, or -1 for none", 1, {none}, none, last},
       {"u", "1", "position along the leaflet's free edge, from 0 to 1, counter-clockwise seen from +z", 1, {0.5}, 0, 1},
-      {"width", "1", "half the width of the bump, as a share of the free edge", 1, {0.4}, 0.2, 10},
+      {"width", "1", "half the width of the bump, as a fraction of the free edge", 1, {0.4}, 0.2, 10},
       {"closed",
        "1",
        "opening of the leaflet at the bump in the closed valve, from 0 (closed) to 1 (open)",

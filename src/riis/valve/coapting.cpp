@@ -103,7 +103,7 @@ ValveKind make_kind(const char *name, double default_stretch) {
      {"0.016 commissure_radius", gap_rule}},
     {"bottom_angle", degree, "angle between the closed cusp and the plane of the root, at the root", 1, {20}, 0, 80},
     {"belly", number, "largest length of a closed cusp's tangent at the root, as a multiple of root_radius", 1, {0.5}, 0.05, 0.8},
-    {"edge_rise", number, "height of the closed free edge's control point before the commissure, as a share of the edge's rise",
+    {"edge_rise", number, "height of the closed free edge's control point next to the commissure, as a share of the edge's rise",
      1, {0.3}, 0, 0.9},
     {"attachment_width", number, "length of the attachment's tangent at the root, as a multiple of root_radius",
      1, {0.6}, 0.1, 1.2},
@@ -114,7 +114,7 @@ ValveKind make_kind(const char *name, double default_stretch) {
     {"commissure_expansion", number, "how far the commissures move outwards during opening, as a multiple of commissure_radius",
      1, {0.05}, 0, 0.3},
     {"translation", length, "shift of the valve", 3, {0, 0, 0}, -longest, longest},
-    opening_spec("0 closed to 1 open", 0),
+    opening_spec("from 0 (closed) to 1 (open)", 0),
   }, opening, true, check_values<n_cusps>, make_patches<n_cusps>, nullptr}, SkirtAxis::of_cusp);
   kind.has_exact_contacts = true;
   kind.is_seen_along_z = true;
@@ -124,7 +124,7 @@ ValveKind make_kind(const char *name, double default_stretch) {
   for (std::size_t k = 0; k < n_cusps; ++k) {
     const std::string owner = "commissure_" + std::to_string(k) + ".";
     add_own(specs, owner, "height", commissure_height);
-    specs.push_back({owner + "fusion", number, "fused share of the line along which the two cusps meet", 1, {0}, 0, 0.6});
+    specs.push_back({owner + "fusion", number, "fused share of the line where the two cusps meet", 1, {0}, 0, 0.6});
   }
   for (std::size_t k = 0; k < n_cusps; ++k) {
     const std::string owner = "cusp_" + std::to_string(k) + ".";

@@ -45,14 +45,15 @@ ValveKind make_kind() {
     {"anterior_length", length, "length of the anterior leaflet", 1, {2.12}, shortest, longest},
     {"posteromedial_commissure_height", length, "length of the leaflets at the commissures and the clefts",
      1, {0.8}, shortest, longest},
-    {"posterior_scallop_length1", length, "length of the two side scallops when open", 1, {1.35}, shortest, longest},
+    {"posterior_scallop_length1", length, "length of each of the two side scallops when open", 1, {1.35}, shortest, longest},
     {"posterior_scallop_length2", length, "length of the middle scallop when open", 1, {1.35}, shortest, longest},
     {"leaflet_arc_angle", degree, "angle of the arc that the free edges follow", 1, {120}, 1, 300},
     {"leaflet_inward_angle", degree, "direction of the open leaflets: 0 is inwards, 90 is straight down", 1, {75}, 0, 180},
     {"surface_angle", degree,
-     "angle at which a leaflet leaves the straight line from annulus to free edge; above 0 it bulges outwards", 1, {20}, -80, 80},
+     "angle at which a leaflet leaves the straight line from annulus to free edge; if above 0, the leaflet bulges outwards",
+     1, {20}, -80, 80},
     {"triangle_size_ratio", number, "share of the annulus that belongs to each commissure's triangle", 1, {0.1}, 0.001, 0.45},
-    opening_spec("0 closed to 1 open", 1),
+    opening_spec("from 0 (closed) to 1 (open)", 1),
     {"translation", length, "shift of the valve", 3, {0, 0, 1}, -longest, longest},
   }, opening_, true, check_values, make_patches, nullptr};
   kind.absent = {

@@ -63,7 +63,7 @@ ValveKind make_kind() {
     {"xq", number, "radial position of the first inner control point of the symmetry curve", 1, {-0.22}, -10, 10},
     {"zq", number, "vertical position of the first inner control point of the symmetry curve", 1, {-0.35}, -10, 10},
     {"translation", length, "shift of the valve", 3, {0, 0, -1.2}, -longest, longest},
-    opening_spec("0 closed to 1 open", 0),
+    opening_spec("from 0 (closed) to 1 (open)", 0),
   }, opening, true, check_values, make_patches, nullptr};
   for (ParameterSpec &spec : cusp_opening_specs({0.8, 0.1})) kind.parameters.push_back(std::move(spec));
   kind.has_exact_contacts = true;

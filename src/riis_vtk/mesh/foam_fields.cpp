@@ -87,7 +87,7 @@ void write_foam_fields(const std::string &path, const riis_vtk_mesh &mesh) {
   const std::string foam_case = foam_case_of(folder.string());
   if (mesh.foam_case.empty() || !fs::equivalent(foam_case, mesh.foam_case, error))
     fail_file(path, "is a time folder of a case, but the mesh was not read from this case");
-  if (!mesh.centers) fail_file(path, "holds only fields of cells, but the nodes of the mesh are its points");
+  if (!mesh.centers) fail_file(path, "holds only fields of cells, but the nodes of the mesh are not centres of cells");
   const auto patches = read_patches(foam_case);
   fs::create_directory(folder, error);
   if (error) fail_file(path, "cannot be made: ", error.message());

@@ -310,7 +310,7 @@ class XdmfFile {
       is_single_ = is_single_ || last_is_single_;
     }
     if (axes.size() != 3 || axes[1].size() != axes[0].size() || axes[2].size() != axes[0].size())
-      fail_file(path_, "has a Geometry of the type X_Y_Z; it must have 3 DataItems of one length");
+      fail_file(path_, "has a Geometry of the type X_Y_Z; it must have 3 DataItems of equal length");
     for (std::int64_t i = 0; i < view(axes[0]).size(); ++i)
       mesh_.add_point(view(axes[0])[i], view(axes[1])[i], view(axes[2])[i]);
   }
