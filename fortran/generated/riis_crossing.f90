@@ -14,8 +14,8 @@ module riis_crossing
   !> Pairs of triangles that cross, from %get_list. The object of the crossings owns the arrays, which count from 1. Ids count
   !! from 0. Lengths are in mesh units.
   type :: riis_crossing_list
-    integer(int64) :: n_pairs = 0                           !< The number of pairs. If it is 0, the ids in this struct are -1,
-                                                            !! and all other components except seconds are 0.
+    integer(int64) :: n_pairs = 0                           !< The number of pairs. If n_pairs is 0, the ids in this struct are
+                                                            !! -1, and all other components except seconds are 0.
     integer(int64), pointer :: triangle_id(:, :) => null()  !< (2, n_pairs): the two triangles, the lower id first.
     real(c_double), pointer :: point(:, :) => null()        !< (3, n_pairs): the middle of the segment where the two triangles
                                                             !! meet.

@@ -35,10 +35,10 @@ module riis_laws
     real(c_double) :: closing_start = no_value              !< The time at which the valve begins to close, at least
                                                             !! opening_start + opening_duration.
     real(c_double) :: closing_duration = no_value           !< How long closing takes, > 0.
-    real(c_double) :: closed = 0                            !< closed, open: the openings of the closed and of the open valve, 0
-                                                            !! to 1. Default 0 and 1.
-    real(c_double) :: open = 1                              !< closed, open: the openings of the closed and of the open valve, 0
-                                                            !! to 1. Default 0 and 1.
+    real(c_double) :: closed = 0                            !< closed, open: the opening of the closed valve, and the opening of
+                                                            !! the open valve, each 0 to 1. Default 0 and 1.
+    real(c_double) :: open = 1                              !< closed, open: the opening of the closed valve, and the opening of
+                                                            !! the open valve, each 0 to 1. Default 0 and 1.
     real(c_double) :: period = 0                            !< If above 0, the valve opens and closes once in each period. With
                                                             !! 0, the default, it opens and closes only once.
   end type riis_opening_times
@@ -53,8 +53,8 @@ module riis_laws
                                                             !! refused.
     real(c_double) :: open_above = 0                        !< The pressure difference above which the valve opens. Default 0.
     real(c_double) :: close_below = 0                       !< The flow below which the valve closes. Default 0.
-    real(c_double) :: filter_time = 0                       !< The time constant of the filter for pressure difference and flow,
-                                                            !! >= 0. Default 0: no filter.
+    real(c_double) :: filter_time = 0                       !< The time constant of the filter that smooths pressure difference
+                                                            !! and flow, >= 0. Default 0: no filter.
     real(c_double) :: dwell_time = 0                        !< The shortest time between two changes of phase, >= 0. Default 0.
   end type riis_opening_switch
 
@@ -63,8 +63,8 @@ module riis_laws
     real(c_double) :: time = 0                              !< Of this state.
     real(c_double) :: opening = 0                           !< opening, rate: at that time.
     real(c_double) :: rate = 0                              !< opening, rate: at that time.
-    real(c_double) :: progress = 0                          !< The fraction of the motion from closed (0) to open (1); the
-                                                            !! opening is a smooth function of it.
+    real(c_double) :: progress = 0                          !< The completed fraction of the motion from closed (0) to open (1).
+                                                            !! The opening is a smooth function of this fraction.
     real(c_double) :: pressure_difference = no_value        !< Filtered; NaN: none yet.
     real(c_double) :: flow = no_value                       !< Filtered; NaN: none yet.
     real(c_double) :: turn_time = no_value                  !< Time of the last change of phase; NaN: none yet.
