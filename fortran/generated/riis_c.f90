@@ -248,7 +248,7 @@ module riis_c
   type, bind(c) :: riis_surface_info
     integer(c_int64_t) :: n_vertices         !< as riis_triangles.n_vertices
     integer(c_int64_t) :: n_triangles        !< triangles that answer queries
-    integer(c_int64_t) :: n_zero_area        !< triangles that were skipped because they have no area
+    integer(c_int64_t) :: n_zero_area        !< the number of triangles that were skipped because they have no area
     real(c_double) :: half_thickness         !< mesh units
     real(c_double) :: area                   !< of all triangles, mesh units squared
     real(c_double) :: lower(3), upper(3)     !< bounds of the triangles, mesh units
@@ -475,7 +475,7 @@ module riis_c
   type, bind(c) :: riis_mark_stats
     integer(c_int64_t) :: n_nodes        !< the number of nodes of the mesh, masked out or not
     integer(c_int64_t) :: n_marked       !< the length of RIIS_LIST_MARKED
-    integer(c_int64_t) :: n_within_limit !< nodes within the distance limit, marked or not
+    integer(c_int64_t) :: n_within_limit !< the number of nodes within the distance limit, marked or not
     integer(c_int64_t) :: n_queries      !< the number of closest-point queries for nodes and for parts of the mesh
     real(c_double) :: seconds            !< wall time of riis_mark_nodes
     integer(c_int32_t) :: search         !< the search that ran, never RIIS_SEARCH_AUTO
@@ -627,7 +627,7 @@ module riis_c
                                      !! of a mitral valve, and by 1 for a bileaflet valve
     real(c_double) :: half_thickness !< the half thickness of the resistance
     real(c_double) :: radius         !< the radius of the disc; 0 for other outlines
-    real(c_double) :: axis(3)        !< unit vector; 0 for arrays and keyframes without an outline
+    real(c_double) :: axis(3)        !< unit vector; 0 for a surface from arrays or keyframes without an outline
     integer(c_int32_t) :: outline    !< RIIS_OUTLINE_*
     integer(c_int32_t) :: reserved   !< 0
   end type riis_orifice
@@ -651,7 +651,8 @@ module riis_c
                                         !! or from falling to growing. Unused entries are NaN. A change of the area by
                                         !! less than 1e-4 of the largest area does not count
     real(c_double) :: seconds           !< wall time of riis_find_by_area
-    integer(c_int64_t) :: n_turns       !< the number of all turns. If n_turns is 0, the area only grows or only falls
+    integer(c_int64_t) :: n_turns       !< the number of all such openings or sizes. If n_turns is 0, the area only
+                                        !! grows or only falls
     integer(c_int64_t) :: n_surfaces    !< the number of surfaces that the search made. The cost of the search grows
                                         !! with this number
     integer(c_int64_t) :: n_refused     !< the number of sampled openings or sizes for which there is no valve or no
@@ -720,7 +721,8 @@ module riis_c
     real(c_double) :: rotation_axis(3)      !< unit vector
     real(c_double) :: rotation_angle        !< degrees, 0 to 180
     real(c_double) :: translation(3)        !< mesh units
-    real(c_double) :: rms                   !< root mean square of the residuals, mesh units
+    real(c_double) :: rms                   !< the root mean square of the residuals (riis_placement_arrays.residual),
+                                            !! mesh units
     real(c_double) :: worst                 !< the largest residual, mesh units
     real(c_double) :: noise                 !< the noise that the standard errors are computed from:
                                             !! riis_landmarks.noise, or more if the residuals show more noise

@@ -21,7 +21,7 @@ module riis_crossing
                                                             !! meet.
     real(c_double), pointer :: depth(:) => null()           !< (n_pairs): the penetration depth.
     real(c_double), pointer :: length(:) => null()          !< (n_pairs): the length of the segment where the two triangles meet.
-    real(c_double) :: total_length = 0                      !< The sum of length.
+    real(c_double) :: total_length = 0                      !< The sum of all lengths.
     real(c_double) :: deepest_depth = 0                     !< The depth of the deepest pair. Of equally deep pairs, the first
                                                             !! one counts as the deepest.
     real(c_double) :: deepest_point(3) = 0                  !< The point of the deepest pair.

@@ -196,10 +196,10 @@ subroutine riisf_valve_destroy(handle)
   handle = handle_of(c_handle)
 end subroutine riisf_valve_destroy
 
-!> Makes the surface of a valve: curves, polylines, Coons patches, quads and triangles (paper, 3 and 4.1; docs/theory.md).
-!! Errors: RIIS_INVALID_PARAMETER for parameters that do not fit together or that put a curve out of range. RIIS_INVALID_SURFACE
-!! if two neighbouring triangles have opposite windings in a surface with an offset. RIIS_LIMIT_EXCEEDED if a tolerance needs
-!! more than 16,777,216 triangles, quads or samples, or is smaller than the rounding error of coordinates.
+!> Makes the surface of a valve from curves, by way of polylines, Coons patches, quads and triangles (paper, 3 and 4.1;
+!! docs/theory.md). Errors: RIIS_INVALID_PARAMETER for parameters that do not fit together or that put a curve out of range.
+!! RIIS_INVALID_SURFACE if two neighbouring triangles have opposite windings in a surface with an offset. RIIS_LIMIT_EXCEEDED if
+!! a tolerance needs more than 16,777,216 triangles, quads or samples, or is smaller than the rounding error of coordinates.
 subroutine riisf_surface_create(valve, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
     surface, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_null_ptr, c_ptr, c_sizeof
@@ -207,15 +207,15 @@ subroutine riisf_surface_create(valve, half_thickness, tolerance, scale, rotatio
   use riis_support, only: c_handle_of, handle_of
   use riis_c, only: RIIS_OK, riis_status, riis_surface_create, riis_surface_options, riis_surface_options_init
   implicit none
-  integer(int64), intent(in) :: valve                     !< Its parameters must fit together.
+  integer(int64), intent(in) :: valve                     !< A valve whose parameters fit together.
   real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
                                                           !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
   real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The distance to a valve's triangles
                                                           !! differs from the distance to its smooth surface by at most
                                                           !! tolerance * half_thickness (docs/theory.md).
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
-  real(c_double), intent(in) :: rotation_axis(3)          !< A vector of any length from 1e-50 on, with components up to 1e50,
-                                                          !! usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_axis(3)          !< A vector with a length of at least 1e-50 and components up to
+                                                          !! 1e50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
   real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse a
@@ -268,8 +268,8 @@ subroutine riisf_surface_place(surface, valve, half_thickness, tolerance, scale,
                                                           !! differs from the distance to its smooth surface by at most
                                                           !! tolerance * half_thickness (docs/theory.md).
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
-  real(c_double), intent(in) :: rotation_axis(3)          !< A vector of any length from 1e-50 on, with components up to 1e50,
-                                                          !! usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_axis(3)          !< A vector with a length of at least 1e-50 and components up to
+                                                          !! 1e50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
   real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse a
@@ -305,15 +305,16 @@ subroutine riisf_surface_measure(surface, valve, half_thickness, tolerance, scal
                                                           !! differs from the distance to its smooth surface by at most
                                                           !! tolerance * half_thickness (docs/theory.md).
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
-  real(c_double), intent(in) :: rotation_axis(3)          !< A vector of any length from 1e-50 on, with components up to 1e50,
-                                                          !! usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_axis(3)          !< A vector with a length of at least 1e-50 and components up to
+                                                          !! 1e50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
   real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse a
                                                           !! shift of a valve that would round coordinates by more than a
                                                           !! thousandth of tolerance * half_thickness.
   integer(int32), intent(in) :: measure                   !< RIIS_MEASURE_*, for closest points and marking only. Usually
-                                                          !! RIIS_MEASURE_TRIANGLES; surfaces from arrays accept only this.
+                                                          !! RIIS_MEASURE_TRIANGLES; surfaces from arrays accept only this
+                                                          !! value.
   real(c_double), intent(in) :: measure_tolerance         !< A fraction of half_thickness, 1e-6 to 1; RIIS_AUTO: tolerance. Not
                                                           !! used by RIIS_MEASURE_TRIANGLES.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -348,8 +349,8 @@ subroutine riisf_surface_triangulate(surface, valve, half_thickness, tolerance, 
                                                           !! differs from the distance to its smooth surface by at most
                                                           !! tolerance * half_thickness (docs/theory.md).
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
-  real(c_double), intent(in) :: rotation_axis(3)          !< A vector of any length from 1e-50 on, with components up to 1e50,
-                                                          !! usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_axis(3)          !< A vector with a length of at least 1e-50 and components up to
+                                                          !! 1e50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
   real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse a
@@ -388,8 +389,8 @@ subroutine riisf_surface_offset(surface, valve, half_thickness, tolerance, scale
                                                           !! differs from the distance to its smooth surface by at most
                                                           !! tolerance * half_thickness (docs/theory.md).
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
-  real(c_double), intent(in) :: rotation_axis(3)          !< A vector of any length from 1e-50 on, with components up to 1e50,
-                                                          !! usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_axis(3)          !< A vector with a length of at least 1e-50 and components up to
+                                                          !! 1e50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
   real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse a
@@ -457,8 +458,8 @@ subroutine riisf_surface_place_moving(surface, valve, valve_before, dt, half_thi
                                                           !! differs from the distance to its smooth surface by at most
                                                           !! tolerance * half_thickness (docs/theory.md).
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
-  real(c_double), intent(in) :: rotation_axis(3)          !< A vector of any length from 1e-50 on, with components up to 1e50,
-                                                          !! usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_axis(3)          !< A vector with a length of at least 1e-50 and components up to
+                                                          !! 1e50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
   real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse a
@@ -581,9 +582,9 @@ end subroutine riisf_surface_destroy
 ! Meshes
 ! -----------------------------------------------------------------------------------------------------------------
 
-!> Borrows node coordinates and checks them once. The coordinates must stay in place until the mesh is updated or destroyed. With
-!! MPI, a process without nodes must also make a mesh, with n_nodes 0. Errors: RIIS_INVALID_MESH for a bad coordinate; the
-!! message names the node and the value. RIIS_LIMIT_EXCEEDED for too many nodes.
+!> Makes a mesh that borrows the coordinates of its nodes, and checks them once. The coordinates must stay in place until the
+!! mesh is updated or destroyed. With MPI, a process without nodes must also make a mesh, with n_nodes 0. Errors:
+!! RIIS_INVALID_MESH for a bad coordinate; the message names the node and the value. RIIS_LIMIT_EXCEEDED for too many nodes.
 subroutine riisf_mesh_create(n_nodes, x, y, z, stride, mesh, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_null_ptr, c_ptr
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -663,8 +664,9 @@ subroutine riisf_mesh_update_64(mesh, n_nodes, x, y, z, stride, status)
   status = riis_mesh_update(c_handle_of(mesh), n_nodes, location_of(x), location_of(y), location_of(z), stride)
 end subroutine riisf_mesh_update_64
 
-!> Copies node coordinates and checks them. Use this call for a temporary array of Fortran, or for coordinates in single
-!! precision, which become doubles without rounding. The copies take 24 bytes per node. Errors: as riisf_mesh_create.
+!> Makes a mesh with copies of the coordinates of its nodes, and checks them. Use this call for a temporary array of Fortran, or
+!! for coordinates in single precision, which become doubles without rounding. The copies take 24 bytes per node. Errors: as
+!! riisf_mesh_create.
 subroutine riisf_mesh_create_copy(n_nodes, x, y, z, stride, real_bits, mesh, status)
   use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -1193,7 +1195,7 @@ subroutine riisf_adjacency_from_mixed(n_nodes, n_cells, node_ids, offsets, index
   integer(int32), intent(in) :: n_cells                   !< >= 0.
   integer(int32), intent(in) :: node_ids(*)               !< (nodes_per_cell, n_cells): the nodes of all cells, cell after
                                                           !! cell.
-  integer(int32), intent(in) :: offsets(*)                !< (n_cells + 1), the position in node_ids at which each cell begins,
+  integer(int32), intent(in) :: offsets(*)                !< (n_cells + 1): the position in node_ids at which each cell begins,
                                                           !! then the end of the last cell; ascending from 0 or from
                                                           !! index_base.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
@@ -1228,7 +1230,7 @@ subroutine riisf_adjacency_from_mixed_64(n_nodes, n_cells, node_ids, offsets, in
   integer(int64), intent(in) :: n_cells                   !< >= 0.
   integer(int64), intent(in) :: node_ids(*)               !< (nodes_per_cell, n_cells): the nodes of all cells, cell after
                                                           !! cell.
-  integer(int64), intent(in) :: offsets(*)                !< (n_cells + 1), the position in node_ids at which each cell begins,
+  integer(int64), intent(in) :: offsets(*)                !< (n_cells + 1): the position in node_ids at which each cell begins,
                                                           !! then the end of the last cell; ascending from 0 or from
                                                           !! index_base.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
@@ -1389,8 +1391,8 @@ subroutine riisf_surface_from_arrays(n_vertices, x, y, z, stride, corners_per_fa
   integer(int32), intent(in) :: corners_per_face          !< 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3.
                                                           !! Usually 3.
   integer(int32), intent(in) :: n_faces                   !< 1 to 16,777,216 triangles, half as many quads.
-  integer(int32), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces); the normal follows the right-hand
-                                                          !! rule.
+  integer(int32), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces): the vertices of each face. The normal
+                                                          !! follows the right-hand rule.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
                                                           !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
@@ -1398,8 +1400,8 @@ subroutine riisf_surface_from_arrays(n_vertices, x, y, z, stride, corners_per_fa
                                                           !! differs from the distance to its smooth surface by at most
                                                           !! tolerance * half_thickness (docs/theory.md).
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
-  real(c_double), intent(in) :: rotation_axis(3)          !< A vector of any length from 1e-50 on, with components up to 1e50,
-                                                          !! usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_axis(3)          !< A vector with a length of at least 1e-50 and components up to
+                                                          !! 1e50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
   real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse a
@@ -1452,8 +1454,8 @@ subroutine riisf_surface_from_arrays_64(n_vertices, x, y, z, stride, corners_per
   integer(int32), intent(in) :: corners_per_face          !< 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3.
                                                           !! Usually 3.
   integer(int64), intent(in) :: n_faces                   !< 1 to 16,777,216 triangles, half as many quads.
-  integer(int64), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces); the normal follows the right-hand
-                                                          !! rule.
+  integer(int64), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces): the vertices of each face. The normal
+                                                          !! follows the right-hand rule.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
                                                           !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
@@ -1461,8 +1463,8 @@ subroutine riisf_surface_from_arrays_64(n_vertices, x, y, z, stride, corners_per
                                                           !! differs from the distance to its smooth surface by at most
                                                           !! tolerance * half_thickness (docs/theory.md).
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
-  real(c_double), intent(in) :: rotation_axis(3)          !< A vector of any length from 1e-50 on, with components up to 1e50,
-                                                          !! usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_axis(3)          !< A vector with a length of at least 1e-50 and components up to
+                                                          !! 1e50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
   real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse a
@@ -1518,8 +1520,8 @@ subroutine riisf_surface_with_skirt(n_vertices, x, y, z, stride, corners_per_fac
   integer(int32), intent(in) :: corners_per_face          !< 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3.
                                                           !! Usually 3.
   integer(int32), intent(in) :: n_faces                   !< 1 to 16,777,216 triangles, half as many quads.
-  integer(int32), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces); the normal follows the right-hand
-                                                          !! rule.
+  integer(int32), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces): the vertices of each face. The normal
+                                                          !! follows the right-hand rule.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(int8), intent(in) :: attached(*)                !< INTEGER*1, (n_vertices): 1 for the vertices of the attachment, 0
                                                           !! for others. attached(1) = -1: the attachment is chosen.
@@ -1532,8 +1534,8 @@ subroutine riisf_surface_with_skirt(n_vertices, x, y, z, stride, corners_per_fac
                                                           !! differs from the distance to its smooth surface by at most
                                                           !! tolerance * half_thickness (docs/theory.md).
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
-  real(c_double), intent(in) :: rotation_axis(3)          !< A vector of any length from 1e-50 on, with components up to 1e50,
-                                                          !! usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_axis(3)          !< A vector with a length of at least 1e-50 and components up to
+                                                          !! 1e50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
   real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse a
@@ -1589,8 +1591,8 @@ subroutine riisf_surface_with_skirt_64(n_vertices, x, y, z, stride, corners_per_
   integer(int32), intent(in) :: corners_per_face          !< 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3.
                                                           !! Usually 3.
   integer(int64), intent(in) :: n_faces                   !< 1 to 16,777,216 triangles, half as many quads.
-  integer(int64), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces); the normal follows the right-hand
-                                                          !! rule.
+  integer(int64), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces): the vertices of each face. The normal
+                                                          !! follows the right-hand rule.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(int8), intent(in) :: attached(*)                !< INTEGER*1, (n_vertices): 1 for the vertices of the attachment, 0
                                                           !! for others. attached(1) = -1: the attachment is chosen.
@@ -1603,8 +1605,8 @@ subroutine riisf_surface_with_skirt_64(n_vertices, x, y, z, stride, corners_per_
                                                           !! differs from the distance to its smooth surface by at most
                                                           !! tolerance * half_thickness (docs/theory.md).
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
-  real(c_double), intent(in) :: rotation_axis(3)          !< A vector of any length from 1e-50 on, with components up to 1e50,
-                                                          !! usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_axis(3)          !< A vector with a length of at least 1e-50 and components up to
+                                                          !! 1e50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
   real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse a
@@ -1661,8 +1663,8 @@ subroutine riisf_surface_offset_arrays(n_vertices, x, y, z, stride, corners_per_
   integer(int32), intent(in) :: corners_per_face          !< 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3.
                                                           !! Usually 3.
   integer(int32), intent(in) :: n_faces                   !< 1 to 16,777,216 triangles, half as many quads.
-  integer(int32), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces); the normal follows the right-hand
-                                                          !! rule.
+  integer(int32), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces): the vertices of each face. The normal
+                                                          !! follows the right-hand rule.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
                                                           !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
@@ -1670,8 +1672,8 @@ subroutine riisf_surface_offset_arrays(n_vertices, x, y, z, stride, corners_per_
                                                           !! differs from the distance to its smooth surface by at most
                                                           !! tolerance * half_thickness (docs/theory.md).
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
-  real(c_double), intent(in) :: rotation_axis(3)          !< A vector of any length from 1e-50 on, with components up to 1e50,
-                                                          !! usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_axis(3)          !< A vector with a length of at least 1e-50 and components up to
+                                                          !! 1e50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
   real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse a
@@ -1730,8 +1732,8 @@ subroutine riisf_surface_offset_arrays_64(n_vertices, x, y, z, stride, corners_p
   integer(int32), intent(in) :: corners_per_face          !< 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3.
                                                           !! Usually 3.
   integer(int64), intent(in) :: n_faces                   !< 1 to 16,777,216 triangles, half as many quads.
-  integer(int64), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces); the normal follows the right-hand
-                                                          !! rule.
+  integer(int64), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces): the vertices of each face. The normal
+                                                          !! follows the right-hand rule.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
                                                           !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
@@ -1739,8 +1741,8 @@ subroutine riisf_surface_offset_arrays_64(n_vertices, x, y, z, stride, corners_p
                                                           !! differs from the distance to its smooth surface by at most
                                                           !! tolerance * half_thickness (docs/theory.md).
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
-  real(c_double), intent(in) :: rotation_axis(3)          !< A vector of any length from 1e-50 on, with components up to 1e50,
-                                                          !! usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_axis(3)          !< A vector with a length of at least 1e-50 and components up to
+                                                          !! 1e50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
   real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse a
@@ -1811,8 +1813,8 @@ subroutine riisf_surface_update_arrays(surface, n_vertices, x, y, z, stride, vx,
   integer(int32), intent(in) :: corners_per_face          !< 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3.
                                                           !! Usually 3.
   integer(int32), intent(in) :: n_faces                   !< 1 to 16,777,216 triangles, half as many quads.
-  integer(int32), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces); the normal follows the right-hand
-                                                          !! rule.
+  integer(int32), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces): the vertices of each face. The normal
+                                                          !! follows the right-hand rule.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_arrays) :: arrays
@@ -1862,8 +1864,8 @@ subroutine riisf_surface_update_arrays_64(surface, n_vertices, x, y, z, stride, 
   integer(int32), intent(in) :: corners_per_face          !< 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3.
                                                           !! Usually 3.
   integer(int64), intent(in) :: n_faces                   !< 1 to 16,777,216 triangles, half as many quads.
-  integer(int64), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces); the normal follows the right-hand
-                                                          !! rule.
+  integer(int64), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces): the vertices of each face. The normal
+                                                          !! follows the right-hand rule.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_arrays) :: arrays
@@ -1911,8 +1913,8 @@ subroutine riisf_keyframes_create(n_vertices, n_keys, time, xyz, period, interpo
   integer(int32), intent(in) :: corners_per_face          !< 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3.
                                                           !! Usually 3.
   integer(int32), intent(in) :: n_faces                   !< 1 to 16,777,216 triangles, half as many quads.
-  integer(int32), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces); the normal follows the right-hand
-                                                          !! rule.
+  integer(int32), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces): the vertices of each face. The normal
+                                                          !! follows the right-hand rule.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(int64), intent(inout) :: keyframes              !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -1964,8 +1966,8 @@ subroutine riisf_keyframes_create_64(n_vertices, n_keys, time, xyz, period, inte
   integer(int32), intent(in) :: corners_per_face          !< 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3.
                                                           !! Usually 3.
   integer(int64), intent(in) :: n_faces                   !< 1 to 16,777,216 triangles, half as many quads.
-  integer(int64), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces); the normal follows the right-hand
-                                                          !! rule.
+  integer(int64), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces): the vertices of each face. The normal
+                                                          !! follows the right-hand rule.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(int64), intent(inout) :: keyframes              !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -2013,8 +2015,8 @@ subroutine riisf_surface_from_keyframes(keyframes, time, dt, half_thickness, tol
                                                           !! differs from the distance to its smooth surface by at most
                                                           !! tolerance * half_thickness (docs/theory.md).
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
-  real(c_double), intent(in) :: rotation_axis(3)          !< A vector of any length from 1e-50 on, with components up to 1e50,
-                                                          !! usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_axis(3)          !< A vector with a length of at least 1e-50 and components up to
+                                                          !! 1e50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
   real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse a
@@ -2059,8 +2061,8 @@ subroutine riisf_surface_offset_keyframes(keyframes, time, dt, half_thickness, t
                                                           !! differs from the distance to its smooth surface by at most
                                                           !! tolerance * half_thickness (docs/theory.md).
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
-  real(c_double), intent(in) :: rotation_axis(3)          !< A vector of any length from 1e-50 on, with components up to 1e50,
-                                                          !! usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_axis(3)          !< A vector with a length of at least 1e-50 and components up to
+                                                          !! 1e50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
   real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse a
@@ -2193,7 +2195,8 @@ subroutine riisf_surface_triangles(surface, length, n, vertex_num, triangle_id, 
   integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
                                                           !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
   integer(int32), intent(inout) :: n                      !< The number of triangles, even if an array is too short.
-  integer(int32), intent(inout) :: vertex_num(3, *)       !< (3, length): their vertices, from 1; written up to n.
+  integer(int32), intent(inout) :: vertex_num(3, *)       !< (3, length): the vertices of each triangle, from 1; written up to
+                                                          !! n.
   integer(int64), intent(inout) :: triangle_id(*)         !< (length), ascending: the ids of the triangles in results of
                                                           !! queries; 0, 1, 2, ... for a valve; written up to n.
   integer(int32), intent(inout) :: leaflet_id(*)          !< (length): RIIS_LEAFLET_*, or the caller's leaflet_id if the
@@ -2240,7 +2243,8 @@ subroutine riisf_surface_triangles_64(surface, length, n, vertex_num, triangle_i
   integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
                                                           !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
   integer(int64), intent(inout) :: n                      !< The number of triangles, even if an array is too short.
-  integer(int64), intent(inout) :: vertex_num(3, *)       !< (3, length): their vertices, from 1; written up to n.
+  integer(int64), intent(inout) :: vertex_num(3, *)       !< (3, length): the vertices of each triangle, from 1; written up to
+                                                          !! n.
   integer(int64), intent(inout) :: triangle_id(*)         !< (length), ascending: the ids of the triangles in results of
                                                           !! queries; 0, 1, 2, ... for a valve; written up to n.
   integer(int32), intent(inout) :: leaflet_id(*)          !< (length): RIIS_LEAFLET_*, or the caller's leaflet_id if the
@@ -3694,7 +3698,7 @@ subroutine riisf_within_limit_resistance_64(marks, length, n, K, K_u_surface, st
 end subroutine riisf_within_limit_resistance_64
 
 !> Adds the resistance K = (R / eps) delta(d), so that several valves add up. At a distance d below eps, delta(d) is (1 + cos(pi
-!! d / eps)) / (2 eps). Errors: RIIS_INVALID_ARGUMENT if the marks are empty, and if they lack a field.
+!! d / eps)) / (2 eps). Errors: RIIS_INVALID_ARGUMENT if the marks are empty, and if they lack a field that is needed.
 subroutine riisf_add_resistance(marks, R, half_thickness, rim, n_nodes, K, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -3757,7 +3761,7 @@ subroutine riisf_add_resistance_64(marks, R, half_thickness, rim, n_nodes, K, st
 end subroutine riisf_add_resistance_64
 
 !> Adds K like riisf_add_resistance, but for a surface that moves, and also adds K u_surface. A scheme uses (sum of K) u - (sum
-!! of K u_surface). Errors: RIIS_INVALID_ARGUMENT if the marks are empty, and if they lack a field.
+!! of K u_surface). Errors: RIIS_INVALID_ARGUMENT if the marks are empty, and if they lack a field that is needed.
 subroutine riisf_add_moving_resistance(marks, R, half_thickness, rim, n_nodes, K, K_u_surface, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -3830,7 +3834,7 @@ subroutine riisf_add_moving_resistance_64(marks, R, half_thickness, rim, n_nodes
 end subroutine riisf_add_moving_resistance_64
 
 !> Adds K like riisf_add_resistance, but for a surface that moves, and also adds K u_surface. A scheme uses (sum of K) u - (sum
-!! of K u_surface). Errors: RIIS_INVALID_ARGUMENT if the marks are empty, and if they lack a field.
+!! of K u_surface). Errors: RIIS_INVALID_ARGUMENT if the marks are empty, and if they lack a field that is needed.
 subroutine riisf_add_resistance_components(marks, R, half_thickness, rim, n_nodes, K, K_u_x, K_u_y, K_u_z, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -4350,7 +4354,7 @@ subroutine riisf_add_edge_reaction(marks, R, half_thickness, rim, n_nodes, veloc
                                                           !! If the first entry is -1, the other entries are not read, and each
                                                           !! edge serves all leaflets.
   real(c_double), intent(inout) :: edge_force(3, *)       !< (3, n_edges): for each edge, the sum of the forces that act at the
-                                                          !! edge. The edge of a node is the one nearest to the node's closest
+                                                          !! edge. The nearest edge is the one nearest to the node's closest
                                                           !! point on the surface. Of equally near edges, the first one counts.
   real(c_double), intent(inout) :: edge_moment(3, *)      !< (3, n_edges): for each edge, the moment of these forces about the
                                                           !! middle of the edge.
@@ -4407,7 +4411,7 @@ subroutine riisf_add_edge_reaction_64(marks, R, half_thickness, rim, n_nodes, ve
                                                           !! If the first entry is -1, the other entries are not read, and each
                                                           !! edge serves all leaflets.
   real(c_double), intent(inout) :: edge_force(3, *)       !< (3, n_edges): for each edge, the sum of the forces that act at the
-                                                          !! edge. The edge of a node is the one nearest to the node's closest
+                                                          !! edge. The nearest edge is the one nearest to the node's closest
                                                           !! point on the surface. Of equally near edges, the first one counts.
   real(c_double), intent(inout) :: edge_moment(3, *)      !< (3, n_edges): for each edge, the moment of these forces about the
                                                           !! middle of the edge.
@@ -4471,7 +4475,7 @@ subroutine riisf_add_edge_reaction_components(marks, R, half_thickness, rim, n_n
                                                           !! If the first entry is -1, the other entries are not read, and each
                                                           !! edge serves all leaflets.
   real(c_double), intent(inout) :: edge_force(3, *)       !< (3, n_edges): for each edge, the sum of the forces that act at the
-                                                          !! edge. The edge of a node is the one nearest to the node's closest
+                                                          !! edge. The nearest edge is the one nearest to the node's closest
                                                           !! point on the surface. Of equally near edges, the first one counts.
   real(c_double), intent(inout) :: edge_moment(3, *)      !< (3, n_edges): for each edge, the moment of these forces about the
                                                           !! middle of the edge.
@@ -4530,7 +4534,7 @@ subroutine riisf_add_edge_reaction_components_64(marks, R, half_thickness, rim, 
                                                           !! If the first entry is -1, the other entries are not read, and each
                                                           !! edge serves all leaflets.
   real(c_double), intent(inout) :: edge_force(3, *)       !< (3, n_edges): for each edge, the sum of the forces that act at the
-                                                          !! edge. The edge of a node is the one nearest to the node's closest
+                                                          !! edge. The nearest edge is the one nearest to the node's closest
                                                           !! point on the surface. Of equally near edges, the first one counts.
   real(c_double), intent(inout) :: edge_moment(3, *)      !< (3, n_edges): for each edge, the moment of these forces about the
                                                           !! middle of the edge.
@@ -4841,7 +4845,7 @@ end subroutine riisf_band_sums_64
 ! -----------------------------------------------------------------------------------------------------------------
 
 !> Computes sums over nodes of tissue for riisf_loads_forces, and adds them to an array. Errors: RIIS_INVALID_ARGUMENT for a bad
-!! field, edge, node or weight; the message names it and its value.
+!! field, edge, node or weight; the message names the bad entry and its value.
 subroutine riisf_loads_sums(radius, n_edges, edges, edge_leaflet_id, n_nodes, xyz, weight, n_leaflets, sums, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32
@@ -4925,11 +4929,12 @@ subroutine riisf_loads_sums_64(radius, n_edges, edges, edge_leaflet_id, n_nodes,
   status = riis_loads_add_sums(loads, nodes, weight, sums)
 end subroutine riisf_loads_sums_64
 
-!> Adds the forces of the leaflets at nodes of tissue to an array. Up to rounding, the forces of a leaflet have the sum
+!> Adds to an array the forces of the leaflets at nodes of tissue. Up to rounding, the forces of a leaflet have the sum
 !! leaflet_force and the moment leaflet_moment. Errors: as riisf_loads_sums. RIIS_INVALID_ARGUMENT also if a leaflet with a force
 !! has fewer than three nodes within the radius, or only nodes that lie nearly on a line. Let r be the root-mean-square distance
-!! of these nodes from the line. The nodes are too near the line if r is less than a hundredth of their root-mean-square distance
-!! from their middle. They are also too near if r is less than a thousandth of the size of the edges (docs/theory/loads.md).
+!! of these nodes from the line. The nodes are too near the line if r is less than a hundredth of the root-mean-square distance
+!! of the nodes from their middle. The nodes are also too near the line if r is less than a thousandth of the size of the edges
+!! (docs/theory/loads.md).
 subroutine riisf_loads_forces(radius, n_edges, edges, edge_leaflet_id, n_nodes, xyz, weight, n_leaflets, about, &
     leaflet_force, leaflet_moment, sums, node_force, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -5164,7 +5169,7 @@ subroutine riisf_leaks_destroy(handle)
 end subroutine riisf_leaks_destroy
 
 !> Labels the open regions: the connected components of the unmarked nodes, along mesh edges. Errors: RIIS_INVALID_ARGUMENT for a
-!! mesh without adjacency, for empty marks, and for marks with another number of nodes.
+!! mesh without adjacency, for empty marks, and if the marks and the mesh differ in the number of nodes.
 subroutine riisf_label_open_regions(mesh, marks, n_threads, n_nodes, region_num, n_regions, status)
   use, intrinsic :: iso_c_binding, only: c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -5222,7 +5227,7 @@ end subroutine riisf_label_open_regions_64
 
 !> Finds the widest passage along the edges of the mesh's adjacency, whether it is open or closed. Errors: RIIS_INVALID_ARGUMENT
 !! for a mesh without adjacency, and for a bad node in `from` or `to`. A node is bad if it is not in the mesh, if node_mask
-!! leaves it out, or if it lies within the half thickness of the surface. RIIS_INVALID_MESH as riisf_mark_nodes.
+!! leaves it out, or if it lies in the band around the surface. RIIS_INVALID_MESH as riisf_mark_nodes.
 subroutine riisf_find_passage(surface, mesh, n_from, from_num, n_to, to_num, n_threads, state, node_num, distance, &
     point, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_loc, c_ptr, c_sizeof
@@ -5232,7 +5237,7 @@ subroutine riisf_find_passage(surface, mesh, n_from, from_num, n_to, to_num, n_t
       riis_passage_ends, riis_passage_ends_init, riis_status
   implicit none
   integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
-  integer(int64), intent(in) :: mesh                      !< Must have an adjacency, and need not have been marked.
+  integer(int64), intent(in) :: mesh                      !< A mesh with an adjacency, marked or not.
   integer(int32), intent(in) :: n_from                    !< At least 1.
   integer(int32), intent(in) :: from_num(n_from)          !< (n_from): the ids of the nodes at which paths begin, in any order.
                                                           !! Counted from 1.
@@ -5283,7 +5288,7 @@ subroutine riisf_find_passage_64(surface, mesh, n_from, from_num, n_to, to_num, 
       riis_passage_ends, riis_passage_ends_init, riis_status
   implicit none
   integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
-  integer(int64), intent(in) :: mesh                      !< Must have an adjacency, and need not have been marked.
+  integer(int64), intent(in) :: mesh                      !< A mesh with an adjacency, marked or not.
   integer(int64), intent(in) :: n_from                    !< At least 1.
   integer(int64), intent(in) :: from_num(n_from)          !< (n_from): the ids of the nodes at which paths begin, in any order.
                                                           !! Counted from 1.
@@ -5631,8 +5636,8 @@ subroutine riisf_surface_gap(surface, wall, least, mean, most, missed, status)
   use riis_c, only: RIIS_OK, riis_gap, riis_status, riis_surface_get_gap
   implicit none
   integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
-  integer(int64), intent(in) :: wall                      !< A surface in the valve's frame, usually by
-                                                          !! riisf_surface_from_arrays.
+  integer(int64), intent(in) :: wall                      !< A surface in the same coordinates as the valve's surface, usually
+                                                          !! from riisf_surface_from_arrays.
   real(c_double), intent(inout) :: least                  !< least, mean, most: the least, the mean and the largest gap at the
                                                           !! ends of the edges of riis_attachment. The mean is weighted by the
                                                           !! lengths of the edges. All three are 0 if no end has a gap.
@@ -5655,9 +5660,9 @@ subroutine riisf_surface_gap(surface, wall, least, mean, most, missed, status)
   missed = int(gap%n_without_wall, int32)
 end subroutine riisf_surface_gap
 
-!> Gives a valve a skirt that just reaches a wall. An earlier skirt of the valve is replaced. Errors: RIIS_INVALID_ARGUMENT if a
-!! skirt from some point does not meet the wall, or would be longer than `longest`; the message names the first such point.
-!! RIIS_INVALID_PARAMETER for a bileaflet valve, and for an attachment that encloses no area.
+!> Gives a valve a skirt that just reaches a wall. An earlier skirt of the valve is replaced. Errors: RIIS_INVALID_ARGUMENT if
+!! the skirt from a point of the attachment does not meet the wall, or would be longer than `longest`. The message names the
+!! first such point. RIIS_INVALID_PARAMETER for a bileaflet valve, and for an attachment that encloses no area.
 subroutine riisf_valve_skirt_to_wall(valve, wall, longest, half_thickness, tolerance, scale, rotation_axis, &
     rotation_angle, translation, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -5667,15 +5672,16 @@ subroutine riisf_valve_skirt_to_wall(valve, wall, longest, half_thickness, toler
   implicit none
   integer(int64), intent(in) :: valve                     !< From riisf_valve_create, for example.
   integer(int64), intent(in) :: wall                      !< As in riisf_surface_gap.
-  real(c_double), intent(in) :: longest                   !< The longest acceptable length, mesh units, 1e-50 to 1e50.
+  real(c_double), intent(in) :: longest                   !< The largest permitted length of the skirt, in mesh units, 1e-50 to
+                                                          !! 1e50.
   real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
                                                           !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
   real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The distance to a valve's triangles
                                                           !! differs from the distance to its smooth surface by at most
                                                           !! tolerance * half_thickness (docs/theory.md).
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
-  real(c_double), intent(in) :: rotation_axis(3)          !< A vector of any length from 1e-50 on, with components up to 1e50,
-                                                          !! usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_axis(3)          !< A vector with a length of at least 1e-50 and components up to
+                                                          !! 1e50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
   real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse a
@@ -5697,7 +5703,7 @@ end subroutine riisf_valve_skirt_to_wall
 !> Gives the ideal leak of a closed surface: the volume flow drop * (eps / R) * area that a pressure drop causes. The area is
 !! that of the surface without a bileaflet housing. If the surface has an offset o, the area is that of the surface after a shift
 !! by o eps along its normals. The leak in a solver differs from the ideal leak (docs/solvers.md). Errors: RIIS_INVALID_ARGUMENT
-!! for a bad field or argument; the message names it and its value.
+!! for a bad field or argument; the message names the field or argument and its value.
 subroutine riisf_surface_leak(surface, R, half_thickness, drop, flow, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int64
@@ -5754,8 +5760,8 @@ end subroutine riisf_cells_across
 !> Gives the volume that the valve sweeps between two openings, in mesh units cubed. The volume is the integral of u_surface . n
 !! over surface and time, so motion in the direction of the normals counts as positive. In a flow, a valve displaces less blood
 !! than this volume, because blood slips past the leaflets. Errors: RIIS_INVALID_ARGUMENT if an opening is out of range, and if
-!! the valve lacks the leaflet. RIIS_INVALID_PARAMETER if parameters do not fit together, and for an opening above 0 of a valve
-!! that has only one state.
+!! the valve has no leaflet of this id. RIIS_INVALID_PARAMETER if parameters do not fit together, and for an opening above 0 of a
+!! valve that has only one state.
 subroutine riisf_valve_swept_volume(valve, opening_from, opening_to, scale, leaflet_id, volume, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -5802,8 +5808,8 @@ subroutine riisf_find_by_area(valve, name, n_areas, areas, half_thickness, toler
                                                           !! differs from the distance to its smooth surface by at most
                                                           !! tolerance * half_thickness (docs/theory.md).
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
-  real(c_double), intent(in) :: rotation_axis(3)          !< A vector of any length from 1e-50 on, with components up to 1e50,
-                                                          !! usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_axis(3)          !< A vector with a length of at least 1e-50 and components up to
+                                                          !! 1e50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
   real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse a
@@ -5815,8 +5821,8 @@ subroutine riisf_find_by_area(valve, name, n_areas, areas, half_thickness, toler
   real(c_double), intent(inout) :: reached(*)             !< (n_areas): the areas at these openings or sizes.
   real(c_double), intent(inout) :: least                  !< least, most: the least and the largest area in this range.
   real(c_double), intent(inout) :: most                   !< least, most: the least and the largest area in this range.
-  integer(int32), intent(inout) :: n_turns                !< The number of all turns. If n_turns is 0, the area only grows or
-                                                          !! only falls.
+  integer(int32), intent(inout) :: n_turns                !< The number of all such openings or sizes. If n_turns is 0, the
+                                                          !! area only grows or only falls.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   character(len=len_trim(name) + 1, kind=c_char) :: c_name
   type(riis_area_search) :: search
@@ -5864,8 +5870,8 @@ subroutine riisf_find_by_area_64(valve, name, n_areas, areas, half_thickness, to
                                                           !! differs from the distance to its smooth surface by at most
                                                           !! tolerance * half_thickness (docs/theory.md).
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
-  real(c_double), intent(in) :: rotation_axis(3)          !< A vector of any length from 1e-50 on, with components up to 1e50,
-                                                          !! usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_axis(3)          !< A vector with a length of at least 1e-50 and components up to
+                                                          !! 1e50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
   real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse a
@@ -5877,8 +5883,8 @@ subroutine riisf_find_by_area_64(valve, name, n_areas, areas, half_thickness, to
   real(c_double), intent(inout) :: reached(*)             !< (n_areas): the areas at these openings or sizes.
   real(c_double), intent(inout) :: least                  !< least, most: the least and the largest area in this range.
   real(c_double), intent(inout) :: most                   !< least, most: the least and the largest area in this range.
-  integer(int64), intent(inout) :: n_turns                !< The number of all turns. If n_turns is 0, the area only grows or
-                                                          !! only falls.
+  integer(int64), intent(inout) :: n_turns                !< The number of all such openings or sizes. If n_turns is 0, the
+                                                          !! area only grows or only falls.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   character(len=len_trim(name) + 1, kind=c_char) :: c_name
   type(riis_area_search) :: search
@@ -5916,8 +5922,8 @@ subroutine riisf_find_first_passage(valve, mesh, n_from, from_num, n_to, to_num,
       riis_first_passage_options_init, riis_mark_options, riis_mark_options_init, riis_passage_ends, &
       riis_passage_ends_init, riis_status, riis_surface_options, riis_surface_options_init
   implicit none
-  integer(int64), intent(in) :: valve                     !< Its own opening is ignored.
-  integer(int64), intent(in) :: mesh                      !< Must have an adjacency, and need not have been marked.
+  integer(int64), intent(in) :: valve                     !< The valve, whose own opening is ignored.
+  integer(int64), intent(in) :: mesh                      !< A mesh with an adjacency, marked or not.
   integer(int32), intent(in) :: n_from                    !< At least 1.
   integer(int32), intent(in) :: from_num(n_from)          !< (n_from): the ids of the nodes at which paths begin, in any order.
                                                           !! Counted from 1.
@@ -5930,8 +5936,8 @@ subroutine riisf_find_first_passage(valve, mesh, n_from, from_num, n_to, to_num,
                                                           !! differs from the distance to its smooth surface by at most
                                                           !! tolerance * half_thickness (docs/theory.md).
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
-  real(c_double), intent(in) :: rotation_axis(3)          !< A vector of any length from 1e-50 on, with components up to 1e50,
-                                                          !! usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_axis(3)          !< A vector with a length of at least 1e-50 and components up to
+                                                          !! 1e50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
   real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse a
@@ -5996,8 +6002,8 @@ subroutine riisf_find_first_passage_64(valve, mesh, n_from, from_num, n_to, to_n
       riis_first_passage_options_init, riis_mark_options, riis_mark_options_init, riis_passage_ends, &
       riis_passage_ends_init, riis_status, riis_surface_options, riis_surface_options_init
   implicit none
-  integer(int64), intent(in) :: valve                     !< Its own opening is ignored.
-  integer(int64), intent(in) :: mesh                      !< Must have an adjacency, and need not have been marked.
+  integer(int64), intent(in) :: valve                     !< The valve, whose own opening is ignored.
+  integer(int64), intent(in) :: mesh                      !< A mesh with an adjacency, marked or not.
   integer(int64), intent(in) :: n_from                    !< At least 1.
   integer(int64), intent(in) :: from_num(n_from)          !< (n_from): the ids of the nodes at which paths begin, in any order.
                                                           !! Counted from 1.
@@ -6010,8 +6016,8 @@ subroutine riisf_find_first_passage_64(valve, mesh, n_from, from_num, n_to, to_n
                                                           !! differs from the distance to its smooth surface by at most
                                                           !! tolerance * half_thickness (docs/theory.md).
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
-  real(c_double), intent(in) :: rotation_axis(3)          !< A vector of any length from 1e-50 on, with components up to 1e50,
-                                                          !! usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_axis(3)          !< A vector with a length of at least 1e-50 and components up to
+                                                          !! 1e50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
   real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse a
@@ -6075,7 +6081,7 @@ end subroutine riisf_find_first_passage_64
 ! -----------------------------------------------------------------------------------------------------------------
 
 !> Gives the opening and its rate at a time, from a table. Errors: RIIS_INVALID_ARGUMENT for a bad field or key; the message
-!! names it and its value.
+!! names the field or key and its value.
 subroutine riisf_opening_from_table(n_keys, key_time, key_opening, period, interpolation, time, opening, rate, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32
@@ -6124,7 +6130,7 @@ subroutine riisf_opening_from_times(opening_start, opening_duration, closing_sta
   real(c_double), intent(in) :: open                      !< closed, open: the opening of the closed valve, and the opening of
                                                           !! the open valve, each 0 to 1. Usually 0 and 1.
   real(c_double), intent(in) :: period                    !< If above 0, the valve opens and closes once in each period. With
-                                                          !! 0, the default, it opens and closes only once.
+                                                          !! 0, the default, the valve opens and closes only once.
   real(c_double), intent(in) :: time                      !< Magnitude at most 1e30.
   real(c_double), intent(inout) :: opening                !< Written on success.
   real(c_double), intent(inout) :: rate                   !< Written on success.
@@ -6160,8 +6166,8 @@ subroutine riisf_opening_switch_init(state, phase, status)
 end subroutine riisf_opening_switch_init
 
 !> Advances the state of a switch to a later time. The phase changes only at the end of a step, so the error of the opening is of
-!! first order in the length of the step. Errors: RIIS_INVALID_ARGUMENT for a bad field or argument; the message names it and its
-!! value.
+!! first order in the length of the step. Errors: RIIS_INVALID_ARGUMENT for a bad field or argument; the message names the field
+!! or argument and its value.
 subroutine riisf_opening_switch_advance(opening_duration, closing_duration, open_above, close_below, filter_time, &
     dwell_time, time, pressure_difference, flow, state, phase, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -6177,8 +6183,8 @@ subroutine riisf_opening_switch_advance(opening_duration, closing_duration, open
                                                           !! and flow, >= 0. 0: no filter.
   real(c_double), intent(in) :: dwell_time                !< The shortest time between two changes of phase, >= 0. Usually 0.
   real(c_double), intent(in) :: time                      !< At least state(1).
-  real(c_double), intent(in) :: pressure_difference       !< The values at this time, at most 1e30 in magnitude.
-  real(c_double), intent(in) :: flow                      !< The values at this time, at most 1e30 in magnitude.
+  real(c_double), intent(in) :: pressure_difference       !< The values at `time`, each at most 1e30 in magnitude.
+  real(c_double), intent(in) :: flow                      !< The values at `time`, each at most 1e30 in magnitude.
   real(c_double), intent(inout) :: state(7)               !< Time, opening, rate, progress, filtered pressure difference,
                                                           !! filtered flow, time of the last change of phase (NaN: none yet).
                                                           !! Written on success.
@@ -6228,15 +6234,16 @@ end subroutine riisf_opening_angle_init
 !> Advances the state of the angle law to a later time. The law assumes that the pressure difference and the flow change linearly
 !! during a step. The error of the angle is therefore of second order in the length of the step. During the first step both are
 !! assumed to be constant, because no earlier values are known. Errors: RIIS_INVALID_ARGUMENT for a bad field or argument; the
-!! message names it and its value. RIIS_LIMIT_EXCEEDED if the integration of the step needs more than a million smaller steps.
+!! message names the field or argument and its value. RIIS_LIMIT_EXCEEDED if the integration of the step needs more than a
+!! million smaller steps.
 subroutine riisf_opening_angle_advance(pressure_gain, flow_gain, friction, vortex_gain, angle_min, angle_max, time, &
     pressure_difference, flow, state, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use riis_c, only: RIIS_OK, riis_opening_angle, riis_opening_angle_advance, riis_opening_angle_init, &
       riis_opening_angle_state, riis_opening_angle_state_init, riis_status
   implicit none
-  real(c_double), intent(in) :: pressure_gain             !< K_p, >= 0. This field and the next three have the default NaN,
-                                                          !! which is refused.
+  real(c_double), intent(in) :: pressure_gain             !< K_p in the paper, >= 0. This field and the next three have the
+                                                          !! default NaN, which is refused.
   real(c_double), intent(in) :: flow_gain                 !< K_q, >= 0.
   real(c_double), intent(in) :: friction                  !< K_f, >= 0.
   real(c_double), intent(in) :: vortex_gain               !< K_v, >= 0.
@@ -6244,8 +6251,8 @@ subroutine riisf_opening_angle_advance(pressure_gain, flow_gain, friction, vorte
   real(c_double), intent(in) :: angle_max                 !< The angle of the open valve in degrees, above angle_min, at most
                                                           !! 90. Usually 75.
   real(c_double), intent(in) :: time                      !< At least state(1).
-  real(c_double), intent(in) :: pressure_difference       !< The values at this time, at most 1e30 in magnitude.
-  real(c_double), intent(in) :: flow                      !< The values at this time, at most 1e30 in magnitude.
+  real(c_double), intent(in) :: pressure_difference       !< The values at `time`, each at most 1e30 in magnitude.
+  real(c_double), intent(in) :: flow                      !< The values at `time`, each at most 1e30 in magnitude.
   real(c_double), intent(inout) :: state(7)               !< Time, opening, rate, angle in degrees, its rate, pressure
                                                           !! difference, flow (NaN: none yet). Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -6324,8 +6331,8 @@ subroutine riisf_place(valve, n_landmarks, xyz, role, leaflet_id, scale, noise, 
   real(c_double), intent(inout) :: rotation_axis(3)       !< Unit vector.
   real(c_double), intent(inout) :: rotation_angle         !< Degrees, 0 to 180.
   real(c_double), intent(inout) :: translation(3)         !< Mesh units.
-  real(c_double), intent(inout) :: residual(*)            !< (n_landmarks): distances from the landmarks to their places, mesh
-                                                          !! units.
+  real(c_double), intent(inout) :: residual(*)            !< (n_landmarks): the distance of each landmark from its place on the
+                                                          !! closed valve, mesh units.
   integer(int32), intent(inout) :: size_state(*)          !< (number of parameters): RIIS_SIZE_*.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   character(len=len_trim(held) + 1, kind=c_char) :: c_held
@@ -6372,8 +6379,8 @@ subroutine riisf_warp_create(n_landmarks, xyz, noise, scale, rotation_axis, rota
                                                           !! 1e50. The map is smoothed until it misses the targets by about
                                                           !! this noise. 0: the map takes the landmarks exactly to the targets.
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
-  real(c_double), intent(in) :: rotation_axis(3)          !< A vector of any length from 1e-50 on, with components up to 1e50,
-                                                          !! usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_axis(3)          !< A vector with a length of at least 1e-50 and components up to
+                                                          !! 1e50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
   real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse a

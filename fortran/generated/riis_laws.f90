@@ -40,7 +40,7 @@ module riis_laws
     real(c_double) :: open = 1                              !< closed, open: the opening of the closed valve, and the opening of
                                                             !! the open valve, each 0 to 1. Default 0 and 1.
     real(c_double) :: period = 0                            !< If above 0, the valve opens and closes once in each period. With
-                                                            !! 0, the default, it opens and closes only once.
+                                                            !! 0, the default, the valve opens and closes only once.
   end type riis_opening_times
 
   !> A valve that opens when the pressure difference exceeds open_above, and closes when the flow falls below close_below.
@@ -67,7 +67,7 @@ module riis_laws
                                                             !! The opening is a smooth function of this fraction.
     real(c_double) :: pressure_difference = no_value        !< Filtered; NaN: none yet.
     real(c_double) :: flow = no_value                       !< Filtered; NaN: none yet.
-    real(c_double) :: turn_time = no_value                  !< Time of the last change of phase; NaN: none yet.
+    real(c_double) :: turn_time = no_value                  !< The time of the last change of phase; NaN: none yet.
     integer(int32) :: phase = RIIS_PHASE_CLOSING            !< RIIS_PHASE_*.
   end type riis_opening_switch_state
 
@@ -79,8 +79,8 @@ module riis_laws
   !! The opening is the angle's fraction of the range from angle_min to angle_max. The paper's values, for mmHg, ml and s:
   !! pressure_gain 5500, flow_gain 2, friction 50, vortex_gain 7 for the aortic and 3.5 for the mitral valve.
   type :: riis_opening_angle
-    real(c_double) :: pressure_gain = no_value              !< K_p, >= 0. This field and the next three have the default NaN,
-                                                            !! which is refused.
+    real(c_double) :: pressure_gain = no_value              !< K_p in the paper, >= 0. This field and the next three have the
+                                                            !! default NaN, which is refused.
     real(c_double) :: flow_gain = no_value                  !< K_q, >= 0.
     real(c_double) :: friction = no_value                   !< K_f, >= 0.
     real(c_double) :: vortex_gain = no_value                !< K_v, >= 0.
@@ -94,8 +94,8 @@ module riis_laws
     real(c_double) :: time = 0                              !< Of this state.
     real(c_double) :: opening = 0                           !< opening, rate: at that time.
     real(c_double) :: rate = 0                              !< opening, rate: at that time.
-    real(c_double) :: angle = 0                             !< angle, angle_rate: degrees, degrees per time.
-    real(c_double) :: angle_rate = 0                        !< angle, angle_rate: degrees, degrees per time.
+    real(c_double) :: angle = 0                             !< angle, angle_rate: in degrees, and in degrees per unit of time.
+    real(c_double) :: angle_rate = 0                        !< angle, angle_rate: in degrees, and in degrees per unit of time.
     real(c_double) :: pressure_difference = no_value        !< At that time; NaN: none yet.
     real(c_double) :: flow = no_value                       !< At that time; NaN: none yet.
   end type riis_opening_angle_state

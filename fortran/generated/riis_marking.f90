@@ -56,9 +56,9 @@ module riis_marking
                                                             !! points.
     real(c_double), pointer :: K_gradient(:, :) => null()   !< (n_directions, n_nodes): the derivative of K in each direction,
                                                             !! for constant R and half thickness. The derivative is 0 where K is
-                                                            !! 0. If the surface has an offset, n is the surface's normal for
-                                                            !! nodes on the surface. At a rim, the derivative then includes the
-                                                            !! rotation of this normal.
+                                                            !! 0. If the surface has an offset, the unit vector n of a node on
+                                                            !! the surface is the surface's normal. At a rim, the derivative then
+                                                            !! includes the rotation of this normal.
     real(c_double), pointer :: height(:) => null()          !< (n_nodes): for a surface with an offset, the signed distance s of
                                                             !! riis_surface_create. If the closest point p is on a rim, the
                                                             !! height of a node x is n.(x - p) with the normal n.

@@ -27,14 +27,14 @@ typedef int32_t riis_status;
 enum {
   RIIS_OK = 0,                  /* success */
   RIIS_INVALID_ARGUMENT = 1,    /* a NULL pointer, a number out of range, a non-finite option */
-  RIIS_INVALID_STRUCT_SIZE = 2, /* a size that no release has: the struct is not initialised, or riis.h is newer than the
+  RIIS_INVALID_STRUCT_SIZE = 2, /* a struct size that fits no release: the struct is not initialised, or riis.h is newer than the
                                    library */
   RIIS_INVALID_PARAMETER = 3,   /* a valve: unknown kind or name, value out of range, values that do not fit together */
   RIIS_INVALID_SURFACE = 4,     /* the caller's surface: empty, non-finite, index out of range, zero area */
   RIIS_INVALID_MESH = 5,        /* the caller's mesh: empty, non-finite coordinate */
   RIIS_LIMIT_EXCEEDED = 6,      /* the request is valid but too large for the library */
   RIIS_OUT_OF_MEMORY = 7,       /* memory ran out; nothing changed */
-  RIIS_FILE_ERROR = 8,          /* a file cannot be read or written, or has other content (riis_vtk.h) */
+  RIIS_FILE_ERROR = 8,          /* a file cannot be read or written, or has unexpected content (riis_vtk.h) */
   RIIS_UNAVAILABLE = 9,         /* something cannot be used now: threads after a fork(), a display, a handle that another thread
                                    uses */
   RIIS_INTERNAL_ERROR = -1      /* an error in riis or in a library that it uses */
@@ -60,8 +60,8 @@ RIIS_API const char *riis_version_string(void);
 typedef void (*riis_log_function)(void *user_data, int32_t level, const char *message);
 /* The levels of a message. */
 enum {
-  RIIS_LOG_INFO = 0,   /* the shape that was built, and its size */
-  RIIS_LOG_WARNING = 1 /* skipped triangles, sizes in different units, leaflets that cross */
+  RIIS_LOG_INFO = 0,   /* a note of the shape that was built, and of its size */
+  RIIS_LOG_WARNING = 1 /* a warning of skipped triangles, of sizes that seem to have different units, or of leaflets that cross */
 };
 /* Sets the log function, which is the same for all threads of the process. Any thread may call riis_set_log.
  *   `function`: receives the messages; NULL, the default, means no log.

@@ -40,7 +40,7 @@ typedef struct riis_opening_table {
 RIIS_API riis_status riis_opening_table_init(riis_opening_table *table, int64_t struct_size); /* the defaults */
 /* Gives the opening and its rate at a time, from a table. `opening` or `rate` may be NULL.
  *   `time`: magnitude at most 1e30.
- * Errors: RIIS_INVALID_ARGUMENT for a bad field or key; the message names it and its value. */
+ * Errors: RIIS_INVALID_ARGUMENT for a bad field or key; the message names the field or key and its value. */
 RIIS_API riis_status riis_opening_from_table(const riis_opening_table *table, double time, double *opening,
                                              double *rate);
 
@@ -55,8 +55,8 @@ typedef struct riis_opening_times {
   double closing_start;   /* the time at which the valve begins to close, at least opening_start + opening_duration */
   double closing_duration; /* how long closing takes, > 0 */
   double closed, open;    /* the opening of the closed valve, and the opening of the open valve, each 0 to 1. Default 0 and 1 */
-  double period;          /* if above 0, the valve opens and closes once in each period. With 0, the default, it opens and closes
-                             only once */
+  double period;          /* if above 0, the valve opens and closes once in each period. With 0, the default, the valve opens and
+                             closes only once */
 } riis_opening_times;
 RIIS_API riis_status riis_opening_times_init(riis_opening_times *times, int64_t struct_size); /* the defaults */
 /* Gives the opening and its rate at a time, from the times of the two ramps. `opening` or `rate` may be NULL.
@@ -94,7 +94,7 @@ typedef struct riis_opening_switch_state {
                                  function of this fraction */
   double pressure_difference; /* filtered; NaN: none yet */
   double flow;                /* filtered; NaN: none yet */
-  double turn_time;           /* time of the last change of phase; NaN: none yet */
+  double turn_time;           /* the time of the last change of phase; NaN: none yet */
   int32_t phase;              /* RIIS_PHASE_* */
   int32_t reserved;           /* 0 */
 } riis_opening_switch_state;
@@ -103,8 +103,9 @@ RIIS_API riis_status riis_opening_switch_state_init(riis_opening_switch_state *s
 /* Advances the state of a switch to a later time. The phase changes only at the end of a step, so the error of the opening is of
  * first order in the length of the step.
  *   `time`: the end of the step; at least before->time, and at most 1e30 in magnitude.
- *   `pressure_difference`, `flow`: the values at this time, at most 1e30 in magnitude.
- * Errors: RIIS_INVALID_ARGUMENT for a bad field or argument; the message names it and its value. *now does not change. */
+ *   `pressure_difference`, `flow`: the values at `time`, each at most 1e30 in magnitude.
+ * Errors: RIIS_INVALID_ARGUMENT for a bad field or argument; the message names the field or argument and its value. After an
+ * error, *now is unchanged. */
 RIIS_API riis_status riis_opening_switch_advance(const riis_opening_switch *law,
                                                  const riis_opening_switch_state *before, double time,
                                                  double pressure_difference, double flow,
@@ -120,7 +121,7 @@ RIIS_API riis_status riis_opening_switch_advance(const riis_opening_switch *law,
  * mitral valve. */
 typedef struct riis_opening_angle {
   int64_t struct_size;  /* set by the init function */
-  double pressure_gain; /* K_p, >= 0. This field and the next three have the default NaN, which is refused */
+  double pressure_gain; /* K_p in the paper, >= 0. This field and the next three have the default NaN, which is refused */
   double flow_gain;     /* K_q, >= 0 */
   double friction;      /* K_f, >= 0 */
   double vortex_gain;   /* K_v, >= 0 */
@@ -133,7 +134,7 @@ typedef struct riis_opening_angle_state {
   int64_t struct_size;        /* set by the init function */
   double time;                /* of this state */
   double opening, rate;       /* at that time */
-  double angle, angle_rate;   /* degrees, degrees per time */
+  double angle, angle_rate;   /* in degrees, and in degrees per unit of time */
   double pressure_difference; /* at that time; NaN: none yet */
   double flow;                /* at that time; NaN: none yet */
 } riis_opening_angle_state;
@@ -143,9 +144,10 @@ RIIS_API riis_status riis_opening_angle_state_init(riis_opening_angle_state *sta
  * during a step. The error of the angle is therefore of second order in the length of the step. During the first step both are
  * assumed to be constant, because no earlier values are known.
  *   `time`: the end of the step; at least before->time, and at most 1e30 in magnitude.
- *   `pressure_difference`, `flow`: the values at this time, at most 1e30 in magnitude.
- * Errors: RIIS_INVALID_ARGUMENT for a bad field or argument; the message names it and its value. RIIS_LIMIT_EXCEEDED if the
- * integration of the step needs more than a million smaller steps. After an error, *now is unchanged. */
+ *   `pressure_difference`, `flow`: the values at `time`, each at most 1e30 in magnitude.
+ * Errors: RIIS_INVALID_ARGUMENT for a bad field or argument; the message names the field or argument and its value.
+ * RIIS_LIMIT_EXCEEDED if the integration of the step needs more than a million smaller steps. After an error, *now is
+ * unchanged. */
 RIIS_API riis_status riis_opening_angle_advance(const riis_opening_angle *law,
                                                 const riis_opening_angle_state *before, double time,
                                                 double pressure_difference, double flow,

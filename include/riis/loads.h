@@ -44,9 +44,9 @@ RIIS_API riis_status riis_loads_init(riis_loads *loads, int64_t struct_size); /*
  * A bileaflet valve has no attachment. A surface from arrays has an attachment only if the arrays have `attached` or a skirt. For
  * a surface without an attachment, pass the edges at which the leaflets are sewn or hinged. With MPI each rank passes its own
  * nodes, and the caller then adds up the sums of all ranks.
- * Errors: RIIS_INVALID_ARGUMENT for a bad field, edge, node or weight; the message names it and its value. */
+ * Errors: RIIS_INVALID_ARGUMENT for a bad field, edge, node or weight; the message names the bad entry and its value. */
 RIIS_API riis_status riis_loads_add_sums(const riis_loads *loads, const riis_points *nodes, const double *weight, double *sums);
-/* Adds the forces of the leaflets at nodes of tissue to an array. Up to rounding, the forces of a leaflet have the sum
+/* Adds to an array the forces of the leaflets at nodes of tissue. Up to rounding, the forces of a leaflet have the sum
  * leaflet_force and the moment leaflet_moment.
  *   `loads`, `nodes`, `weight`: as in riis_loads_add_sums.
  *   `sums` (11, n_leaflets): the sums of riis_loads_add_sums, added up over all ranks.
@@ -59,8 +59,8 @@ RIIS_API riis_status riis_loads_add_sums(const riis_loads *loads, const riis_poi
  * get the forces of one leaflet alone, pass zeros for the other leaflets. The forces do not model the mechanics of a membrane.
  * Errors: as riis_loads_add_sums. RIIS_INVALID_ARGUMENT also if a leaflet with a force has fewer than three nodes within the
  * radius, or only nodes that lie nearly on a line. Let r be the root-mean-square distance of these nodes from the line. The nodes
- * are too near the line if r is less than a hundredth of their root-mean-square distance from their middle. They are also too
- * near if r is less than a thousandth of the size of the edges (docs/theory/loads.md). */
+ * are too near the line if r is less than a hundredth of the root-mean-square distance of the nodes from their middle. The nodes
+ * are also too near the line if r is less than a thousandth of the size of the edges (docs/theory/loads.md). */
 RIIS_API riis_status riis_loads_add_forces(const riis_loads *loads, const riis_points *nodes, const double *weight,
                                            const double *sums, double *node_force);
 

@@ -127,7 +127,7 @@ enum {
                                 same nodes as RIIS_LIST_MARKED */
 };
 /* A list of nodes, ascending by node_id. Lengths are in mesh units. The arrays from `point` to `K_gradient` are NULL if
- * options.fields did not request them. Values that riis_closest_point also gives are bitwise the same there. */
+ * options.fields did not request them. Values that riis_closest_point also gives are bitwise the same in both calls. */
 typedef struct riis_mark_list {
   int64_t n_nodes;            /* in the list */
   const int64_t *node_id;     /* (n_nodes) */
@@ -161,8 +161,8 @@ typedef struct riis_mark_list {
                                       has a kink there. The distance also has a kink at nodes with several closest points */
   const double *K_gradient;   /* (n_directions, n_nodes): the derivative of K in each direction, for constant R and half
                                  thickness. The derivative is 0 where K is 0. NULL without a resistance. If the surface has an
-                                 offset, n is the surface's normal for nodes on the surface. At a rim, the derivative then
-                                 includes the rotation of this normal */
+                                 offset, the unit vector n of a node on the surface is the surface's normal. At a rim, the
+                                 derivative then includes the rotation of this normal */
   const double *height;       /* (n_nodes): for a surface with an offset, the signed distance s of riis_surface_create. If the
                                  closest point p is on a rim, the height of a node x is n.(x - p) with the normal n. NULL without
                                  an offset */
@@ -193,7 +193,7 @@ RIIS_API riis_status riis_marks_get_dense(const riis_marks *marks, const riis_de
 typedef struct riis_mark_stats {
   int64_t n_nodes;      /* the number of nodes of the mesh, masked out or not */
   int64_t n_marked;     /* the length of RIIS_LIST_MARKED */
-  int64_t n_within_limit; /* nodes within the distance limit, marked or not */
+  int64_t n_within_limit; /* the number of nodes within the distance limit, marked or not */
   int64_t n_queries;    /* the number of closest-point queries for nodes and for parts of the mesh */
   double seconds;       /* wall time of riis_mark_nodes */
   int32_t search;       /* the search that ran, never RIIS_SEARCH_AUTO */

@@ -31,8 +31,8 @@ RIIS_API riis_status riis_surface_get_n_leaflets(const riis_surface *surface, in
 RIIS_API riis_status riis_surface_get_leaflet(const riis_surface *surface, int64_t leaflet, riis_leaflet *sizes,
                                               int64_t struct_size);
 
-/* The ways to find the outline of an orifice. If a surface from arrays or keyframes has the triangles of a valve, its outline is
- * that of this valve. */
+/* The ways to find the outline of an orifice. A surface from arrays or keyframes that has the triangles of a valve also has the
+ * outline of this valve. */
 enum {
   RIIS_OUTLINE_NONE = 0,      /* the boundary of the leaflets does not surround a centre, or encloses no area */
   RIIS_OUTLINE_DISC = 1,      /* bileaflet: a disc around the z axis, with the radius riis_orifice.radius */
@@ -63,7 +63,7 @@ typedef struct riis_orifice {
                             mitral valve, and by 1 for a bileaflet valve */
   double half_thickness; /* the half thickness of the resistance */
   double radius;         /* the radius of the disc; 0 for other outlines */
-  double axis[3];        /* unit vector; 0 for arrays and keyframes without an outline */
+  double axis[3];        /* unit vector; 0 for a surface from arrays or keyframes without an outline */
   int32_t outline;       /* RIIS_OUTLINE_* */
   int32_t reserved;      /* 0 */
 } riis_orifice;
@@ -111,7 +111,7 @@ typedef struct riis_area_range {
                                growing. Unused entries are NaN. A change of the area by less than 1e-4 of the largest area does
                                not count */
   double seconds;           /* wall time of riis_find_by_area */
-  int64_t n_turns;          /* the number of all turns. If n_turns is 0, the area only grows or only falls */
+  int64_t n_turns;          /* the number of all such openings or sizes. If n_turns is 0, the area only grows or only falls */
   int64_t n_surfaces;       /* the number of surfaces that the search made. The cost of the search grows with this number */
   int64_t n_refused;        /* the number of sampled openings or sizes for which there is no valve or no orifice. The search
                                leaves them out */
@@ -168,7 +168,7 @@ RIIS_API riis_status riis_surface_get_coaptation(const riis_surface *surface, do
  *     the surface's half thickness.
  *   `drop`: upstream pressure minus downstream pressure, at most 1e30 in magnitude.
  *   `flow`: the volume flow, in the unit of drop * area * eps / R. In SI units this is m^3/s.
- * Errors: RIIS_INVALID_ARGUMENT for a bad field or argument; the message names it and its value. */
+ * Errors: RIIS_INVALID_ARGUMENT for a bad field or argument; the message names the field or argument and its value. */
 RIIS_API riis_status riis_surface_get_leak(const riis_surface *surface, const riis_resistance *resistance,
                                            double drop, double *flow);
 
@@ -183,7 +183,7 @@ typedef struct riis_first_passage_options {
 RIIS_API riis_status riis_first_passage_options_init(riis_first_passage_options *options, int64_t struct_size);
 /* The result of riis_find_first_passage. */
 enum {
-  RIIS_FIRST_PASSAGE_FOUND = 0,  /* the valve closes the mesh at opening 0, and opens it later */
+  RIIS_FIRST_PASSAGE_FOUND = 0,  /* the mesh has no passage at opening 0, and has one at a larger opening */
   RIIS_FIRST_PASSAGE_ALWAYS = 1, /* the mesh has a passage already at opening 0 */
   RIIS_FIRST_PASSAGE_NEVER = 2,  /* no opening that was tried has a passage */
   RIIS_FIRST_PASSAGE_NONE = 3    /* the mesh itself has no path */
@@ -201,8 +201,8 @@ typedef struct riis_first_passage {
   int32_t state;         /* RIIS_FIRST_PASSAGE_* */
 } riis_first_passage;
 /* Finds the opening at which riis_find_passage first finds a passage.
- *   `valve`: its own opening is ignored.
- *   `mesh`: must have an adjacency, and need not have been marked.
+ *   `valve`: the valve, whose own opening is ignored.
+ *   `mesh`: a mesh with an adjacency, marked or not.
  *   `ends`: as for riis_find_passage. At each opening that is tried, all ends must be outside the band.
  * The call tries the openings 0, 1/8, 2/8, ... until it finds a passage. Then it halves the interval between closed_opening and
  * opening until the interval is at most as long as the tolerance. A passage may close again when the valve opens further. The
@@ -240,8 +240,8 @@ RIIS_API riis_status riis_marks_get_cells_across(const riis_marks *marks, const 
  *   `leaflet_id`: RIIS_LEAFLET_*, a leaflet_id of the caller's patches, or RIIS_ALL_LEAFLETS.
  * The error is at most 1e-3 times the largest volume that any single leaflet sweeps from opening 0 to 1
  * (docs/theory/measures.md).
- * Errors: RIIS_INVALID_ARGUMENT if an opening is out of range, and if the valve lacks the leaflet. RIIS_INVALID_PARAMETER if
- * parameters do not fit together, and for an opening above 0 of a valve that has only one state. */
+ * Errors: RIIS_INVALID_ARGUMENT if an opening is out of range, and if the valve has no leaflet of this id. RIIS_INVALID_PARAMETER
+ * if parameters do not fit together, and for an opening above 0 of a valve that has only one state. */
 RIIS_API riis_status riis_valve_get_swept_volume(const riis_valve *valve, double opening_from, double opening_to,
                                                  const riis_surface_options *options, int32_t leaflet_id,
                                                  double *volume);

@@ -18,8 +18,8 @@ extern "C" {
  * names end in _copy copy the coordinates. */
 typedef struct riis_mesh riis_mesh;
 
-/* Borrows node coordinates and checks them once. The coordinates must stay in place until the mesh is updated or destroyed. With
- * MPI, a process without nodes must also make a mesh, with n_nodes 0.
+/* Makes a mesh that borrows the coordinates of its nodes, and checks them once. The coordinates must stay in place until the mesh
+ * is updated or destroyed. With MPI, a process without nodes must also make a mesh, with n_nodes 0.
  *   `n_nodes`: 0 to 2^40; with 0 the pointers may be NULL.
  * Errors: RIIS_INVALID_MESH for a bad coordinate; the message names the node and the value. RIIS_LIMIT_EXCEEDED for too many
  * nodes. */
@@ -30,8 +30,8 @@ RIIS_API riis_status riis_mesh_create(int64_t n_nodes, const double *x, const do
  * and errors are as in riis_mesh_create. */
 RIIS_API riis_status riis_mesh_update(riis_mesh *mesh, int64_t n_nodes, const double *x, const double *y,
                                       const double *z, int64_t stride);
-/* Copies node coordinates and checks them. Use this call for a temporary array of Fortran, or for coordinates in single
- * precision, which become doubles without rounding. The copies take 24 bytes per node.
+/* Makes a mesh with copies of the coordinates of its nodes, and checks them. Use this call for a temporary array of Fortran, or
+ * for coordinates in single precision, which become doubles without rounding. The copies take 24 bytes per node.
  * Errors: as riis_mesh_create. */
 RIIS_API riis_status riis_mesh_create_copy(const riis_points *nodes, riis_mesh **mesh);
 /* Does the same as riis_mesh_update, but copies the coordinates. A mesh may change from borrowed coordinates to copies, and
@@ -69,7 +69,7 @@ RIIS_API riis_status riis_grid_init(riis_grid *grid, int64_t struct_size); /* th
 /* Makes a mesh from the axes of a grid, and stores nothing for each node. A marking gives bitwise the same results as for a mesh
  * that riis_mesh_create makes from the same nodes. If riis_mesh_set_adjacency is not called, the mesh has the adjacency of
  * riis_adjacency_create_from_grid. Axes are not periodic. Markings of the mesh refuse RIIS_SEARCH_NEIGHBOR and RIIS_SEARCH_PAPER.
- * If the grid has more than 10^8 nodes, they also refuse sampling and minimisation.
+ * If the grid has more than 10^8 nodes, markings also refuse sampling and minimisation.
  *   `grid`: the grid; the call copies its axes. For all other calls, grid->n_nodes is the number of nodes of the mesh.
  * Errors: RIIS_INVALID_MESH for a bad axis; the message names the axis, the index and the value. RIIS_LIMIT_EXCEEDED if a node
  * has a number of 2^40 or more. */
@@ -88,7 +88,8 @@ typedef struct riis_csr {
                             n_rows */
   const void *offsets;   /* (n_rows + 1), ascending; the first offset is index_base, and a row may be empty. NULL only for 0
                             rows */
-  const void *columns;   /* (offsets[n_rows] - base), in any order; repetitions and the node itself are ignored */
+  const void *columns;   /* (offsets[n_rows] - base), the neighbours of each row in any order; repetitions and the row's own node
+                            are ignored */
   int32_t offset_bits;   /* of offsets */
   int32_t column_bits;   /* of columns */
   int32_t index_base;    /* of both offsets and columns */
@@ -105,8 +106,8 @@ RIIS_API riis_status riis_mesh_set_adjacency(riis_mesh *mesh, const riis_csr *cs
 
 /* ---- Adjacency from cells, faces, or a structured grid ------------------------------------------------- */
 
-/* Compressed sparse rows that the library owns. The columns ascend without repetition, the adjacency is symmetric, and the base
- * is 0. */
+/* An adjacency: compressed sparse rows that the library owns. The columns ascend without repetition, the adjacency is symmetric,
+ * and the base is 0. */
 typedef struct riis_adjacency riis_adjacency;
 
 /* Cells of a mesh, with the ids of their nodes. The nodes of a cell have the order of VTK, Abaqus, CGNS and Gmsh: first the base,
@@ -117,7 +118,7 @@ typedef struct riis_mesh_cells {
   int64_t n_nodes;         /* of the mesh, >= 0 */
   int64_t n_cells;         /* >= 0 */
   const void *node_ids;    /* the nodes of all cells, cell after cell; NULL only without cells */
-  const void *offsets;     /* (n_cells + 1), the position in node_ids at which each cell begins, then the end of the last cell;
+  const void *offsets;     /* (n_cells + 1): the position in node_ids at which each cell begins, then the end of the last cell;
                               ascending from 0 or from index_base. NULL: all cells have nodes_per_cell nodes */
   int32_t nodes_per_cell;  /* the number of nodes of each cell: 4, 5, 6 or 8. Not used with offsets. Default 4 */
   int32_t id_bits;         /* of node_ids and offsets */

@@ -29,7 +29,7 @@ RIIS_API riis_status riis_resistance_arrays_init(riis_resistance_arrays *arrays,
  * sums over all valves. The solver's term is (sum of K) u - (sum of K u_surface). The nodes of the mesh may be cell centres or
  * quadrature points. For a single valve, riis_mark_list also gives K and K u_surface.
  *   `resistance`: for RIIS_RIM_CUT, the marks must have RIIS_FIELD_RIM. For K_u_surface, they must have RIIS_FIELD_VELOCITY.
- * Errors: RIIS_INVALID_ARGUMENT if the marks are empty, and if they lack a field. */
+ * Errors: RIIS_INVALID_ARGUMENT if the marks are empty, and if they lack a field that is needed. */
 RIIS_API riis_status riis_marks_add_resistance(const riis_marks *marks, const riis_resistance *resistance,
                                                const riis_resistance_arrays *arrays);
 
@@ -63,7 +63,7 @@ typedef struct riis_reaction {
   const int32_t *edge_leaflet_id; /* (n_edges), >= 0: the leaflet of each edge. Each leaflet must then have an edge. The force
                                      from a node acts at the nearest edge of its leaflet. NULL, the default: the force acts at the
                                      nearest of all edges */
-  double *edge_force;       /* (3, n_edges): for each edge, the sum of the forces that act at the edge. The edge of a node is the
+  double *edge_force;       /* (3, n_edges): for each edge, the sum of the forces that act at the edge. The nearest edge is the
                                one nearest to the node's closest point on the surface. Of equally near edges, the first one
                                counts */
   double *edge_moment;      /* (3, n_edges): for each edge, the moment of these forces about the middle of the edge */

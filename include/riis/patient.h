@@ -68,13 +68,13 @@ RIIS_API riis_status riis_landmarks_init(riis_landmarks *landmarks, int64_t stru
 
 /* Where a parameter's value comes from. */
 enum {
-  RIIS_SIZE_KEPT = 0,        /* the value is the valve's own */
+  RIIS_SIZE_KEPT = 0,        /* the parameter keeps the valve's own value */
   RIIS_SIZE_DETERMINED = 1,  /* the landmarks determine the parameter. A change of the parameter by its standard error moves the
                                 valve by at most a fifteenth of the valve's radius */
   RIIS_SIZE_TIED = 2,        /* no landmark has an influence on the parameter. Its value follows from other sizes by the valve's
                                 proportions */
-  RIIS_SIZE_UNDETERMINED = 3 /* landmarks have an influence on the parameter but do not determine it, so its value stays near the
-                                valve's proportions */
+  RIIS_SIZE_UNDETERMINED = 3 /* landmarks have an influence on the parameter but do not determine it, so its value stays near what
+                                the valve's proportions give */
 };
 /* The placement that riis_place finds. To place a surface, copy scale, rotation and translation to the fields of the same names
  * in riis_surface_options. */
@@ -83,7 +83,7 @@ typedef struct riis_placement {
   double rotation_axis[3];   /* unit vector */
   double rotation_angle;     /* degrees, 0 to 180 */
   double translation[3];     /* mesh units */
-  double rms;                /* root mean square of the residuals, mesh units */
+  double rms;                /* the root mean square of the residuals (riis_placement_arrays.residual), mesh units */
   double worst;              /* the largest residual, mesh units */
   double noise;              /* the noise that the standard errors are computed from: riis_landmarks.noise, or more if the
                                 residuals show more noise */
@@ -97,7 +97,7 @@ typedef struct riis_placement {
 /* The caller's arrays for the results of riis_place. Arrays that are NULL, the default, are not written. */
 typedef struct riis_placement_arrays {
   int64_t struct_size;       /* set by the init function */
-  double *residual;          /* (n_landmarks): distances from the landmarks to their places, mesh units */
+  double *residual;          /* (n_landmarks): the distance of each landmark from its place on the closed valve, mesh units */
   double *standard_error;    /* (number of parameters, in the order of riis_valve_get_parameter): the standard error of each
                                 parameter, in the parameter's unit; infinite for RIIS_SIZE_TIED, 0 for RIIS_SIZE_KEPT */
   int32_t *size_state;       /* (number of parameters): RIIS_SIZE_* */
@@ -173,8 +173,8 @@ RIIS_API riis_status riis_warp_set_targets(riis_warp *warp, const riis_points *t
  *   `frames`: the table, in which n_vertices is the number of landmarks. The call reads the arrays of the table only while it
  *     runs.
  *   `time`: magnitude at most 1e30.
- * Errors: as riis_warp_set_targets. RIIS_INVALID_ARGUMENT also for a bad field, key or landmark; the message names it and its
- * value. */
+ * Errors: as riis_warp_set_targets. RIIS_INVALID_ARGUMENT also for a bad field, key or landmark; the message names the bad entry
+ * and its value. */
 RIIS_API riis_status riis_warp_set_targets_at(riis_warp *warp, const riis_keyframe_arrays *frames, double time);
 
 /* How well a warp takes its sources to its targets, in the units of the landmarks. */
@@ -225,7 +225,7 @@ typedef struct riis_gap {
                                have no gap, and count only here and in n_ends */
 } riis_gap;
 /* Measures the gap between a valve's attachment and a wall, such as a patient's vessel.
- *   `wall`: a surface in the valve's frame, usually by riis_surface_create_from_arrays.
+ *   `wall`: a surface in the same coordinates as the valve's surface, usually from riis_surface_create_from_arrays.
  *   `distance` (2, n_edges): the array to which the call writes the gap at both ends of each edge of riis_attachment. If an end
  *     has no gap, its entry is RIIS_FAR_DISTANCE. NULL: not wanted.
  * The gap is the distance to the wall in the skirt's direction, which leads outwards from the valve's axis at a right angle
@@ -236,13 +236,14 @@ RIIS_API riis_status riis_surface_get_gap(const riis_surface *surface, const rii
                                           riis_gap *gap, int64_t struct_size);
 /* Gives a valve a skirt that just reaches a wall. An earlier skirt of the valve is replaced.
  *   `wall`: as in riis_surface_get_gap.
- *   `longest`: the longest acceptable length, mesh units, 1e-50 to 1e50.
+ *   `longest`: the largest permitted length of the skirt, in mesh units, 1e-50 to 1e50.
  *   `options`: only scale, rotation, translation and n_threads are used. NULL stands for the defaults.
  * At each point of the closed valve's attachment, the skirt is as long as the gap, but at least 0.01 times the attachment's mean
  * distance from the axis. These lengths do not change while the valve opens. The parameter "skirt_length" becomes the largest of
  * these lengths before placement. If the caller later sets "skirt_length", the skirt has this length at all points.
- * Errors: RIIS_INVALID_ARGUMENT if a skirt from some point does not meet the wall, or would be longer than `longest`; the message
- * names the first such point. RIIS_INVALID_PARAMETER for a bileaflet valve, and for an attachment that encloses no area. */
+ * Errors: RIIS_INVALID_ARGUMENT if the skirt from a point of the attachment does not meet the wall, or would be longer than
+ * `longest`. The message names the first such point. RIIS_INVALID_PARAMETER for a bileaflet valve, and for an attachment that
+ * encloses no area. */
 RIIS_API riis_status riis_valve_set_skirt_to_wall(riis_valve *valve, const riis_surface *wall, double longest,
                                                   const riis_surface_options *options);
 

@@ -41,7 +41,7 @@ RIIS_API riis_status riis_closest_point(const riis_surface *surface, const doubl
  * exceptions. */
 #define RIIS_FAR_DISTANCE 1.0e30
 
-/* Options of queries for many points. */
+/* Options of riis_closest_points. */
 typedef struct riis_closest_options {
   int64_t struct_size;       /* set by the init function */
   double distance_limit;     /* >= 0, default infinity. Points beyond this limit get far_distance as their distance, -1 as ids,
@@ -94,9 +94,10 @@ typedef struct riis_crossing_options {
 /* Fills *options with the defaults. */
 RIIS_API riis_status riis_crossing_options_init(riis_crossing_options *options, int64_t struct_size);
 
-/* The pairs of triangles that riis_find_crossings found. Make one object, and pass it to every riis_find_crossings. */
+/* The pairs of triangles that riis_find_crossings found. Make one object, and pass this object to every call of
+ * riis_find_crossings. */
 typedef struct riis_crossings riis_crossings;
-RIIS_API riis_status riis_crossings_create(riis_crossings **crossings); /* makes crossings without a pair */
+RIIS_API riis_status riis_crossings_create(riis_crossings **crossings); /* makes an object without pairs */
 RIIS_API void riis_crossings_destroy(riis_crossings **crossings); /* destroys the crossings and their list */
 
 /* Finds every pair of the surface's triangles that go through each other.
@@ -122,7 +123,7 @@ typedef struct riis_crossing_list {
   const double *point;        /* (3, n_pairs): the middle of the segment where the two triangles meet */
   const double *depth;        /* (n_pairs): the penetration depth */
   const double *length;       /* (n_pairs): the length of the segment where the two triangles meet */
-  double total_length;        /* the sum of length */
+  double total_length;        /* the sum of all lengths */
   double deepest_depth;       /* the depth of the deepest pair. Of equally deep pairs, the first one counts as the deepest */
   double deepest_point[3];    /* the point of the deepest pair */
   int64_t deepest_triangle_id[2]; /* the triangles of the deepest pair */

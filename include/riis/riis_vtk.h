@@ -132,7 +132,7 @@ RIIS_API riis_status riis_vtk_mesh_set_fields(riis_vtk_mesh *mesh, const riis_ma
  *   `name`: 1 to 64 characters, with the characters of the prefix of riis_vtk_mesh_set_marks.
  *   `n_nodes`: the mesh's number of nodes.
  *   `n_components`: the number of components for each node, 1 to 9.
- *   `values` (n_components, n_nodes). */
+ *   `values` (n_components, n_nodes): the caller's numbers. */
 RIIS_API riis_status riis_vtk_mesh_set_point_array(riis_vtk_mesh *mesh, const char *name, int64_t n_nodes,
                                                    int64_t n_components, const double *values);
 /* Sets the unit of a point array. In .vtu and .pvtu files the unit is stored as VTK's key UNITS_LABEL, and in XDMF as the
@@ -153,8 +153,8 @@ RIIS_API riis_status riis_vtk_mesh_get_median_edge(const riis_vtk_mesh *mesh, do
  * example, the call can keep the fluid and remove the wall. Nodes and cells keep their order and their data. As in
  * riis_vtk_mesh_extract, the arrays riis_node_id and riis_cell_id give the ids in the whole mesh. If riis_vtk_mesh_extract later
  * makes a part of the mesh, these arrays of the part still give the ids in the whole mesh.
- *   `where`: NAME=VALUES, such as "region=1,2". NAME is a cell array of single numbers. For gmsh's physical groups, NAME is
- *     gmsh:physical, and VALUES may be names of groups. A cell in several groups has the values of all these groups.
+ *   `where`: NAME=VALUES, such as "region=1,2". NAME is a cell array with one number for each cell. For gmsh's physical groups,
+ *     NAME is gmsh:physical, and VALUES may be names of groups. A cell in several groups has the values of all these groups.
  *   `n_chosen`: the number of cells that remain. If the mesh has volume cells, surface cells are not counted. If n_chosen is NULL
  *     and this number would be 0, the call fails.
  * Errors: RIIS_INVALID_ARGUMENT if the mesh lacks the array or a named group. After an error the mesh is unchanged. */
@@ -301,8 +301,8 @@ RIIS_API riis_status riis_vtk_surface_get_arrays(const riis_vtk_surface *surface
 
 /* Writes the triangles of a surface, after placement, to a file. These are exactly the triangles that answer queries. Points are
  * Float64. The cell arrays are riis_leaflet, riis_patch (Int32) and riis_triangle (Int64). For a valve, the file also has the
- * point array riis_uv (2 x Float64). If the last update gave velocities, it has the point array riis_velocity (3 x Float64). If
- * the surface has an attachment, the point array riis_attached (UInt8) is 1 at its vertices and 0 elsewhere.
+ * point array riis_uv (2 x Float64). If the last update gave velocities, the file has the point array riis_velocity (3 x
+ * Float64). If the surface has an attachment, the point array riis_attached (UInt8) is 1 at its vertices and 0 elsewhere.
  *   `path`: ends in .vtp. */
 RIIS_API riis_status riis_vtk_surface_write(const riis_surface *surface, const char *path);
 
@@ -332,7 +332,7 @@ typedef struct riis_vtk_motion riis_vtk_motion;
 
 /* Reads a motion from a ParaView collection (.pvd). Each DataSet in it has a timestep and the path of a file, which is absolute
  * or relative to the folder of the .pvd file. Other attributes of a DataSet are ignored. Two DataSets with the same timestep,
- * such as two parts, are refused.
+ * such as two parts of a surface, are refused.
  * Errors: RIIS_FILE_ERROR for a bad DataSet, and if there is no DataSet. The message names the .pvd file and the DataSet. */
 RIIS_API riis_status riis_vtk_motion_read_pvd(const char *path, const char *leaflets,
                                               riis_vtk_motion **motion);
@@ -348,7 +348,7 @@ RIIS_API riis_status riis_vtk_motion_read_files(int64_t n_files, const char *con
  * components are added to the points. The points without displacements are not a frame.
  *   `prefix`: the beginning of the names of these arrays. The prefix is followed by "_" or nothing, and then by a whole number,
  *     as in displacement_0 and displacement_10. Frames are in the order of these numbers, which may have gaps.
- *   `n_times`: the length of times, which is the number of these arrays; 0 if times is NULL.
+ *   `n_times`: the length of `times`, which is the number of displacement arrays; 0 if `times` is NULL.
  *   `times` (n_times): the times of the frames. NULL: the times are those of the file's field array TimeValue.
  * Errors: RIIS_INVALID_ARGUMENT if n_times is not the number of arrays, and for a bad entry of times. The message names the
  * entry. */
@@ -464,15 +464,15 @@ RIIS_API riis_status riis_vtk_picture_options_init(riis_vtk_picture_options *opt
  *   direction of view. Lines show the wall and the leaflets where the plane cuts them. The numbers at the bar of colours have the
  *   unit of the array. If the array has no unit, they have `unit` followed by "/s".
  * - Axes and a scale bar are below the panels. A mesh that is much longer than the surface is cut off at dashed lines, which
- *   captions explain. Pictures lower than 120 pixels have no texts, axes or scale bar.
+ *   captions explain. A picture with a height below 120 pixels has no texts, axes or scale bar.
  * - RIIS_VTK_VIEW_THREE and RIIS_VTK_VIEW_VALVE_THREE draw one column for each view, with one panel above the other. All columns
  *   have the same scale.
  *
  *   `mesh`: a mesh with marks (riis_vtk_mesh_set_marks). NULL: the surface is drawn alone, in one panel.
  *   `path`: ends in .png.
- * Errors: RIIS_UNAVAILABLE without a usable X display, after about half a second. Without a mesh, RIIS_INVALID_ARGUMENT for
- * leaking_edges, RIIS_VTK_PANELS_MARKS and a velocity. With a mesh, RIIS_INVALID_ARGUMENT if the mesh lacks a node of
- * leaking_edges or the array of the velocity. */
+ * Errors: RIIS_UNAVAILABLE if no X display can be used; the call then returns after about half a second. Without a mesh,
+ * RIIS_INVALID_ARGUMENT for leaking_edges, RIIS_VTK_PANELS_MARKS and a velocity. With a mesh, RIIS_INVALID_ARGUMENT if the mesh
+ * lacks a node of leaking_edges or the array of the velocity. */
 RIIS_API riis_status riis_vtk_draw(const riis_surface *surface, const riis_vtk_mesh *mesh,
                                    const riis_vtk_picture_options *options, const char *path);
 
@@ -494,8 +494,8 @@ typedef struct riis_vtk_film riis_vtk_film;
  *   `lower`, `upper` (3): two opposite corners of a box along the mesh's axes that contains the surface at all times. The camera
  *     is set so that it shows this box.
  *   `options`: as in riis_vtk_draw, except that title and leaking edges are ignored, and a velocity is refused.
- * Errors: RIIS_UNAVAILABLE without a usable X display, after about half a second. RIIS_INVALID_ARGUMENT for corners that are not
- * finite, or if `lower` is not below `upper`. */
+ * Errors: RIIS_UNAVAILABLE if no X display can be used; the call then returns after about half a second. RIIS_INVALID_ARGUMENT
+ * for corners that are not finite, or if `lower` is not below `upper`. */
 RIIS_API riis_status riis_vtk_film_create(const riis_vtk_mesh *mesh, const double *lower, const double *upper,
                                           const riis_vtk_picture_options *options, riis_vtk_film **film);
 /* Draws one picture of a film, with the surface and the present marks of the mesh, to a .png file as riis_vtk_draw does.

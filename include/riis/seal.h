@@ -13,9 +13,9 @@ extern "C" {
 
 /* ---- Leaks: where the mesh is too coarse for the marks to close the surface (docs/meshes.md) ----------- */
 
-/* The edges that riis_find_leaks found. Make one object, and pass it to every riis_find_leaks. */
+/* The edges that riis_find_leaks found. Make one object, and pass this object to every call of riis_find_leaks. */
 typedef struct riis_leaks riis_leaks;
-RIIS_API riis_status riis_leaks_create(riis_leaks **leaks); /* makes leaks without an edge */
+RIIS_API riis_status riis_leaks_create(riis_leaks **leaks); /* makes an object without edges */
 RIIS_API void riis_leaks_destroy(riis_leaks **leaks); /* destroys the leaks and their list */
 
 /* Finds the mesh edges that leak through the surface. An edge of the mesh's adjacency leaks if its two nodes are unmarked and the
@@ -67,15 +67,16 @@ RIIS_API riis_status riis_leaks_get_list(const riis_leaks *leaks, riis_leak_list
  *   `n_regions`: the number of regions; may be NULL.
  * The adjacency need not be symmetric: it is enough if each edge is in the row of one of its two nodes. Edges to ghosts are
  * ignored, so with MPI the ranks must exchange their labels (examples/mpi_leaks.c).
- * Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, for empty marks, and for marks with another number of nodes. */
+ * Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, for empty marks, and if the marks and the mesh differ in the number
+ * of nodes. */
 RIIS_API riis_status riis_label_open_regions(const riis_mesh *mesh, const riis_marks *marks,
                                              const riis_mark_options *options, int64_t n_nodes, int64_t *label,
                                              int64_t *n_regions);
 
 /* Whether there is a passage between two sets of nodes. */
 enum {
-  RIIS_PASSAGE_CLOSED = 0, /* no: each path between the sets has a node within the half thickness */
-  RIIS_PASSAGE_OPEN = 1,   /* yes: some path has no node within the half thickness */
+  RIIS_PASSAGE_CLOSED = 0, /* no: each path between the sets has a node in the band around the surface */
+  RIIS_PASSAGE_OPEN = 1,   /* yes: at least one path has no node in the band */
   RIIS_PASSAGE_NONE = 2    /* no: the mesh itself has no path between the sets */
 };
 /* The widest passage from one set of nodes to another: the path along mesh edges that stays farthest from the surface. */
@@ -101,15 +102,14 @@ typedef struct riis_passage_ends {
 } riis_passage_ends;
 RIIS_API riis_status riis_passage_ends_init(riis_passage_ends *ends, int64_t struct_size); /* the defaults */
 /* Finds the widest passage along the edges of the mesh's adjacency, whether it is open or closed.
- *   `mesh`: must have an adjacency, and need not have been marked.
+ *   `mesh`: a mesh with an adjacency, marked or not.
  *   `ends`: the two sets. The first and the last node belong to the path, so their distances from the surface also limit the
  *     width of the passage.
  *   `options`: only node_mask, n_threads and instructions are used. No path passes through a node that node_mask leaves out.
  * An update with another half thickness moves a valve's triangles by up to tolerance * half_thickness, so search for the passage
  * again after the update.
  * Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, and for a bad node in `from` or `to`. A node is bad if it is not in
- * the mesh, if node_mask leaves it out, or if it lies within the half thickness of the surface. RIIS_INVALID_MESH as
- * riis_mark_nodes. */
+ * the mesh, if node_mask leaves it out, or if it lies in the band around the surface. RIIS_INVALID_MESH as riis_mark_nodes. */
 RIIS_API riis_status riis_find_passage(const riis_surface *surface, const riis_mesh *mesh,
                                        const riis_passage_ends *ends, const riis_mark_options *options,
                                        riis_passage *passage, int64_t struct_size);

@@ -14,8 +14,8 @@ extern "C" {
 
 /* ---- Surface: triangles in space that answer closest-point queries ------------------------------------- */
 
-/* Triangles with a half thickness. A surface borrows nothing from the caller. The first query that needs an Embree scene of the
- * triangles builds this scene. Several threads may send such queries at once. */
+/* A surface: triangles with a half thickness. It borrows nothing from the caller. The first query that needs an Embree scene of
+ * the triangles builds this scene. Several threads may send such queries at once. */
 typedef struct riis_surface riis_surface;
 
 /* The values of leaflet_id for the leaflets of the parametric valves. */
@@ -47,7 +47,8 @@ enum {
  * paper, and work only for surfaces of valves. These two ways measure the distance to points S(u,v) of the patches, with the
  * tolerance e = measure_tolerance * half_thickness (docs/theory/paper-distances.md). The closest points that they find have the
  * leaflet_id of the patch, the normal of S (0 0 0 if S has none), triangle_id -1, barycentric 0 and side 0. With sampling or
- * minimisation, calls return RIIS_INVALID_ARGUMENT for RIIS_SEARCH_CLUSTERS, and for arrays for barycentric or side. */
+ * minimisation, calls return RIIS_INVALID_ARGUMENT if they are passed RIIS_SEARCH_CLUSTERS or an array for barycentric or
+ * side. */
 enum {
   RIIS_MEASURE_TRIANGLES = 0,   /* the distance to the closest point of all triangles, without approximation */
   RIIS_MEASURE_SAMPLING = 1,    /* the distance to the nearest of up to 16,777,216 sample points, which are spaced evenly on the
@@ -78,14 +79,14 @@ typedef struct riis_surface_options {
   double tolerance;        /* 1e-6 to 1, default 0.05. The distance to a valve's triangles differs from the distance to its smooth
                               surface by at most tolerance * half_thickness (docs/theory.md) */
   double scale;            /* 1e-12 to 1e12, default 1 */
-  double rotation_axis[3]; /* a vector of any length from 1e-50 on, with components up to 1e50; default (0, 0, 1) */
+  double rotation_axis[3]; /* a vector with a length of at least 1e-50 and components up to 1e50; default (0, 0, 1) */
   double rotation_angle;   /* degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6, default 0 */
   double translation[3];   /* a shift in mesh units, -1e50 to 1e50, default 0. Calls refuse a shift of a valve that would round
                               coordinates by more than a thousandth of tolerance * half_thickness */
   double measure_tolerance; /* tolerance of sampling and minimisation, in half thicknesses, 1e-6 to 1. Default: the field
                                tolerance */
   int32_t measure;         /* RIIS_MEASURE_*, for closest points and marking only. Default RIIS_MEASURE_TRIANGLES; surfaces from
-                              arrays accept only this */
+                              arrays accept only this value */
   int32_t triangulation;   /* RIIS_TRIANGULATION_*; default RIIS_TRIANGULATION_ADAPTED */
   int32_t zero_area;       /* surfaces from arrays: RIIS_ZERO_AREA_*; default RIIS_ZERO_AREA_REFUSE */
   int32_t flip_normals;    /* 1 turns every triangle over, so that normal and side change sign; default 0 */
@@ -98,8 +99,9 @@ typedef struct riis_surface_options {
 /* Fills *options with the defaults. */
 RIIS_API riis_status riis_surface_options_init(riis_surface_options *options, int64_t struct_size);
 
-/* Makes the surface of a valve: curves, polylines, Coons patches, quads and triangles (paper, 3 and 4.1; docs/theory.md).
- *   `valve`: its parameters must fit together.
+/* Makes the surface of a valve from curves, by way of polylines, Coons patches, quads and triangles (paper, 3 and 4.1;
+ * docs/theory.md).
+ *   `valve`: a valve whose parameters fit together.
  *   `options`: accuracy and placement.
  * Normals point downstream: from the ventricular to the sinus face of the cusps, from the atrial to the ventricular face of the
  * mitral valve, and to +z on closed bileaflet leaflets. On the bileaflet ring, normals point outwards. Triangles of zero area are
@@ -125,7 +127,7 @@ typedef struct riis_surface_arrays {
                                 time. The placement rotates and scales the velocities. All NULL: no velocities */
   int64_t velocity_stride;   /* of vx, vy and vz. Default 1 */
   int64_t n_faces;           /* 1 to 16,777,216 triangles, half as many quads */
-  const void *vertex_ids;    /* (corners_per_face, n_faces); the normal follows the right-hand rule */
+  const void *vertex_ids;    /* (corners_per_face, n_faces): the vertices of each face. The normal follows the right-hand rule */
   const int32_t *leaflet_id; /* (n_faces), >= 0; NULL: all 0 */
   int32_t corners_per_face;  /* 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3. Default 3 */
   int32_t id_bits;           /* of vertex_ids */
@@ -179,7 +181,7 @@ RIIS_API void riis_surface_destroy(riis_surface **surface);
 typedef struct riis_surface_info {
   int64_t n_vertices;        /* as riis_triangles.n_vertices */
   int64_t n_triangles;       /* triangles that answer queries */
-  int64_t n_zero_area;       /* triangles that were skipped because they have no area */
+  int64_t n_zero_area;       /* the number of triangles that were skipped because they have no area */
   double half_thickness;     /* mesh units */
   double area;               /* of all triangles, mesh units squared */
   double lower[3], upper[3]; /* bounds of the triangles, mesh units */
@@ -209,21 +211,22 @@ typedef struct riis_triangles {
   const double *velocity;     /* (3, n_vertices): each vertex's velocity; NULL if the last update gave no velocities. Where closed
                                  cusps meet, each vertex has the velocity of its own cusp */
   int64_t n_triangles;        /* triangles that answer queries */
-  const int64_t *vertex_id;   /* (3, n_triangles): their vertices */
+  const int64_t *vertex_id;   /* (3, n_triangles): the vertices of each triangle */
   const int64_t *triangle_id; /* (n_triangles), ascending: the ids of the triangles in results of queries; 0, 1, 2, ... for a
                                  valve */
   const int32_t *leaflet_id;  /* (n_triangles): RIIS_LEAFLET_*, or the caller's leaflet_id if the surface comes from patches or
                                  arrays */
-  const int32_t *patch_id;    /* (n_triangles). In a surface from arrays, leaflets have 0 and a skirt has 1. Patches of the caller
-                                 are numbered from 0. In a valve of n cusps, the bottom of the cusp with leaflet_id i has 4 i, and
-                                 the top 4 i + 1. The mirror images of bottom and top have 4 i + 2 and 4 i + 3. In a fused part,
-                                 each of these ids is 4 n larger. In the anterior mitral leaflet, the triangle at the
-                                 posteromedial commissure has 0, the side has 1, and the middle has 2. The mirror images of 2, 1
-                                 and 0 have 3, 4 and 5. In the posterior mitral leaflet, a side scallop has 6, and half of the
-                                 middle scallop has 7. The mirror images of 7 and 6 have 8 and 9. In a bileaflet valve, the halves
-                                 of leaflet i have 2 i and 2 i + 1, and the quarters of the ring have 4 to 7. A patch of a skirt
-                                 has the id of the leaflet's patch that it continues, plus the number of patch ids of the
-                                 leaflets. This number is 10 for mitral, and 12 for three cusps without a fused commissure */
+  const int32_t *patch_id;    /* (n_triangles): the number of the patch. In a surface from arrays, leaflets have 0 and a skirt has
+                                 1. Patches of the caller are numbered from 0. In a valve of n cusps, the bottom of the cusp with
+                                 leaflet_id i has 4 i, and the top 4 i + 1. The mirror images of bottom and top have 4 i + 2 and 4
+                                 i + 3. In a fused part, each of these ids is 4 n larger. In the anterior mitral leaflet, the
+                                 triangle at the posteromedial commissure has 0, the side has 1, and the middle has 2. The mirror
+                                 images of 2, 1 and 0 have 3, 4 and 5. In the posterior mitral leaflet, a side scallop has 6, and
+                                 half of the middle scallop has 7. The mirror images of 7 and 6 have 8 and 9. In a bileaflet
+                                 valve, the halves of leaflet i have 2 i and 2 i + 1, and the quarters of the ring have 4 to 7. A
+                                 patch of a skirt has the id of the leaflet's patch that it continues, plus the number of patch
+                                 ids of the leaflets. This number is 10 for mitral, and 12 for three cusps without a fused
+                                 commissure */
 } riis_triangles;
 /* Gives the triangles of the surface. They are valid until the surface is updated or destroyed. */
 RIIS_API riis_status riis_surface_get_triangles(const riis_surface *surface, riis_triangles *triangles,

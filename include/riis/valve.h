@@ -65,9 +65,9 @@ RIIS_API riis_status riis_valve_get(const riis_valve *valve, const char *name, i
  *     quadricuspid).
  *   `effective_height`: the height of the free edges above the annulus, leaflet_height (aortic, trileaflet). The other kinds with
  *     cusps have a parameter of the name effective_height: the height of the middle of the free edges above the annulus.
- * Some parameters have a rule, which computes their values from other parameters until they are set. Parameters may be set in any
- * order. riis_valve_get also gives values that come from a rule. In a copy or an open state of a valve, the same parameters count
- * as set. */
+ * Some parameters have a rule. Until such a parameter is set, the rule computes its value from other parameters. Parameters may
+ * be set in any order. riis_valve_get also gives values that come from a rule. A copy of a valve, also one that is an open state,
+ * stores which parameters were set. */
 
 /* Undoes riis_valve_set: the parameter gets the value of its rule again, or its default if it has no rule.
  *   `name`: as in riis_valve_set.
@@ -105,7 +105,7 @@ typedef struct riis_patches {
                                 1e30 in magnitude */
   int64_t n_patches;         /* 1 to 1,000,000 */
   const int32_t *curve_id;   /* (4, n_patches): the curves at v = 0, v = 1, u = 0, u = 1 */
-  const int32_t *reversed;   /* (4, n_patches): 1 if the side runs against its curve, else 0; NULL: all 0 */
+  const int32_t *reversed;   /* (4, n_patches): 1 if the side runs opposite to the direction of its curve, else 0; NULL: all 0 */
   const int32_t *leaflet_id; /* (n_patches), >= 0; NULL: all 0 */
   int32_t index_base;        /* of curve_id */
   int32_t reserved;          /* 0 */
@@ -153,10 +153,11 @@ typedef struct riis_valve_patches {
   const double *control;      /* (3, the sum of degree + 1 over all pieces): the control points, piece after piece */
   int64_t n_patches;          /* the number of patches */
   const int32_t *curve_id;    /* (4, n_patches): the curves at v = 0, v = 1, u = 0, u = 1 */
-  const int32_t *reversed;    /* (4, n_patches): 1 if the side runs against its curve, else 0 */
+  const int32_t *reversed;    /* (4, n_patches): 1 if the side runs opposite to the direction of its curve, else 0 */
   const int32_t *leaflet_id;  /* (n_patches): as in riis_triangles */
   const int32_t *patch_id;    /* (n_patches): as in riis_triangles */
-  const int32_t *attached;    /* (n_patches): the side that is attached, 0 to 3 in the order of curve_id, or -1 */
+  const int32_t *attached;    /* (n_patches): the side that is attached, 0 to 3 in the order of curve_id; -1 if no side is
+                                 attached */
   const double *bulge;        /* (n_patches): 0 for a Coons patch. If the bulge is not 0, the line at each u is an arc from v = 0
                                  to v = 1. Let W be the vector from the start to the end of the arc, and T the unit tangent of the
                                  side v = 0. The middle control point of the arc is the midpoint of start and end plus bulge |W|
