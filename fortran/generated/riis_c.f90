@@ -772,7 +772,7 @@ module riis_c
     real(c_double) :: least, mean, most  !< the least, the mean and the largest gap at the ends of the edges of
                                          !! riis_attachment. The mean is weighted by the lengths of the edges. All three
                                          !! are 0 if no end has a gap
-    real(c_double) :: widest_point(3)    !< the end of an edge at which the gap is largest
+    real(c_double) :: widest_point(3)    !< the coordinates of that end of an edge that has the largest gap
     integer(c_int64_t) :: n_ends         !< the number of ends of edges, 2 * riis_attachment.n_edges
     integer(c_int64_t) :: n_without_wall !< the number of ends from which a line in the skirt's direction does not meet
                                          !! the wall. These ends have no gap, and count only here and in n_ends

@@ -1995,7 +1995,7 @@ subroutine riisf_keyframes_create_64(n_vertices, n_keys, time, xyz, period, inte
   keyframes = handle_of(c_handle)
 end subroutine riisf_keyframes_create_64
 
-!> Makes a surface from the frames around a time, with velocities. Errors: as riisf_surface_from_arrays.
+!> Makes the surface that keyframes have at a given time, with velocities. Errors: as riisf_surface_from_arrays.
 subroutine riisf_surface_from_keyframes(keyframes, time, dt, half_thickness, tolerance, scale, rotation_axis, &
     rotation_angle, translation, surface, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_null_ptr, c_ptr, c_sizeof
@@ -2092,7 +2092,7 @@ subroutine riisf_surface_offset_keyframes(keyframes, time, dt, half_thickness, t
   surface = handle_of(c_handle)
 end subroutine riisf_surface_offset_keyframes
 
-!> Replaces the content of a surface by the surface at a time, from the frames around this time.
+!> Replaces the content of a surface by the surface that keyframes have at a given time.
 subroutine riisf_surface_update_keyframes(surface, keyframes, time, dt, status)
   use, intrinsic :: iso_c_binding, only: c_double
   use, intrinsic :: iso_fortran_env, only: int64
@@ -5911,8 +5911,8 @@ subroutine riisf_find_by_area_64(valve, name, n_areas, areas, half_thickness, to
   n_turns = range%n_turns
 end subroutine riisf_find_by_area_64
 
-!> Finds the opening at which riisf_find_passage first finds a passage. Errors: as riisf_surface_create and riisf_find_passage;
-!! the message also names the opening. RIIS_INVALID_PARAMETER for a valve with only one state.
+!> Finds the first opening of a valve at which riisf_find_passage finds a passage. Errors: as riisf_surface_create and
+!! riisf_find_passage; the message also names the opening. RIIS_INVALID_PARAMETER for a valve with only one state.
 subroutine riisf_find_first_passage(valve, mesh, n_from, from_num, n_to, to_num, half_thickness, tolerance, scale, &
     rotation_axis, rotation_angle, translation, opening_tolerance, n_threads, state, opening, closed_opening, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_loc, c_ptr, c_sizeof
@@ -6080,8 +6080,8 @@ end subroutine riisf_find_first_passage_64
 ! a copy of the state. The rate is the derivative of the opening by time.
 ! -----------------------------------------------------------------------------------------------------------------
 
-!> Gives the opening and its rate at a time, from a table. Errors: RIIS_INVALID_ARGUMENT for a bad field or key; the message
-!! names the field or key and its value.
+!> Gives the opening and its rate at a given time, from a table. Errors: RIIS_INVALID_ARGUMENT for a bad field or key; the
+!! message names the field or key and its value.
 subroutine riisf_opening_from_table(n_keys, key_time, key_opening, period, interpolation, time, opening, rate, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32
@@ -6112,8 +6112,8 @@ subroutine riisf_opening_from_table(n_keys, key_time, key_opening, period, inter
   status = riis_opening_from_table(table, time, opening, rate)
 end subroutine riisf_opening_from_table
 
-!> Gives the opening and its rate at a time, from the times of the two ramps. Errors: RIIS_INVALID_ARGUMENT for a bad field; the
-!! message names the field and its value.
+!> Gives the opening and its rate at a given time, from the times of the two ramps. Errors: RIIS_INVALID_ARGUMENT for a bad
+!! field; the message names the field and its value.
 subroutine riisf_opening_from_times(opening_start, opening_duration, closing_start, closing_duration, closed, open, &
     period, time, opening, rate, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof

@@ -63,8 +63,8 @@ module riis_laws
     real(c_double) :: time = 0                              !< Of this state.
     real(c_double) :: opening = 0                           !< opening, rate: at that time.
     real(c_double) :: rate = 0                              !< opening, rate: at that time.
-    real(c_double) :: progress = 0                          !< The completed fraction of the motion from closed (0) to open (1).
-                                                            !! The opening is a smooth function of this fraction.
+    real(c_double) :: progress = 0                          !< The position within the motion from closed (0) to open (1). The
+                                                            !! opening is a smooth function of this position.
     real(c_double) :: pressure_difference = no_value        !< Filtered; NaN: none yet.
     real(c_double) :: flow = no_value                       !< Filtered; NaN: none yet.
     real(c_double) :: turn_time = no_value                  !< The time of the last change of phase; NaN: none yet.

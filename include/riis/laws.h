@@ -38,7 +38,7 @@ typedef struct riis_opening_table {
   int32_t reserved;      /* 0 */
 } riis_opening_table;
 RIIS_API riis_status riis_opening_table_init(riis_opening_table *table, int64_t struct_size); /* the defaults */
-/* Gives the opening and its rate at a time, from a table. `opening` or `rate` may be NULL.
+/* Gives the opening and its rate at a given time, from a table. `opening` or `rate` may be NULL.
  *   `time`: magnitude at most 1e30.
  * Errors: RIIS_INVALID_ARGUMENT for a bad field or key; the message names the field or key and its value. */
 RIIS_API riis_status riis_opening_from_table(const riis_opening_table *table, double time, double *opening,
@@ -59,7 +59,7 @@ typedef struct riis_opening_times {
                              closes only once */
 } riis_opening_times;
 RIIS_API riis_status riis_opening_times_init(riis_opening_times *times, int64_t struct_size); /* the defaults */
-/* Gives the opening and its rate at a time, from the times of the two ramps. `opening` or `rate` may be NULL.
+/* Gives the opening and its rate at a given time, from the times of the two ramps. `opening` or `rate` may be NULL.
  *   `time`: magnitude at most 1e30.
  * Errors: RIIS_INVALID_ARGUMENT for a bad field; the message names the field and its value. */
 RIIS_API riis_status riis_opening_from_times(const riis_opening_times *times, double time, double *opening,
@@ -90,8 +90,8 @@ typedef struct riis_opening_switch_state {
   int64_t struct_size;        /* set by the init function */
   double time;                /* of this state */
   double opening, rate;       /* at that time */
-  double progress;            /* the completed fraction of the motion from closed (0) to open (1). The opening is a smooth
-                                 function of this fraction */
+  double progress;            /* the position within the motion from closed (0) to open (1). The opening is a smooth function of
+                                 this position */
   double pressure_difference; /* filtered; NaN: none yet */
   double flow;                /* filtered; NaN: none yet */
   double turn_time;           /* the time of the last change of phase; NaN: none yet */

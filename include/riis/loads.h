@@ -20,7 +20,8 @@ typedef struct riis_loads {
                                      leaflet's edges is below the radius. Default NaN, which is refused */
   double about[3];                /* the reference point of leaflet_moment; each coordinate at most 1e60 in magnitude. Default
                                      0 */
-  int64_t n_leaflets;             /* the number of columns of sums, leaflet_force and leaflet_moment; 1 to 2^31. Default 0 */
+  int64_t n_leaflets;             /* the number of columns of the arrays sums, leaflet_force and leaflet_moment; 1 to 2^31.
+                                     Default 0 */
   const double *leaflet_force;    /* (3, n_leaflets): riis_reaction.leaflet_force, added up over all ranks. riis_loads_add_sums
                                      does not read this array */
   const double *leaflet_moment;   /* (3, n_leaflets): riis_reaction.leaflet_moment, added up over all ranks. riis_loads_add_sums

@@ -200,7 +200,7 @@ typedef struct riis_first_passage {
   int32_t n_openings;    /* the number of openings that were tried */
   int32_t state;         /* RIIS_FIRST_PASSAGE_* */
 } riis_first_passage;
-/* Finds the opening at which riis_find_passage first finds a passage.
+/* Finds the first opening of a valve at which riis_find_passage finds a passage.
  *   `valve`: the valve, whose own opening is ignored.
  *   `mesh`: a mesh with an adjacency, marked or not.
  *   `ends`: as for riis_find_passage. At each opening that is tried, all ends must be outside the band.

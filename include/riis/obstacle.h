@@ -70,7 +70,8 @@ typedef struct riis_reaction {
 } riis_reaction;
 /* Fills *reaction with the defaults. */
 RIIS_API riis_status riis_reaction_init(riis_reaction *reaction, int64_t struct_size);
-/* Adds to arrays the forces of the flow, and their moments, on the whole surface, on each leaflet and at each edge.
+/* Adds the forces of the flow and their moments to the caller's arrays: for the whole surface, for each leaflet and for each
+ * edge.
  *   `flow`: the velocities u and the volumes. Without RIIS_FIELD_VELOCITY in the marking, u_surface counts as 0.
  *   `reaction`: for moments and for forces at edges, the marks must have RIIS_FIELD_POINT.
  * Each result is a sum over nodes. With MPI all ranks pass the same reference point and edges, and the caller adds up the results

@@ -137,7 +137,7 @@ RIIS_API riis_status riis_place(riis_valve *valve, const riis_landmarks *landmar
 
 /* A smooth map of space that takes landmarks on a valve, its sources, to landmarks in a patient, its targets. The map is the sum
  * of an affine map and a multiple of |r|^3 for each landmark, where |r| is the distance from the landmark (docs/theory/warp.md).
- * Setting new targets in each time step takes little time, because the matrix of the warp is factored only once. */
+ * Setting new targets in each time step is fast, because the matrix of the warp is factored only once. */
 typedef struct riis_warp riis_warp;
 
 /* Options of riis_warp_create. */
@@ -205,11 +205,11 @@ RIIS_API riis_status riis_warp_map(const riis_warp *warp, const riis_points *poi
  * Between openings 0 and 1 the map is (1 - opening) times `closed` plus opening times `open`. The valve's patches lie between the
  * mapped curves, so error bounds, fixed triangulations and velocities are as for any other valve. The warp may change even with
  * RIIS_TRIANGULATION_FIXED. The curves of the closed valve are cut at the landmarks of `closed`, and the curves of the open valve
- * at the landmarks of `open`. The warped valve therefore passes exactly through the mapped landmarks on its curves. For a moving
- * annulus, use two valves in turn. In each step, call riis_warp_set_targets and this function for one of the two valves, and pass
- * both valves to riis_surface_update_moving. Of these two valves, both or neither must have a warp. The warp must not fold at the
- * valve or turn a part of the valve over. Otherwise a call that makes or updates a surface returns RIIS_INVALID_PARAMETER, and
- * its message names the place and the value.
+ * at the landmarks of `open`. If landmarks lie on its curves, the warped valve therefore passes exactly through the mapped
+ * landmarks. For a moving annulus, use two valves in turn. In each step, call riis_warp_set_targets and this function for one of
+ * the two valves, and pass both valves to riis_surface_update_moving. Of these two valves, both or neither must have a warp. The
+ * warp must not fold at the valve or turn a part of the valve over. Otherwise a call that makes or updates a surface returns
+ * RIIS_INVALID_PARAMETER, and its message names the place and the value.
  * Errors: RIIS_INVALID_ARGUMENT for `open` without `closed`. RIIS_INVALID_PARAMETER for a bileaflet valve, which is rigid. */
 RIIS_API riis_status riis_valve_set_warp(riis_valve *valve, const riis_warp *closed, const riis_warp *open);
 
@@ -219,7 +219,7 @@ RIIS_API riis_status riis_valve_set_warp(riis_valve *valve, const riis_warp *clo
 typedef struct riis_gap {
   double least, mean, most; /* the least, the mean and the largest gap at the ends of the edges of riis_attachment. The mean is
                                weighted by the lengths of the edges. All three are 0 if no end has a gap */
-  double widest_point[3];   /* the end of an edge at which the gap is largest */
+  double widest_point[3];   /* the coordinates of that end of an edge that has the largest gap */
   int64_t n_ends;           /* the number of ends of edges, 2 * riis_attachment.n_edges */
   int64_t n_without_wall;   /* the number of ends from which a line in the skirt's direction does not meet the wall. These ends
                                have no gap, and count only here and in n_ends */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * queries.h - queries of a surface: the closest points of any points, and places where the surface goes through itself.
+ * queries.h - queries of a surface: its closest points to given points, and places where it goes through itself.
  * The header riis.h includes this file, and has the rules that hold for every call.
  */
 /* clang-format off: argument lists in comments are laid out by hand */
@@ -75,7 +75,7 @@ typedef struct riis_closest_arrays {
 RIIS_API riis_status riis_closest_arrays_init(riis_closest_arrays *arrays, int64_t struct_size);
 
 /* Finds the closest point of the surface for each of many points, in parallel.
- *   `arrays`: the arrays that the call writes. They must not overlap each other or the coordinates.
+ *   `arrays`: the arrays that the call writes. These arrays must overlap neither each other nor the coordinates.
  * Errors: RIIS_INVALID_ARGUMENT for a bad point; the message names the first bad point, and nothing is written. */
 RIIS_API riis_status riis_closest_points(const riis_surface *surface, const riis_points *points,
                                          const riis_closest_options *options,

@@ -27,7 +27,7 @@ RIIS_API void riis_leaks_destroy(riis_leaks **leaks); /* destroys the leaks and 
  * The test is exact for coordinates in double precision; coordinates below 1e-90 in magnitude count as 0. Each edge is listed
  * once, even if the adjacency has it in the rows of both of its nodes. Edges to ghosts are ignored. Edges whose length is at most
  * two half thicknesses do not leak (docs/meshes.md). With an offset o, edges whose length is at most 2 (1 - |o|) half thicknesses
- * do not leak. Longer edges up to 2 sqrt(1 - o^2) half thicknesses seldom leak, and only beside rims. With an offset, an edge
+ * do not leak. Longer edges of up to 2 sqrt(1 - o^2) half thicknesses seldom leak, and only beside rims. With an offset, an edge
  * also does not leak if both of its nodes are on the same side of the surface and away from rims. Such an edge only cuts the
  * corner of a fold. If the same triangles are marked with the half thickness riis_leak_list.half_thickness, no edge leaks, except
  * with RIIS_SEARCH_PAPER. However, an update with this half thickness moves a valve's triangles by up to tolerance *

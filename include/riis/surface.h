@@ -306,7 +306,7 @@ RIIS_API riis_status riis_keyframes_create(const riis_surface_arrays *arrays,
                                            const riis_keyframe_arrays *frames, riis_keyframes **keyframes);
 /* Destroys the keyframes. Surfaces made from them stay. */
 RIIS_API void riis_keyframes_destroy(riis_keyframes **keyframes);
-/* Makes a surface from the frames around a time, with velocities.
+/* Makes the surface that keyframes have at a given time, with velocities.
  *   `time`: the time, finite and at most 1e30 in magnitude.
  *   `dt`: the length of the time interval that ends at `time`, over which the velocity is the mean. With dt 0, the velocity is
  *     the time derivative of the interpolation.
@@ -314,7 +314,7 @@ RIIS_API void riis_keyframes_destroy(riis_keyframes **keyframes);
 RIIS_API riis_status riis_surface_create_from_keyframes(const riis_keyframes *keyframes, double time, double dt,
                                                         const riis_surface_options *options,
                                                         riis_surface **surface);
-/* Replaces the content of a surface by the surface at a time, from the frames around this time. Arguments and errors are as in
+/* Replaces the content of a surface by the surface that keyframes have at a given time. Arguments and errors are as in
  * riis_surface_create_from_keyframes, but NULL options keep the present options of the surface. */
 RIIS_API riis_status riis_surface_update_from_keyframes(riis_surface *surface, const riis_keyframes *keyframes,
                                                         double time, double dt,

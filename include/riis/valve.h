@@ -141,8 +141,8 @@ RIIS_API riis_status riis_valve_get_parameter(const riis_valve *valve, int64_t p
                                               riis_parameter *parameter, int64_t struct_size);
 
 /* The curves and patches of a valve at its present opening, after the warp and before the placement. If n_pieces equals n_curves,
- * the arrays of this struct can be passed as riis_patches, and give a valve of the same shape. Trileaflet and aortic valves and
- * valves from patches have one piece for each curve. If the valve has a warp, landmarks on the curves add pieces
+ * the arrays of this struct can be passed as riis_patches, and give a valve of the same shape. In trileaflet and aortic valves,
+ * and in valves from patches, each curve is one piece. If the valve has a warp, landmarks on the curves add pieces
  * (riis_valve_set_warp). */
 typedef struct riis_valve_patches {
   int64_t n_curves;           /* the number of curves. Each curve is a side of a patch */
