@@ -47,11 +47,11 @@
  * - If a call fills in a struct, the next argument is the struct's size, as in (&list, sizeof list). The call writes at most this
  *   many bytes.
  * - Structs that a call reads begin with struct_size. The init function of a struct sets struct_size and the defaults, and sets
- *   all other fields to 0 or NULL. A NULL options pointer means all defaults. Later releases add fields at the end of a struct,
- *   or in place of its field `reserved`. Until then `reserved` must be 0.
- * - Threads: several threads may pass the same handle at once if all calls take it as const. While a call runs that does not take
- *   the handle as const, no other thread may use this handle. The library refuses most calls that break this rule. Different
- *   handles never interfere. Results are bitwise the same for any number of threads.
+ *   all other fields to 0 or NULL. If the pointer to options is NULL, all options have their defaults. Later releases add fields
+ *   at the end of a struct, or in place of its field `reserved`. Until then `reserved` must be 0.
+ * - Threads: several threads may pass the same handle at once if all these calls take the handle as const. If a call takes a
+ *   handle without const, no other thread may use this handle while the call runs. The library refuses most calls that break this
+ *   rule. Different handles never interfere. Results are bitwise the same for any number of threads.
  * - n_threads: 1 to 1024, or 0, the default. By default a call uses one thread, plus one thread for each 4096 triangles of the
  *   surface, for each 16,384 nodes, cells or faces, or for each 2048 points. For an update, the triangles are those before the
  *   update. The default never exceeds the number of processors in the calling thread's affinity mask. By default, a part of a
@@ -64,8 +64,8 @@
  * - Environment: calls and log functions run with the default floating-point environment. At its end, each call restores the
  *   caller's floating-point environment. The caller's settings of OpenMP and TBB do not change.
  *
- * "Paper" is B. van der Vuurst, J. Kosinka, C. Bertoglio, "Fast generation of 3D flow obstacles from parametric surface
- * models: application to cardiac valves" (2025); docs/theory/departures.md lists every departure.
+ * "Paper" is B. van der Vuurst, J. Kosinka, C. Bertoglio, "Fast generation of 3D flow obstacles from parametric surface models:
+ * application to cardiac valves" (2025); docs/theory/departures.md lists every departure from the paper.
  *
  * Contents, by file. docs/fortran_calls.md has the same calls in Fortran, in this order.
  *

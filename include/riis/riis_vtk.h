@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * riis_vtk.h - an optional component that reads and writes meshes and surfaces in VTK files, and draws pictures. The component is a
- * separate library, riis_vtk, so that the core needs no VTK.
+ * riis_vtk.h - an optional component that reads and writes meshes and surfaces in VTK files, and draws pictures. The component is
+ * a separate library, riis_vtk, so that the core needs no VTK.
  *
  * The rules of riis.h also hold here, and riis_last_error() gives the messages. These rules are added:
  *
