@@ -248,22 +248,23 @@ module riis_c
   type, bind(c) :: riis_surface_info
     integer(c_int64_t) :: n_vertices         !< as riis_triangles.n_vertices
     integer(c_int64_t) :: n_triangles        !< triangles that answer queries
-    integer(c_int64_t) :: n_zero_area        !< triangles that were skipped because they have no area
+    integer(c_int64_t) :: n_zero_area        !< the number of triangles that were skipped because they have no area
     real(c_double) :: half_thickness         !< mesh units
     real(c_double) :: area                   !< of all triangles, mesh units squared
     real(c_double) :: lower(3), upper(3)     !< bounds of the triangles, mesh units
-    real(c_double) :: seconds_triangles      !< wall time for checks and triangles, in the last call that made or
-                                             !! updated the surface
+    real(c_double) :: seconds_triangles      !< wall time for checks and for making triangles, in the last call that
+                                             !! made or updated the surface
     real(c_double) :: seconds_scene          !< wall time for groups of triangles, sampling and minimisation, in the
-                                             !! same call. Embree's tree is not included, because the first query that
-                                             !! needs the tree builds it
-    real(c_double) :: error_bound            !< an upper bound of the error of a distance, which is the difference
-                                             !! between the distances to the triangles and to the smooth valve. It is at
-                                             !! most tolerance * half_thickness. 0 for a surface from arrays
+                                             !! same call. The time does not include Embree's scene, because the first
+                                             !! query that needs the scene builds it
+    real(c_double) :: error_bound            !< an upper bound of the error of distances. The error is the difference
+                                             !! between the distances to the triangles and to the smooth valve. The
+                                             !! bound is at most tolerance * half_thickness, and 0 for a surface from
+                                             !! arrays
     integer(c_int64_t) :: largest_leaflet_id !< of the triangles
     real(c_double) :: offset                 !< of the band, in half thicknesses
-    real(c_double) :: contact_depth          !< if triangles of leaflets cross at most this deep, the leaflets only
-                                             !! touch (docs/theory/crossings.md)
+    real(c_double) :: contact_depth          !< where triangles of different leaflets cross by at most this depth, the
+                                             !! leaflets only touch (docs/theory/crossings.md)
     integer(c_int32_t) :: skirt_leaflet_id   !< the leaflet_id of the skirt; -1: no skirt
     integer(c_int32_t) :: housing_leaflet_id !< bileaflet: RIIS_LEAFLET_HOUSING; -1 for other surfaces
   end type riis_surface_info
@@ -300,20 +301,22 @@ module riis_c
     integer(c_int32_t) :: real_bits
   end type riis_keyframe_arrays
 
-  !> The closest point of the surface to one point. For closest points by sampling or minimisation, see RIIS_MEASURE_*.
+  !> The point of the surface that is closest to a given point. For closest points by sampling or minimisation, see
+  !! RIIS_MEASURE_*.
   type, bind(c) :: riis_closest
     real(c_double) :: distance        !< >= 0, mesh units
-    real(c_double) :: point(3)        !< on the triangle, mesh units
-    real(c_double) :: barycentric(3)  !< the point's weights for the triangle's vertices, >= 0, sum 1
+    real(c_double) :: point(3)        !< the closest point, on the triangle triangle_id, mesh units
+    real(c_double) :: barycentric(3)  !< the closest point's weights for the triangle's vertices, >= 0, with sum 1
     real(c_double) :: normal(3)       !< unit normal of the triangle, by the right-hand rule
-    integer(c_int64_t) :: triangle_id !< the lowest id of the closest triangles
+    integer(c_int64_t) :: triangle_id !< the id of the closest triangle. Of several equally close triangles, the one
+                                      !! with the lowest id counts
     integer(c_int32_t) :: leaflet_id  !< of the triangle
-    integer(c_int32_t) :: side        !< +1 if the point is on the side to which normals point (downstream), -1 if it is
-                                      !! on the other side. The side is 0 for a point on the surface, and for a point
-                                      !! beyond the rim where the surface would continue. If the closest point is on an
-                                      !! edge or vertex of several triangles, the angle-weighted mean of their normals
-                                      !! gives the side (Baerentzen, Aanaes 2005). Vertices with equal coordinates after
-                                      !! placement count as one
+    integer(c_int32_t) :: side        !< +1 if the given point is on the side to which normals point (downstream), -1 if
+                                      !! it is on the other side. The side is 0 for a point on the surface, and for a
+                                      !! point where the surface would continue beyond its rim. If the closest point is
+                                      !! on an edge or vertex of several triangles, the angle-weighted mean of their
+                                      !! normals gives the side (Baerentzen, Aanaes 2005). Vertices with equal
+                                      !! coordinates after placement count as one vertex
   end type riis_closest
 
   type, bind(c) :: riis_closest_options
@@ -472,18 +475,18 @@ module riis_c
   type, bind(c) :: riis_mark_stats
     integer(c_int64_t) :: n_nodes        !< the number of nodes of the mesh, masked out or not
     integer(c_int64_t) :: n_marked       !< the length of RIIS_LIST_MARKED
-    integer(c_int64_t) :: n_within_limit !< nodes within the distance limit, marked or not
-    integer(c_int64_t) :: n_queries      !< number of closest-point queries, of nodes and of parts of the mesh
+    integer(c_int64_t) :: n_within_limit !< the number of nodes within the distance limit, marked or not
+    integer(c_int64_t) :: n_queries      !< the number of closest-point queries for nodes and for parts of the mesh
     real(c_double) :: seconds            !< wall time of riis_mark_nodes
     integer(c_int32_t) :: search         !< the search that ran, never RIIS_SEARCH_AUTO
-    integer(c_int32_t) :: n_threads      !< the largest number of threads that any part of the marking used. If the
-                                         !! caller limits the threads of TBB, this limit affects only the walks of the
+    integer(c_int32_t) :: n_threads      !< the largest number of threads that any part of the marking used. A limit
+                                         !! that the caller sets for TBB's threads affects only the walks of the
                                          !! neighbour search
-    integer(c_int32_t) :: complete       !< 1: certainly all nodes within the limit were found, for the coordinates at
-                                         !! the last creation or update of the mesh. 0: nodes may have been missed
+    integer(c_int32_t) :: complete       !< 1: all nodes within the limit were found, for the coordinates that the mesh
+                                         !! had when it was made or last updated. 0: nodes may have been missed
     integer(c_int32_t) :: instructions   !< the instructions that were used, never RIIS_INSTRUCTIONS_AUTO
-    integer(c_int64_t) :: n_unreached    !< the number of nodes within the limit that the neighbour search found outside
-                                         !! of its walks
+    integer(c_int64_t) :: n_unreached    !< the number of nodes within the limit that the neighbour search found without
+                                         !! walking to them
   end type riis_mark_stats
 
   type, bind(c) :: riis_resistance_arrays
@@ -567,12 +570,12 @@ module riis_c
   !! surface.
   type, bind(c) :: riis_passage
     integer(c_int64_t) :: node_id  !< the node of the path that is nearest to the surface; -1 if there is no path. Of
-                                   !! equally near nodes, the one with the higher id counts
+                                   !! equally near nodes, the one with the highest id counts
     real(c_double) :: distance     !< the distance of node_id from the surface; 0 if there is no path. The passage is
                                    !! closed if the half thickness is at least this distance, otherwise open. If the
-                                   !! surface has an offset o, the least half thickness that marks a node takes the
-                                   !! place of its distance. It is s / (1 + o) for a signed distance s >= 0, and -s / (1
-                                   !! - o) for s < 0
+                                   !! surface has an offset o, the distance of a node is replaced by the least half
+                                   !! thickness that marks the node. With the signed distance s, this is s / (1 + o) for
+                                   !! s >= 0, and -s / (1 - o) for s < 0
     real(c_double) :: point(3)     !< the coordinates of node_id; 0 without a path
     real(c_double) :: seconds      !< wall time of riis_find_passage
     integer(c_int32_t) :: state    !< RIIS_PASSAGE_*
@@ -589,41 +592,42 @@ module riis_c
 
   !> A leaflet of a surface. Lengths are in mesh units.
   type, bind(c) :: riis_leaflet
-    integer(c_int64_t) :: n_triangles !< the number of its triangles with an area above 0
-    real(c_double) :: area            !< the area of its triangles
-    real(c_double) :: free_edge       !< the length of the free edge. The free edge of a valve's leaflet consists of the
-                                      !! sides v = 1 that belong to only one patch of the leaflet. For a surface from
-                                      !! arrays, it consists of the edges that belong to only one triangle, without the
-                                      !! longest closed line of such edges. 0 for a skirt
+    integer(c_int64_t) :: n_triangles !< the number of the leaflet's triangles with an area above 0
+    real(c_double) :: area            !< the sum of the areas of these triangles
+    real(c_double) :: free_edge       !< the length of the free edge, 0 for a skirt. The free edge of a valve's leaflet
+                                      !! consists of the sides v = 1 that belong to only one patch of the leaflet. In a
+                                      !! surface from arrays, the free edge consists of the edges that belong to only
+                                      !! one triangle, without the longest closed line of such edges
     integer(c_int32_t) :: leaflet_id  !< as in riis_triangles
     integer(c_int32_t) :: reserved    !< 0
   end type riis_leaflet
 
-  !> The orifice of a surface: the part of an outline that the triangles do not cover, seen along an axis. The axis has
-  !! the direction of the vector area that the edges of the outline enclose. For a valve, the axis points towards the
-  !! valve's +z. For arrays and keyframes, it points to the side of the normals. For a bileaflet valve, the axis is the
-  !! valve's z axis. Skirts are left out. If leaflets from arrays do not touch at the commissures, straight lines join
-  !! their ends. Lengths are in mesh units (docs/theory/measures.md, "Outline").
+  !> The orifice of a surface: the part of the area inside an outline that the triangles do not cover, seen along an
+  !! axis. The axis has the direction of the vector area that the edges of the outline enclose. For a valve, the axis
+  !! points towards the valve's +z. For a surface from arrays or keyframes, the axis points to the side of the normals.
+  !! For a bileaflet valve, the axis is the valve's z axis. Skirts are left out. If leaflets from arrays do not touch at
+  !! the commissures, straight lines join their ends. Lengths are in mesh units (docs/theory/measures.md, "Outline").
   type, bind(c) :: riis_orifice
     real(c_double) :: area           !< the area of the orifice. If there is no outline, all fields except axis and
                                      !! rim_reach are 0
     real(c_double) :: outline_area   !< the area inside the outline
-    real(c_double) :: perimeter      !< the length of the orifice's edge along the triangles. Before it is measured, the
-                                     !! edge is moved inwards by a tenth of the half thickness, so that narrow slits
-                                     !! vanish. Parts of the edge on the outline are walls, and do not count
-    real(c_double) :: effective_area !< the area that the band around the leaflets leaves for the flow. It is the area
-                                     !! of the orifice after the edge along the triangles was moved inwards by rim_reach
-                                     !! * half_thickness. To first order this is area - rim_reach * half_thickness *
-                                     !! perimeter. The effective area is never below 0
+    real(c_double) :: perimeter      !< the length of the orifice's edge along the triangles. Before the measurement,
+                                     !! the edge is moved inwards by a tenth of the half thickness, so that narrow slits
+                                     !! vanish. Parts of the edge that lie on the outline count as walls, and do not add
+                                     !! to the perimeter
+    real(c_double) :: effective_area !< the area that the band around the leaflets leaves for the flow. To find it, the
+                                     !! edge of the orifice along the triangles is moved inwards by rim_reach *
+                                     !! half_thickness. To first order the effective area is area - rim_reach *
+                                     !! half_thickness * perimeter. The effective area is never below 0
     real(c_double) :: rim_reach      !< how far the band narrows the orifice, in half thicknesses: 0.84 for a round rim,
                                      !! 0.70 for a cut rim. Computed flows through open valves gave 0.70 to 0.98 for a
-                                     !! round rim, and 0.46 to 0.95 for a cut rim (docs/validation.md). If there is an
-                                     !! offset o, this number is multiplied by max(0, 1 - o / 1.05) for a round rim, by
-                                     !! max(0, 1 - o / 0.85) for a cut rim, by max(0, 1 - o / 0.8) for a cut rim of a
-                                     !! mitral valve, and by 1 for a bileaflet valve
-    real(c_double) :: half_thickness !< eps of the resistance
+                                     !! round rim, and 0.46 to 0.95 for a cut rim (docs/validation.md). If the surface
+                                     !! has an offset o, rim_reach is multiplied by max(0, 1 - o / 1.05) for a round
+                                     !! rim, by max(0, 1 - o / 0.85) for a cut rim, by max(0, 1 - o / 0.8) for a cut rim
+                                     !! of a mitral valve, and by 1 for a bileaflet valve
+    real(c_double) :: half_thickness !< the half thickness of the resistance
     real(c_double) :: radius         !< the radius of the disc; 0 for other outlines
-    real(c_double) :: axis(3)        !< unit vector; 0 for arrays and keyframes without an outline
+    real(c_double) :: axis(3)        !< unit vector; 0 for a surface from arrays or keyframes without an outline
     integer(c_int32_t) :: outline    !< RIIS_OUTLINE_*
     integer(c_int32_t) :: reserved   !< 0
   end type riis_orifice
@@ -641,23 +645,26 @@ module riis_c
   !> The areas of a valve in the range of openings or sizes that riis_find_by_area searched.
   type, bind(c) :: riis_area_range
     real(c_double) :: from, to          !< the range that was searched
-    real(c_double) :: least, most       !< the least and the largest area
+    real(c_double) :: least, most       !< the least and the largest area in this range
     real(c_double) :: least_at, most_at !< the opening or size with the least area, and the one with the largest area
-    real(c_double) :: turns(4)          !< the first openings or sizes at which the area stops growing and begins to
-                                        !! fall, or the reverse. Unused entries are NaN. A change by less than 1e-4 of
-                                        !! the largest area does not count
+    real(c_double) :: turns(4)          !< the first openings or sizes at which the area turns from growing to falling,
+                                        !! or from falling to growing. Unused entries are NaN. A change of the area by
+                                        !! less than 1e-4 of the largest area does not count
     real(c_double) :: seconds           !< wall time of riis_find_by_area
-    integer(c_int64_t) :: n_turns       !< the number of such openings or sizes. If it is 0, the area only grows or only
-                                        !! falls
-    integer(c_int64_t) :: n_surfaces    !< the number of surfaces that were made, which is the cost of the search
+    integer(c_int64_t) :: n_turns       !< the number of all such openings or sizes. If n_turns is 0, the area only
+                                        !! grows or only falls
+    integer(c_int64_t) :: n_surfaces    !< the number of surfaces that the search made. The cost of the search grows
+                                        !! with this number
     integer(c_int64_t) :: n_refused     !< the number of sampled openings or sizes for which there is no valve or no
                                         !! orifice. The search leaves them out
   end type riis_area_range
 
   !> The coaptation of a leaflet: the part of the leaflet that touches other leaflets. Lengths are in mesh units.
   type, bind(c) :: riis_coaptation
-    real(c_double) :: area  !< the area of the leaflet's triangles within reach of another leaflet
-    real(c_double) :: edge  !< the length of the part of the free edge (riis_leaflet) within reach of another leaflet
+    real(c_double) :: area  !< the area of the part of the leaflet whose distance from another leaflet is at most
+                            !! `reach`
+    real(c_double) :: edge  !< the length of the part of the free edge (riis_leaflet) whose distance from another
+                            !! leaflet is at most `reach`
     real(c_double) :: reach !< the distance up to which leaflets count as touching
   end type riis_coaptation
 
@@ -672,8 +679,8 @@ module riis_c
   type, bind(c) :: riis_first_passage
     real(c_double) :: opening        !< the first opening with a passage; 0 for ALWAYS, 1 for NEVER, 0 for NONE
     real(c_double) :: closed_opening !< with RIIS_FIRST_PASSAGE_FOUND, the largest opening below `opening` at which the
-                                     !! call found no passage; otherwise the same as `opening`
-    integer(c_int64_t) :: node_id    !< the passage at `opening`, as in riis_passage
+                                     !! call found no passage. In other states it equals `opening`
+    integer(c_int64_t) :: node_id    !< the node of the passage at `opening`, as in riis_passage
     real(c_double) :: distance       !< as in riis_passage
     real(c_double) :: point(3)       !< as in riis_passage
     real(c_double) :: seconds        !< wall time of riis_find_first_passage
@@ -681,10 +688,10 @@ module riis_c
     integer(c_int32_t) :: state      !< RIIS_FIRST_PASSAGE_*
   end type riis_first_passage
 
-  !> The number of mesh edges that fit across the band, computed from the lengths of the mesh edges with a marked node.
+  !> How many mesh edges fit across the band, computed from the lengths of the mesh edges with a marked node.
   type, bind(c) :: riis_cells_across
-    real(c_double) :: least, mean, most       !< 2 * half_thickness divided by longest_edge, by mean_edge and by
-                                              !! shortest_edge
+    real(c_double) :: least, mean, most       !< the numbers of mesh edges across the band: 2 * half_thickness divided
+                                              !! by longest_edge, by mean_edge and by shortest_edge
     real(c_double) :: shortest_edge, mean_edge, longest_edge !< the lengths of the mesh edges with a marked node
     real(c_double) :: half_thickness          !< the half thickness of the marking
     integer(c_int64_t) :: n_edges             !< the number of edges with at least one marked node. If n_edges is 0, all
@@ -709,22 +716,23 @@ module riis_c
   !> The placement that riis_place finds. To place a surface, copy scale, rotation and translation to the fields of the
   !! same names in riis_surface_options.
   type, bind(c) :: riis_placement
-    real(c_double) :: scale                 !< the scale of the landmarks. With this scale, the default half thickness
-                                            !! of a surface is 0.1 cm
+    real(c_double) :: scale                 !< riis_landmarks.scale. With this scale, the default half thickness of a
+                                            !! surface is 0.1 cm
     real(c_double) :: rotation_axis(3)      !< unit vector
     real(c_double) :: rotation_angle        !< degrees, 0 to 180
     real(c_double) :: translation(3)        !< mesh units
-    real(c_double) :: rms                   !< root mean square of the residuals, mesh units
+    real(c_double) :: rms                   !< the root mean square of the residuals (riis_placement_arrays.residual),
+                                            !! mesh units
     real(c_double) :: worst                 !< the largest residual, mesh units
-    real(c_double) :: noise                 !< the noise from which the standard errors follow: the noise of the
-                                            !! landmarks, or more if the residuals show more
+    real(c_double) :: noise                 !< the noise that the standard errors are computed from:
+                                            !! riis_landmarks.noise, or more if the residuals show more noise
     real(c_double) :: rotation_error        !< standard error of the rotation, degrees
     real(c_double) :: position_error        !< standard error of the position of the valve's origin, mesh units
     integer(c_int64_t) :: worst_landmark_id !< the landmark with the largest residual
     integer(c_int32_t) :: n_undetermined    !< the number of parameters with RIIS_SIZE_UNDETERMINED
-    integer(c_int32_t) :: n_as_annulus      !< the number of trigones among the landmarks that lie behind the anterior
-                                            !! horn. The model has no trigones there, so these landmarks count as points
-                                            !! of the annulus, and have no influence on IT_distance
+    integer(c_int32_t) :: n_as_annulus      !< the number of trigones that lie behind the anterior horn. The model has
+                                            !! no trigones there, so these landmarks count as points of the annulus, and
+                                            !! have no influence on IT_distance
   end type riis_placement
 
   !> c_null_ptr for arrays that are not wanted
@@ -742,32 +750,32 @@ module riis_c
     type(c_ptr) :: placement !< type(riis_surface_options), (*), c_loc of a riis_surface_options; or c_null_ptr
   end type riis_warp_options
 
-  !> A warp's quality, in the units of its landmarks.
+  !> How well a warp takes its sources to its targets, in the units of the landmarks.
   type, bind(c) :: riis_warp_info
     integer(c_int64_t) :: n_landmarks         !< the number of landmarks
-    real(c_double) :: rms_residual            !< the root mean square of the distances between mapped sources and
-                                              !! targets. For the distance of a target from a warped valve, call
+    real(c_double) :: rms_residual            !< the root mean square of the distances between the mapped sources and
+                                              !! their targets. For the distance of a target from a warped valve, call
                                               !! riis_closest_point
     real(c_double) :: largest_residual        !< the largest distance between a mapped source and its target
     integer(c_int64_t) :: largest_landmark_id !< the landmark with the largest residual
     real(c_double) :: smoothing               !< the parameter lambda of the smoothing; 0 without noise, infinite if the
                                               !! map is affine
-    real(c_double) :: least_determinant       !< the least determinant of the map's derivative, half way between each
-                                              !! landmark and its nearest landmark
+    real(c_double) :: least_determinant       !< the least determinant of the map's derivative among the points half way
+                                              !! between each landmark and the landmark nearest to it
     real(c_double) :: least_point(3)          !< the point with the least determinant
     integer(c_int32_t) :: is_planar           !< 1 if the landmarks lie nearly in a plane, else 0
     integer(c_int32_t) :: reserved            !< 0
   end type riis_warp_info
 
-  !> The gap between the attachment of a valve and a wall. Lengths are in mesh units.
+  !> The sizes of the gap between the attachment of a valve and a wall. Lengths are in mesh units.
   type, bind(c) :: riis_gap
     real(c_double) :: least, mean, most  !< the least, the mean and the largest gap at the ends of the edges of
-                                         !! riis_attachment. The mean is weighted by the lengths of the edges. 0 if no
-                                         !! end meets the wall
-    real(c_double) :: widest_point(3)    !< the end of an edge at which the gap is largest
+                                         !! riis_attachment. The mean is weighted by the lengths of the edges. All three
+                                         !! are 0 if no end has a gap
+    real(c_double) :: widest_point(3)    !< the coordinates of that end of an edge that has the largest gap
     integer(c_int64_t) :: n_ends         !< the number of ends of edges, 2 * riis_attachment.n_edges
-    integer(c_int64_t) :: n_without_wall !< the number of ends from which the skirt's direction does not meet the wall.
-                                         !! These ends have no gap, and count only here and in n_ends
+    integer(c_int64_t) :: n_without_wall !< the number of ends from which a line in the skirt's direction does not meet
+                                         !! the wall. These ends have no gap, and count only here and in n_ends
   end type riis_gap
 
   type, bind(c) :: riis_direction
@@ -1136,7 +1144,7 @@ module riis_c
     ! -----------------------------------------------------------------------------------------------------------------
 
     !>   options         if left out: the surface's own options
-    !!   options_before  if left out: the placement is that of the new state
+    !!   options_before  if left out: the earlier state has the placement of the new state
     function riis_surface_update_moving(surface, valve, valve_before, dt, options, options_before) result(status) &
         bind(c, name='riis_surface_update_moving')
       import :: c_double, c_ptr, riis_status, riis_surface_options

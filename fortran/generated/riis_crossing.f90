@@ -14,14 +14,14 @@ module riis_crossing
   !> Pairs of triangles that cross, from %get_list. The object of the crossings owns the arrays, which count from 1. Ids count
   !! from 0. Lengths are in mesh units.
   type :: riis_crossing_list
-    integer(int64) :: n_pairs = 0                           !< The number of pairs. If it is 0, the ids in this struct are -1,
-                                                            !! and all other components except seconds are 0.
+    integer(int64) :: n_pairs = 0                           !< The number of pairs. If n_pairs is 0, the ids in this struct are
+                                                            !! -1, and all other components except seconds are 0.
     integer(int64), pointer :: triangle_id(:, :) => null()  !< (2, n_pairs): the two triangles, the lower id first.
     real(c_double), pointer :: point(:, :) => null()        !< (3, n_pairs): the middle of the segment where the two triangles
                                                             !! meet.
     real(c_double), pointer :: depth(:) => null()           !< (n_pairs): the penetration depth.
     real(c_double), pointer :: length(:) => null()          !< (n_pairs): the length of the segment where the two triangles meet.
-    real(c_double) :: total_length = 0                      !< The sum of length.
+    real(c_double) :: total_length = 0                      !< The sum of all lengths.
     real(c_double) :: deepest_depth = 0                     !< The depth of the deepest pair. Of equally deep pairs, the first
                                                             !! one counts as the deepest.
     real(c_double) :: deepest_point(3) = 0                  !< The point of the deepest pair.

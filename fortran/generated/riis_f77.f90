@@ -64,7 +64,7 @@ subroutine riisf_valve_create(kind, valve, status)
   valve = handle_of(c_handle)
 end subroutine riisf_valve_create
 
-!> Makes a copy of a valve, with the valve's parameters, patches and states. The caller destroys both valves.
+!> Makes a copy of a valve, including its parameters, patches and open state. The caller destroys both valves.
 subroutine riisf_valve_copy(valve, copy, status)
   use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr
   use, intrinsic :: iso_fortran_env, only: int64
@@ -92,12 +92,13 @@ subroutine riisf_valve_set(valve, name, n_values, values, status)
   implicit none
   integer(int64), intent(in) :: valve                     !< From riisf_valve_create, for example.
   character(len=*), intent(in) :: name                    !< Such as 'root_radius'. A name such as 'right.leaflet_angle',
-                                                          !! 'commissure_0.fusion' or 'bump_0.open' sets the parameter of one
-                                                          !! part. The name 'leaflet_angle' alone sets this parameter of all
-                                                          !! parts. If the whole valve has a parameter of this name, the name
-                                                          !! sets only that parameter.
-  integer(int32), intent(in) :: n_values                  !< 3 for translation (x, y, z), and for rotation, t0_* and t3_*
-                                                          !! (right, left, non-coronary cusp); 1 for other parameters.
+                                                          !! 'commissure_0.fusion' or 'bump_0.open' sets a parameter of one
+                                                          !! part. The name 'leaflet_angle' without a part sets this parameter
+                                                          !! for all parts. However, if the whole valve also has a parameter of
+                                                          !! the name, only the whole valve's parameter is set.
+  integer(int32), intent(in) :: n_values                  !< The number of values: 3 for translation (x, y, z), 3 for rotation,
+                                                          !! t0_* and t3_* (right, left, non-coronary cusp), and 1 for all
+                                                          !! other parameters.
   real(c_double), intent(in) :: values(*)                 !< (n_values): the values, within the parameter's range.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   character(len=len_trim(name) + 1, kind=c_char) :: c_name
@@ -105,8 +106,8 @@ subroutine riisf_valve_set(valve, name, n_values, values, status)
   status = riis_valve_set(c_handle_of(valve), c_name, int(n_values, int64), values)
 end subroutine riisf_valve_set
 
-!> Copies a parameter's values to the caller's array. Arguments are as in riisf_valve_set. Errors: RIIS_INVALID_PARAMETER for an
-!! unknown name, and for a name that stands for a parameter of several cusps.
+!> Copies the values of a parameter to the caller's array. Arguments are as in riisf_valve_set. Errors: RIIS_INVALID_PARAMETER
+!! for an unknown name, and for a name that stands for a parameter of several cusps.
 subroutine riisf_valve_get(valve, name, n_values, values, status)
   use, intrinsic :: iso_c_binding, only: c_char, c_double
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -115,12 +116,13 @@ subroutine riisf_valve_get(valve, name, n_values, values, status)
   implicit none
   integer(int64), intent(in) :: valve                     !< From riisf_valve_create, for example.
   character(len=*), intent(in) :: name                    !< Such as 'root_radius'. A name such as 'right.leaflet_angle',
-                                                          !! 'commissure_0.fusion' or 'bump_0.open' sets the parameter of one
-                                                          !! part. The name 'leaflet_angle' alone sets this parameter of all
-                                                          !! parts. If the whole valve has a parameter of this name, the name
-                                                          !! sets only that parameter.
-  integer(int32), intent(in) :: n_values                  !< 3 for translation (x, y, z), and for rotation, t0_* and t3_*
-                                                          !! (right, left, non-coronary cusp); 1 for other parameters.
+                                                          !! 'commissure_0.fusion' or 'bump_0.open' sets a parameter of one
+                                                          !! part. The name 'leaflet_angle' without a part sets this parameter
+                                                          !! for all parts. However, if the whole valve also has a parameter of
+                                                          !! the name, only the whole valve's parameter is set.
+  integer(int32), intent(in) :: n_values                  !< The number of values: 3 for translation (x, y, z), 3 for rotation,
+                                                          !! t0_* and t3_* (right, left, non-coronary cusp), and 1 for all
+                                                          !! other parameters.
   real(c_double), intent(inout) :: values(*)              !< (n_values): the values, within the parameter's range.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   character(len=len_trim(name) + 1, kind=c_char) :: c_name
@@ -144,7 +146,7 @@ subroutine riisf_valve_unset(valve, name, status)
   status = riis_valve_unset(c_handle_of(valve), c_name)
 end subroutine riisf_valve_unset
 
-!> Says whether a parameter was set. Errors: RIIS_INVALID_PARAMETER for an unknown name, and for a name that stands for a
+!> Tells whether a parameter was set. Errors: RIIS_INVALID_PARAMETER for an unknown name, and for a name that stands for a
 !! parameter of several cusps.
 subroutine riisf_valve_is_set(valve, name, is_set, status)
   use, intrinsic :: iso_c_binding, only: c_char
@@ -162,8 +164,8 @@ subroutine riisf_valve_is_set(valve, name, is_set, status)
   status = riis_valve_is_set(c_handle_of(valve), c_name, is_set)
 end subroutine riisf_valve_is_set
 
-!> Gives the valve an open state. At opening 0 the valve then has its own shape. At opening 1 it has the shape of the valve
-!! `open`. Errors: RIIS_INVALID_PARAMETER if `open` has another kind, or other curves, degrees or sides.
+!> Gives a valve an open state. The valve then has its own shape at opening 0, and the shape of the valve `open` at opening 1.
+!! Errors: RIIS_INVALID_PARAMETER if `open` has another kind, or other curves, degrees or sides.
 subroutine riisf_valve_set_open_state(valve, open, status)
   use, intrinsic :: iso_fortran_env, only: int64
   use riis_support, only: c_handle_of
@@ -180,7 +182,7 @@ subroutine riisf_valve_set_open_state(valve, open, status)
 end subroutine riisf_valve_set_open_state
 
 !> Destroys the valve. Surfaces that were made from the valve do not change. Valves with this valve as their open state do not
-!! change. The handle becomes 0. Nothing happens to a handle that is 0.
+!! change either. The handle becomes 0. Nothing happens to a handle that is 0.
 subroutine riisf_valve_destroy(handle)
   use, intrinsic :: iso_c_binding, only: c_ptr
   use, intrinsic :: iso_fortran_env, only: int64
@@ -194,10 +196,10 @@ subroutine riisf_valve_destroy(handle)
   handle = handle_of(c_handle)
 end subroutine riisf_valve_destroy
 
-!> Makes the surface of a valve: curves, polylines, Coons patches, quads and triangles (paper, 3 and 4.1; docs/theory.md).
-!! Errors: RIIS_INVALID_PARAMETER for parameters that do not fit together or that put a curve out of range. RIIS_INVALID_SURFACE
-!! if there is an offset, and two neighbouring triangles have opposite windings. RIIS_LIMIT_EXCEEDED if a tolerance needs more
-!! than 16,777,216 triangles, quads or samples, or is smaller than the rounding error of coordinates.
+!> Makes the surface of a valve from curves, by way of polylines, Coons patches, quads and triangles (paper, 3 and 4.1;
+!! docs/theory.md). Errors: RIIS_INVALID_PARAMETER for parameters that do not fit together or that put a curve out of range.
+!! RIIS_INVALID_SURFACE if two neighbouring triangles have opposite windings in a surface with an offset. RIIS_LIMIT_EXCEEDED if
+!! a tolerance needs more than 16,777,216 triangles, quads or samples, or is smaller than the rounding error of coordinates.
 subroutine riisf_surface_create(valve, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
     surface, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_null_ptr, c_ptr, c_sizeof
@@ -205,19 +207,20 @@ subroutine riisf_surface_create(valve, half_thickness, tolerance, scale, rotatio
   use riis_support, only: c_handle_of, handle_of
   use riis_c, only: RIIS_OK, riis_status, riis_surface_create, riis_surface_options, riis_surface_options_init
   implicit none
-  integer(int64), intent(in) :: valve                     !< Its parameters must fit together.
+  integer(int64), intent(in) :: valve                     !< A valve whose parameters fit together.
   real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
                                                           !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
-  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
-                                                          !! its smooth surface differ by at most tolerance * half_thickness
-                                                          !! (docs/theory.md).
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The distance to a valve's triangles
+                                                          !! differs from the distance to its smooth surface by at most
+                                                          !! tolerance * half_thickness (docs/theory.md).
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
-  real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_axis(3)          !< A vector with a length of at least 1e-50 and components up to
+                                                          !! 1e50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse so
-                                                          !! large a shift of a valve that coordinates would be rounded by more
-                                                          !! than a thousandth of tolerance * half_thickness.
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse a
+                                                          !! shift of a valve that would round coordinates by more than a
+                                                          !! thousandth of tolerance * half_thickness.
   integer(int64), intent(inout) :: surface                !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_options) :: options
@@ -261,16 +264,17 @@ subroutine riisf_surface_place(surface, valve, half_thickness, tolerance, scale,
   integer(int64), intent(in) :: valve                     !< From riisf_valve_create, for example.
   real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
                                                           !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
-  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
-                                                          !! its smooth surface differ by at most tolerance * half_thickness
-                                                          !! (docs/theory.md).
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The distance to a valve's triangles
+                                                          !! differs from the distance to its smooth surface by at most
+                                                          !! tolerance * half_thickness (docs/theory.md).
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
-  real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_axis(3)          !< A vector with a length of at least 1e-50 and components up to
+                                                          !! 1e50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse so
-                                                          !! large a shift of a valve that coordinates would be rounded by more
-                                                          !! than a thousandth of tolerance * half_thickness.
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse a
+                                                          !! shift of a valve that would round coordinates by more than a
+                                                          !! thousandth of tolerance * half_thickness.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_options) :: options
   status = riis_surface_options_init(options, c_sizeof(options))
@@ -297,18 +301,20 @@ subroutine riisf_surface_measure(surface, valve, half_thickness, tolerance, scal
   integer(int64), intent(in) :: valve                     !< From riisf_valve_create, for example.
   real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
                                                           !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
-  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
-                                                          !! its smooth surface differ by at most tolerance * half_thickness
-                                                          !! (docs/theory.md).
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The distance to a valve's triangles
+                                                          !! differs from the distance to its smooth surface by at most
+                                                          !! tolerance * half_thickness (docs/theory.md).
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
-  real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_axis(3)          !< A vector with a length of at least 1e-50 and components up to
+                                                          !! 1e50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse so
-                                                          !! large a shift of a valve that coordinates would be rounded by more
-                                                          !! than a thousandth of tolerance * half_thickness.
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse a
+                                                          !! shift of a valve that would round coordinates by more than a
+                                                          !! thousandth of tolerance * half_thickness.
   integer(int32), intent(in) :: measure                   !< RIIS_MEASURE_*, for closest points and marking only. Usually
-                                                          !! RIIS_MEASURE_TRIANGLES; surfaces from arrays accept only this.
+                                                          !! RIIS_MEASURE_TRIANGLES; surfaces from arrays accept only this
+                                                          !! value.
   real(c_double), intent(in) :: measure_tolerance         !< A fraction of half_thickness, 1e-6 to 1; RIIS_AUTO: tolerance. Not
                                                           !! used by RIIS_MEASURE_TRIANGLES.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -339,16 +345,17 @@ subroutine riisf_surface_triangulate(surface, valve, half_thickness, tolerance, 
   integer(int64), intent(in) :: valve                     !< From riisf_valve_create, for example.
   real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
                                                           !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
-  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
-                                                          !! its smooth surface differ by at most tolerance * half_thickness
-                                                          !! (docs/theory.md).
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The distance to a valve's triangles
+                                                          !! differs from the distance to its smooth surface by at most
+                                                          !! tolerance * half_thickness (docs/theory.md).
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
-  real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_axis(3)          !< A vector with a length of at least 1e-50 and components up to
+                                                          !! 1e50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse so
-                                                          !! large a shift of a valve that coordinates would be rounded by more
-                                                          !! than a thousandth of tolerance * half_thickness.
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse a
+                                                          !! shift of a valve that would round coordinates by more than a
+                                                          !! thousandth of tolerance * half_thickness.
   integer(int32), intent(in) :: triangulation             !< RIIS_TRIANGULATION_*, usually RIIS_TRIANGULATION_ADAPTED.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_options) :: options
@@ -378,20 +385,22 @@ subroutine riisf_surface_offset(surface, valve, half_thickness, tolerance, scale
   integer(int64), intent(in) :: valve                     !< From riisf_valve_create, for example.
   real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
                                                           !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
-  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
-                                                          !! its smooth surface differ by at most tolerance * half_thickness
-                                                          !! (docs/theory.md).
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The distance to a valve's triangles
+                                                          !! differs from the distance to its smooth surface by at most
+                                                          !! tolerance * half_thickness (docs/theory.md).
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
-  real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_axis(3)          !< A vector with a length of at least 1e-50 and components up to
+                                                          !! 1e50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse so
-                                                          !! large a shift of a valve that coordinates would be rounded by more
-                                                          !! than a thousandth of tolerance * half_thickness.
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse a
+                                                          !! shift of a valve that would round coordinates by more than a
+                                                          !! thousandth of tolerance * half_thickness.
   real(c_double), intent(in) :: offset                    !< The offset o, in half thicknesses, above -1 and below 1, usually
                                                           !! 0. The middle of the band is the surface moved by o half
                                                           !! thicknesses along its normals (after flip_normals).
-                                                          !! RIIS_MEASURE_SAMPLING and RIIS_MEASURE_MINIMIZATION need 0.
+                                                          !! RIIS_MEASURE_SAMPLING and RIIS_MEASURE_MINIMIZATION need the
+                                                          !! offset 0.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_options) :: options
   status = riis_surface_options_init(options, c_sizeof(options))
@@ -406,9 +415,10 @@ subroutine riisf_surface_offset(surface, valve, half_thickness, tolerance, scale
   status = riis_surface_update(c_handle_of(surface), c_handle_of(valve), options)
 end subroutine riisf_surface_offset
 
-!> Updates the surface from a valve, and gives every vertex a velocity. The triangles are bitwise the same as those of
-!! riisf_surface_update. For a valve at rest, pass the same valve as valve_before. Errors: as riisf_surface_update.
-!! RIIS_INVALID_PARAMETER if valve_before has another kind or other patches, or if its parameters do not fit together.
+!> Replaces the content of a surface by the surface of a valve, and gives every vertex a velocity. The triangles are bitwise the
+!! same as those of riisf_surface_update. For a valve at rest, pass the same valve as valve_before. Errors: as
+!! riisf_surface_update. RIIS_INVALID_PARAMETER if valve_before differs from `valve` in kind or patches, or if its parameters do
+!! not fit together.
 subroutine riisf_surface_update_moving(surface, valve, valve_before, dt, status)
   use, intrinsic :: iso_c_binding, only: c_double
   use, intrinsic :: iso_fortran_env, only: int64
@@ -417,8 +427,8 @@ subroutine riisf_surface_update_moving(surface, valve, valve_before, dt, status)
   implicit none
   integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
   integer(int64), intent(in) :: valve                     !< From riisf_valve_create, for example.
-  integer(int64), intent(in) :: valve_before              !< The earlier state, of the same kind. Valves from patches must have
-                                                          !! the same curves and sides.
+  integer(int64), intent(in) :: valve_before              !< The valve in its earlier state, of the same kind. Valves from
+                                                          !! patches must have the same curves and sides.
   real(c_double), intent(in) :: dt                        !< The time from valve_before to valve, 1e-30 to 1e30, or -1e30 to
                                                           !! -1e-30 if time runs backwards.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -426,8 +436,8 @@ subroutine riisf_surface_update_moving(surface, valve, valve_before, dt, status)
 end subroutine riisf_surface_update_moving
 
 !> Replaces the surface like riisf_surface_update_moving, but with another placement, now and before. Errors: as
-!! riisf_surface_update. RIIS_INVALID_PARAMETER if valve_before has another kind or other patches, or if its parameters do not
-!! fit together.
+!! riisf_surface_update. RIIS_INVALID_PARAMETER if valve_before differs from `valve` in kind or patches, or if its parameters do
+!! not fit together.
 subroutine riisf_surface_place_moving(surface, valve, valve_before, dt, half_thickness, tolerance, scale, &
     rotation_axis, rotation_angle, translation, scale_before, rotation_axis_before, rotation_angle_before, &
     translation_before, status)
@@ -438,22 +448,23 @@ subroutine riisf_surface_place_moving(surface, valve, valve_before, dt, half_thi
   implicit none
   integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
   integer(int64), intent(in) :: valve                     !< From riisf_valve_create, for example.
-  integer(int64), intent(in) :: valve_before              !< The earlier state, of the same kind. Valves from patches must have
-                                                          !! the same curves and sides.
+  integer(int64), intent(in) :: valve_before              !< The valve in its earlier state, of the same kind. Valves from
+                                                          !! patches must have the same curves and sides.
   real(c_double), intent(in) :: dt                        !< The time from valve_before to valve, 1e-30 to 1e30, or -1e30 to
                                                           !! -1e-30 if time runs backwards.
   real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
                                                           !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
-  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
-                                                          !! its smooth surface differ by at most tolerance * half_thickness
-                                                          !! (docs/theory.md).
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The distance to a valve's triangles
+                                                          !! differs from the distance to its smooth surface by at most
+                                                          !! tolerance * half_thickness (docs/theory.md).
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
-  real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_axis(3)          !< A vector with a length of at least 1e-50 and components up to
+                                                          !! 1e50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse so
-                                                          !! large a shift of a valve that coordinates would be rounded by more
-                                                          !! than a thousandth of tolerance * half_thickness.
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse a
+                                                          !! shift of a valve that would round coordinates by more than a
+                                                          !! thousandth of tolerance * half_thickness.
   real(c_double), intent(in) :: scale_before              !< The placement of the earlier state.
   real(c_double), intent(in) :: rotation_axis_before(3)   !< The placement of the earlier state.
   real(c_double), intent(in) :: rotation_angle_before     !< The placement of the earlier state.
@@ -480,9 +491,10 @@ subroutine riisf_surface_place_moving(surface, valve, valve_before, dt, half_thi
       options, options_before)
 end subroutine riisf_surface_place_moving
 
-!> Adds a direction in which the surface of a valve changes with a parameter, a landmark or a number of the placement. Errors:
-!! RIIS_INVALID_ARGUMENT for a surface from arrays, and for a dp out of range. RIIS_INVALID_PARAMETER if a state has another kind
-!! or other patches, and if its parameters do not fit together. RIIS_LIMIT_EXCEEDED for more than 1000 directions.
+!> Adds a direction in which the surface of a valve can change. A direction belongs to one number: a parameter, a coordinate of a
+!! landmark or a number of the placement. Below, this number is called the parameter. Errors: RIIS_INVALID_ARGUMENT for a surface
+!! from arrays, and for a dp out of range. RIIS_INVALID_PARAMETER if the kind or the patches of a state differ from those of the
+!! surface, and if the parameters of a state do not fit together. RIIS_LIMIT_EXCEEDED for more than 1000 directions.
 subroutine riisf_surface_add_direction(surface, valve_after, valve_before, dp, status)
   use, intrinsic :: iso_c_binding, only: c_double
   use, intrinsic :: iso_fortran_env, only: int64
@@ -491,11 +503,13 @@ subroutine riisf_surface_add_direction(surface, valve_after, valve_before, dp, s
   implicit none
   integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
   integer(int64), intent(in) :: valve_after               !< Two copies of the surface's valve. In valve_after the parameter is
-                                                          !! a little larger than in the surface, and in valve_before a little
-                                                          !! smaller. If only the placement changes, pass the same valve twice.
+                                                          !! a little larger than in the surface's valve, and in valve_before a
+                                                          !! little smaller. If only the placement changes, pass the same valve
+                                                          !! twice.
   integer(int64), intent(in) :: valve_before              !< Two copies of the surface's valve. In valve_after the parameter is
-                                                          !! a little larger than in the surface, and in valve_before a little
-                                                          !! smaller. If only the placement changes, pass the same valve twice.
+                                                          !! a little larger than in the surface's valve, and in valve_before a
+                                                          !! little smaller. If only the placement changes, pass the same valve
+                                                          !! twice.
   real(c_double), intent(in) :: dp                        !< The value of the parameter in valve_after minus its value in
                                                           !! valve_before, 1e-30 to 1e30 in magnitude.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -503,8 +517,8 @@ subroutine riisf_surface_add_direction(surface, valve_after, valve_before, dp, s
 end subroutine riisf_surface_add_direction
 
 !> Adds a direction like riisf_surface_add_direction, in which the placement also changes. Errors: RIIS_INVALID_ARGUMENT for a
-!! surface from arrays, and for a dp out of range. RIIS_INVALID_PARAMETER if a state has another kind or other patches, and if
-!! its parameters do not fit together. RIIS_LIMIT_EXCEEDED for more than 1000 directions.
+!! surface from arrays, and for a dp out of range. RIIS_INVALID_PARAMETER if the kind or the patches of a state differ from those
+!! of the surface, and if the parameters of a state do not fit together. RIIS_LIMIT_EXCEEDED for more than 1000 directions.
 subroutine riisf_surface_add_placed(surface, valve_after, valve_before, dp, scale_after, rotation_axis_after, &
     rotation_angle_after, translation_after, scale_before, rotation_axis_before, rotation_angle_before, &
     translation_before, status)
@@ -515,11 +529,13 @@ subroutine riisf_surface_add_placed(surface, valve_after, valve_before, dp, scal
   implicit none
   integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
   integer(int64), intent(in) :: valve_after               !< Two copies of the surface's valve. In valve_after the parameter is
-                                                          !! a little larger than in the surface, and in valve_before a little
-                                                          !! smaller. If only the placement changes, pass the same valve twice.
+                                                          !! a little larger than in the surface's valve, and in valve_before a
+                                                          !! little smaller. If only the placement changes, pass the same valve
+                                                          !! twice.
   integer(int64), intent(in) :: valve_before              !< Two copies of the surface's valve. In valve_after the parameter is
-                                                          !! a little larger than in the surface, and in valve_before a little
-                                                          !! smaller. If only the placement changes, pass the same valve twice.
+                                                          !! a little larger than in the surface's valve, and in valve_before a
+                                                          !! little smaller. If only the placement changes, pass the same valve
+                                                          !! twice.
   real(c_double), intent(in) :: dp                        !< The value of the parameter in valve_after minus its value in
                                                           !! valve_before, 1e-30 to 1e30 in magnitude.
   real(c_double), intent(in) :: scale_after               !< The placement of the later state.
@@ -566,9 +582,9 @@ end subroutine riisf_surface_destroy
 ! Meshes
 ! -----------------------------------------------------------------------------------------------------------------
 
-!> Borrows node coordinates and checks them once. The coordinates must stay in place until the mesh is updated or destroyed. With
-!! MPI, processes without nodes must also make a mesh. Errors: RIIS_INVALID_MESH for a bad coordinate; the message names the node
-!! and the value. RIIS_LIMIT_EXCEEDED for too many nodes.
+!> Makes a mesh that borrows the coordinates of its nodes, and checks them once. The coordinates must stay in place until the
+!! mesh is updated or destroyed. With MPI, a process without nodes must also make a mesh, with n_nodes 0. Errors:
+!! RIIS_INVALID_MESH for a bad coordinate; the message names the node and the value. RIIS_LIMIT_EXCEEDED for too many nodes.
 subroutine riisf_mesh_create(n_nodes, x, y, z, stride, mesh, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_null_ptr, c_ptr
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -648,8 +664,9 @@ subroutine riisf_mesh_update_64(mesh, n_nodes, x, y, z, stride, status)
   status = riis_mesh_update(c_handle_of(mesh), n_nodes, location_of(x), location_of(y), location_of(z), stride)
 end subroutine riisf_mesh_update_64
 
-!> Copies node coordinates and checks them. Use this call for a temporary array of Fortran, or for coordinates in single
-!! precision, which become doubles without rounding. The copies take 24 bytes per node. Errors: as riisf_mesh_create.
+!> Makes a mesh with copies of the coordinates of its nodes, and checks them. Use this call for a temporary array of Fortran, or
+!! for coordinates in single precision, which become doubles without rounding. The copies take 24 bytes per node. Errors: as
+!! riisf_mesh_create.
 subroutine riisf_mesh_create_copy(n_nodes, x, y, z, stride, real_bits, mesh, status)
   use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -711,8 +728,8 @@ subroutine riisf_mesh_create_copy_64(n_nodes, x, y, z, stride, real_bits, mesh, 
   mesh = handle_of(c_handle)
 end subroutine riisf_mesh_create_copy_64
 
-!> Does the same as riisf_mesh_update, but copies the coordinates. A mesh with borrowed coordinates may later get copies, and the
-!! reverse.
+!> Does the same as riisf_mesh_update, but copies the coordinates. A mesh may change from borrowed coordinates to copies, and
+!! back.
 subroutine riisf_mesh_update_copy(mesh, n_nodes, x, y, z, stride, real_bits, status)
   use, intrinsic :: iso_c_binding, only: c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -777,9 +794,9 @@ subroutine riisf_mesh_create_grid(ni, nj, nk, x, y, z, real_bits, first_num, str
   use riis_support, only: handle_of, location_of
   use riis_c, only: RIIS_OK, riis_grid, riis_grid_init, riis_mesh_create_grid, riis_status
   implicit none
-  integer(int32), intent(in) :: ni                        !< ni, nj, nk: nodes along each axis, each >= 1.
-  integer(int32), intent(in) :: nj                        !< ni, nj, nk: nodes along each axis, each >= 1.
-  integer(int32), intent(in) :: nk                        !< ni, nj, nk: nodes along each axis, each >= 1.
+  integer(int32), intent(in) :: ni                        !< ni, nj, nk: the numbers of nodes along the three axes, each >= 1.
+  integer(int32), intent(in) :: nj                        !< ni, nj, nk: the numbers of nodes along the three axes, each >= 1.
+  integer(int32), intent(in) :: nk                        !< ni, nj, nk: the numbers of nodes along the three axes, each >= 1.
   type(*), intent(in) :: x(*)                             !< (ni), strictly ascending; copied.
   type(*), intent(in) :: y(*)                             !< (nj).
   type(*), intent(in) :: z(*)                             !< (nk).
@@ -822,9 +839,9 @@ subroutine riisf_mesh_create_grid_64(ni, nj, nk, x, y, z, real_bits, first_num, 
   use riis_support, only: handle_of, location_of
   use riis_c, only: RIIS_OK, riis_grid, riis_grid_init, riis_mesh_create_grid, riis_status
   implicit none
-  integer(int64), intent(in) :: ni                        !< ni, nj, nk: nodes along each axis, each >= 1.
-  integer(int64), intent(in) :: nj                        !< ni, nj, nk: nodes along each axis, each >= 1.
-  integer(int64), intent(in) :: nk                        !< ni, nj, nk: nodes along each axis, each >= 1.
+  integer(int64), intent(in) :: ni                        !< ni, nj, nk: the numbers of nodes along the three axes, each >= 1.
+  integer(int64), intent(in) :: nj                        !< ni, nj, nk: the numbers of nodes along the three axes, each >= 1.
+  integer(int64), intent(in) :: nk                        !< ni, nj, nk: the numbers of nodes along the three axes, each >= 1.
   type(*), intent(in) :: x(*)                             !< (ni), strictly ascending; copied.
   type(*), intent(in) :: y(*)                             !< (nj).
   type(*), intent(in) :: z(*)                             !< (nk).
@@ -859,8 +876,8 @@ subroutine riisf_mesh_create_grid_64(ni, nj, nk, x, y, z, real_bits, first_num, 
   mesh = handle_of(c_handle)
 end subroutine riisf_mesh_create_grid_64
 
-!> Gives a mesh other axes. A mesh of points becomes a grid; riisf_mesh_update makes it a mesh of points again. Errors: as
-!! riisf_mesh_create_grid. After an error the mesh keeps its nodes.
+!> Gives a mesh the axes of a grid, in place of its axes or points. riisf_mesh_update makes such a mesh a mesh of points again.
+!! Errors: as riisf_mesh_create_grid. After an error the mesh keeps its nodes.
 subroutine riisf_mesh_update_grid(mesh, ni, nj, nk, x, y, z, real_bits, first_num, stride_i, stride_j, stride_k, &
     n_nodes, status)
   use, intrinsic :: iso_c_binding, only: c_sizeof
@@ -869,9 +886,9 @@ subroutine riisf_mesh_update_grid(mesh, ni, nj, nk, x, y, z, real_bits, first_nu
   use riis_c, only: RIIS_OK, riis_grid, riis_grid_init, riis_mesh_update_grid, riis_status
   implicit none
   integer(int64), intent(in) :: mesh                      !< From riisf_mesh_create, for example.
-  integer(int32), intent(in) :: ni                        !< ni, nj, nk: nodes along each axis, each >= 1.
-  integer(int32), intent(in) :: nj                        !< ni, nj, nk: nodes along each axis, each >= 1.
-  integer(int32), intent(in) :: nk                        !< ni, nj, nk: nodes along each axis, each >= 1.
+  integer(int32), intent(in) :: ni                        !< ni, nj, nk: the numbers of nodes along the three axes, each >= 1.
+  integer(int32), intent(in) :: nj                        !< ni, nj, nk: the numbers of nodes along the three axes, each >= 1.
+  integer(int32), intent(in) :: nk                        !< ni, nj, nk: the numbers of nodes along the three axes, each >= 1.
   type(*), intent(in) :: x(*)                             !< (ni), strictly ascending; copied.
   type(*), intent(in) :: y(*)                             !< (nj).
   type(*), intent(in) :: z(*)                             !< (nk).
@@ -910,9 +927,9 @@ subroutine riisf_mesh_update_grid_64(mesh, ni, nj, nk, x, y, z, real_bits, first
   use riis_c, only: RIIS_OK, riis_grid, riis_grid_init, riis_mesh_update_grid, riis_status
   implicit none
   integer(int64), intent(in) :: mesh                      !< From riisf_mesh_create, for example.
-  integer(int64), intent(in) :: ni                        !< ni, nj, nk: nodes along each axis, each >= 1.
-  integer(int64), intent(in) :: nj                        !< ni, nj, nk: nodes along each axis, each >= 1.
-  integer(int64), intent(in) :: nk                        !< ni, nj, nk: nodes along each axis, each >= 1.
+  integer(int64), intent(in) :: ni                        !< ni, nj, nk: the numbers of nodes along the three axes, each >= 1.
+  integer(int64), intent(in) :: nj                        !< ni, nj, nk: the numbers of nodes along the three axes, each >= 1.
+  integer(int64), intent(in) :: nk                        !< ni, nj, nk: the numbers of nodes along the three axes, each >= 1.
   type(*), intent(in) :: x(*)                             !< (ni), strictly ascending; copied.
   type(*), intent(in) :: y(*)                             !< (nj).
   type(*), intent(in) :: z(*)                             !< (nk).
@@ -943,9 +960,9 @@ subroutine riisf_mesh_update_grid_64(mesh, ni, nj, nk, x, y, z, real_bits, first
 end subroutine riisf_mesh_update_grid_64
 
 !> Makes the clusters for RIIS_SEARCH_CLUSTERS in advance, so that no marking has to make them. The clusters contain a copy of
-!! the coordinates. They take 41 bytes per node until the mesh is destroyed, and 32 more bytes per node while they are made. For
-!! a grid, the call stores nothing per node. Errors: RIIS_LIMIT_EXCEEDED for 2^32 nodes or more. RIIS_INVALID_MESH as
-!! riisf_mark_nodes.
+!! the coordinates, so they take 41 bytes per node until the mesh is destroyed. While the call makes the clusters, it needs 32
+!! more bytes per node. For a grid, the call stores nothing per node. Errors: RIIS_LIMIT_EXCEEDED for 2^32 nodes or more.
+!! RIIS_INVALID_MESH as riisf_mark_nodes.
 subroutine riisf_mesh_prepare(mesh, n_threads, status)
   use, intrinsic :: iso_fortran_env, only: int32, int64
   use riis_support, only: c_handle_of
@@ -1004,8 +1021,8 @@ end subroutine riisf_version
 ! Adjacencies
 ! -----------------------------------------------------------------------------------------------------------------
 
-!> Gives the mesh an adjacency, the edges along which the neighbour search walks, and checks it once. Errors: RIIS_INVALID_MESH
-!! for a bad row; the message names the row and its value.
+!> Gives the mesh an adjacency, and checks the adjacency once. The adjacency is the edges along which the neighbour search walks.
+!! Errors: RIIS_INVALID_MESH for a bad row; the message names the row and its value.
 subroutine riisf_mesh_set_adjacency(mesh, n_rows, offsets, columns, index_base, n_all, status)
   use, intrinsic :: iso_c_binding, only: c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -1014,14 +1031,16 @@ subroutine riisf_mesh_set_adjacency(mesh, n_rows, offsets, columns, index_base, 
   implicit none
   integer(int64), intent(in) :: mesh                      !< From riisf_mesh_create, for example.
   integer(int32), intent(in) :: n_rows                    !< The mesh's n_nodes.
-  integer(int32), intent(in) :: offsets(*)                !< (n_rows + 1), ascending from the base; a row may be empty.
+  integer(int32), intent(in) :: offsets(*)                !< (n_rows + 1), ascending; the first offset is index_base, and a row
+                                                          !! may be empty.
   integer(int32), intent(in) :: columns(*)                !< (offsets(n_rows + 1) - index_base), borrowed like offsets. If
                                                           !! index_base is 1, the neighbours of node i are columns(offsets(i))
                                                           !! to columns(offsets(i + 1) - 1).
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
-  integer(int32), intent(in) :: n_all                     !< The number of nodes with ghosts, at least n_rows. Every column is
-                                                          !! below this number. Columns from n_rows on are ghosts, nodes of
-                                                          !! other ranks, and are ignored. The default 0 stands for n_rows.
+  integer(int32), intent(in) :: n_all                     !< The number of nodes including ghosts, which are nodes of other
+                                                          !! ranks; at least n_rows. Every column is below this number. Columns
+                                                          !! from n_rows on are ghosts, and are ignored. The default 0 stands
+                                                          !! for n_rows.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_csr) :: csr
   status = riis_csr_init(csr, c_sizeof(csr))
@@ -1045,14 +1064,16 @@ subroutine riisf_mesh_set_adjacency_64(mesh, n_rows, offsets, columns, index_bas
   implicit none
   integer(int64), intent(in) :: mesh                      !< From riisf_mesh_create, for example.
   integer(int64), intent(in) :: n_rows                    !< The mesh's n_nodes.
-  integer(int64), intent(in) :: offsets(*)                !< (n_rows + 1), ascending from the base; a row may be empty.
+  integer(int64), intent(in) :: offsets(*)                !< (n_rows + 1), ascending; the first offset is index_base, and a row
+                                                          !! may be empty.
   integer(int64), intent(in) :: columns(*)                !< (offsets(n_rows + 1) - index_base), borrowed like offsets. If
                                                           !! index_base is 1, the neighbours of node i are columns(offsets(i))
                                                           !! to columns(offsets(i + 1) - 1).
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
-  integer(int64), intent(in) :: n_all                     !< The number of nodes with ghosts, at least n_rows. Every column is
-                                                          !! below this number. Columns from n_rows on are ghosts, nodes of
-                                                          !! other ranks, and are ignored. The default 0 stands for n_rows.
+  integer(int64), intent(in) :: n_all                     !< The number of nodes including ghosts, which are nodes of other
+                                                          !! ranks; at least n_rows. Every column is below this number. Columns
+                                                          !! from n_rows on are ghosts, and are ignored. The default 0 stands
+                                                          !! for n_rows.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_csr) :: csr
   status = riis_csr_init(csr, c_sizeof(csr))
@@ -1105,7 +1126,8 @@ subroutine riisf_adjacency_from_cells(n_nodes, nodes_per_cell, n_cells, cells, i
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   integer(int32), intent(in) :: nodes_per_cell            !< 4 tetrahedron, 5 pyramid, 6 prism, 8 hexahedron.
   integer(int32), intent(in) :: n_cells                   !< >= 0.
-  integer(int32), intent(in) :: cells(*)                  !< (nodes_per_cell, n_cells): the nodes of cell after cell.
+  integer(int32), intent(in) :: cells(*)                  !< (nodes_per_cell, n_cells): the nodes of all cells, cell after
+                                                          !! cell.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int64), intent(inout) :: adjacency              !< Written on success.
@@ -1138,7 +1160,8 @@ subroutine riisf_adjacency_from_cells_64(n_nodes, nodes_per_cell, n_cells, cells
   integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   integer(int32), intent(in) :: nodes_per_cell            !< 4 tetrahedron, 5 pyramid, 6 prism, 8 hexahedron.
   integer(int64), intent(in) :: n_cells                   !< >= 0.
-  integer(int64), intent(in) :: cells(*)                  !< (nodes_per_cell, n_cells): the nodes of cell after cell.
+  integer(int64), intent(in) :: cells(*)                  !< (nodes_per_cell, n_cells): the nodes of all cells, cell after
+                                                          !! cell.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int64), intent(inout) :: adjacency              !< Written on success.
@@ -1170,10 +1193,11 @@ subroutine riisf_adjacency_from_mixed(n_nodes, n_cells, node_ids, offsets, index
   implicit none
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   integer(int32), intent(in) :: n_cells                   !< >= 0.
-  integer(int32), intent(in) :: node_ids(*)               !< (nodes_per_cell, n_cells): the nodes of cell after cell.
-  integer(int32), intent(in) :: offsets(*)                !< (n_cells + 1), ascending from 0 or from index_base: the position
-                                                          !! in node_ids at which each cell begins, and the end of the last
+  integer(int32), intent(in) :: node_ids(*)               !< (nodes_per_cell, n_cells): the nodes of all cells, cell after
                                                           !! cell.
+  integer(int32), intent(in) :: offsets(*)                !< (n_cells + 1): the position in node_ids at which each cell begins,
+                                                          !! then the end of the last cell; ascending from 0 or from
+                                                          !! index_base.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int64), intent(inout) :: adjacency              !< Written on success.
@@ -1204,10 +1228,11 @@ subroutine riisf_adjacency_from_mixed_64(n_nodes, n_cells, node_ids, offsets, in
   implicit none
   integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   integer(int64), intent(in) :: n_cells                   !< >= 0.
-  integer(int64), intent(in) :: node_ids(*)               !< (nodes_per_cell, n_cells): the nodes of cell after cell.
-  integer(int64), intent(in) :: offsets(*)                !< (n_cells + 1), ascending from 0 or from index_base: the position
-                                                          !! in node_ids at which each cell begins, and the end of the last
+  integer(int64), intent(in) :: node_ids(*)               !< (nodes_per_cell, n_cells): the nodes of all cells, cell after
                                                           !! cell.
+  integer(int64), intent(in) :: offsets(*)                !< (n_cells + 1): the position in node_ids at which each cell begins,
+                                                          !! then the end of the last cell; ascending from 0 or from
+                                                          !! index_base.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int64), intent(inout) :: adjacency              !< Written on success.
@@ -1296,20 +1321,20 @@ subroutine riisf_adjacency_from_faces_64(n_cells, n_faces, face_cells, index_bas
   adjacency = handle_of(c_handle)
 end subroutine riisf_adjacency_from_faces_64
 
-!> Makes the adjacency of a structured grid. Two nodes are neighbours if they differ by 1 in exactly one of i, j, k. Errors:
-!! RIIS_LIMIT_EXCEEDED for more nodes than memory can hold.
+!> Makes the adjacency of a structured grid. Two nodes (i, j, k) are neighbours if exactly one of the three numbers differs, by
+!! 1. Errors: RIIS_LIMIT_EXCEEDED for more nodes than memory can hold.
 subroutine riisf_adjacency_from_grid(ni, nj, nk, n_threads, adjacency, status)
   use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr
   use, intrinsic :: iso_fortran_env, only: int32, int64
   use riis_support, only: handle_of
   use riis_c, only: RIIS_OK, riis_adjacency_create_from_grid, riis_status
   implicit none
-  integer(int32), intent(in) :: ni                        !< Each >= 1; node (i, j, k) has the number i + ni (j + nj k), all
-                                                          !! from 0.
-  integer(int32), intent(in) :: nj                        !< Each >= 1; node (i, j, k) has the number i + ni (j + nj k), all
-                                                          !! from 0.
-  integer(int32), intent(in) :: nk                        !< Each >= 1; node (i, j, k) has the number i + ni (j + nj k), all
-                                                          !! from 0.
+  integer(int32), intent(in) :: ni                        !< The numbers of nodes along the three axes, each >= 1. The number
+                                                          !! of node (i, j, k) is i + ni (j + nj k), all from 0.
+  integer(int32), intent(in) :: nj                        !< The numbers of nodes along the three axes, each >= 1. The number
+                                                          !! of node (i, j, k) is i + ni (j + nj k), all from 0.
+  integer(int32), intent(in) :: nk                        !< The numbers of nodes along the three axes, each >= 1. The number
+                                                          !! of node (i, j, k) is i + ni (j + nj k), all from 0.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int64), intent(inout) :: adjacency              !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -1341,12 +1366,12 @@ end subroutine riisf_adjacency_destroy
 ! -----------------------------------------------------------------------------------------------------------------
 
 !> Makes a surface from arrays, and keeps the winding of the caller's faces. The id of a triangle is the number of its face. The
-!! halves of quad q have the ids 2 q and 2 q + 1. The id of a skipped triangle is not used again. A triangle has zero area if its
-!! longest edge is shorter than 1e-60, or if its height over its longest edge is at most 1e-12 of this edge. A skirt leads
+!! halves of quad q have the ids 2 q and 2 q + 1. No other triangle gets the id of a skipped triangle. A triangle has zero area
+!! if its longest edge is shorter than 1e-60, or if its height over its longest edge is at most 1e-12 of this edge. A skirt leads
 !! outwards from the axis of the attachment. This axis passes through the centroid of the attachment, in the direction of the
 !! vector area that the attachment encloses (docs/theory/skirt.md). The skirt's vertices and triangles come after the caller's
 !! vertices and triangles. An open edge belongs to only one triangle. Without `attached`, the attachment is the closed line of
-!! open edges that encloses the largest area. The call refuses the skirt if this area is less than 0.8 of the area inside the
+!! open edges that encloses the largest area. The call refuses the skirt if this area is less than 0.8 times the area inside the
 !! leaflets' outline (RIIS_OUTLINE_BOUNDARY). Errors: RIIS_LIMIT_EXCEEDED for too many triangles. RIIS_INVALID_SURFACE for a bad
 !! face or vertex, and if no attachment is found. The message names the face or vertex and its value, or says why there is no
 !! attachment. RIIS_INVALID_ARGUMENT if a length of the skirt is out of range.
@@ -1366,21 +1391,22 @@ subroutine riisf_surface_from_arrays(n_vertices, x, y, z, stride, corners_per_fa
   integer(int32), intent(in) :: corners_per_face          !< 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3.
                                                           !! Usually 3.
   integer(int32), intent(in) :: n_faces                   !< 1 to 16,777,216 triangles, half as many quads.
-  integer(int32), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces); the normal follows the right-hand
-                                                          !! rule.
+  integer(int32), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces): the vertices of each face. The normal
+                                                          !! follows the right-hand rule.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
                                                           !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
-  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
-                                                          !! its smooth surface differ by at most tolerance * half_thickness
-                                                          !! (docs/theory.md).
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The distance to a valve's triangles
+                                                          !! differs from the distance to its smooth surface by at most
+                                                          !! tolerance * half_thickness (docs/theory.md).
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
-  real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_axis(3)          !< A vector with a length of at least 1e-50 and components up to
+                                                          !! 1e50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse so
-                                                          !! large a shift of a valve that coordinates would be rounded by more
-                                                          !! than a thousandth of tolerance * half_thickness.
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse a
+                                                          !! shift of a valve that would round coordinates by more than a
+                                                          !! thousandth of tolerance * half_thickness.
   integer(int64), intent(inout) :: surface                !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_arrays) :: arrays
@@ -1428,21 +1454,22 @@ subroutine riisf_surface_from_arrays_64(n_vertices, x, y, z, stride, corners_per
   integer(int32), intent(in) :: corners_per_face          !< 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3.
                                                           !! Usually 3.
   integer(int64), intent(in) :: n_faces                   !< 1 to 16,777,216 triangles, half as many quads.
-  integer(int64), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces); the normal follows the right-hand
-                                                          !! rule.
+  integer(int64), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces): the vertices of each face. The normal
+                                                          !! follows the right-hand rule.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
                                                           !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
-  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
-                                                          !! its smooth surface differ by at most tolerance * half_thickness
-                                                          !! (docs/theory.md).
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The distance to a valve's triangles
+                                                          !! differs from the distance to its smooth surface by at most
+                                                          !! tolerance * half_thickness (docs/theory.md).
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
-  real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_axis(3)          !< A vector with a length of at least 1e-50 and components up to
+                                                          !! 1e50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse so
-                                                          !! large a shift of a valve that coordinates would be rounded by more
-                                                          !! than a thousandth of tolerance * half_thickness.
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse a
+                                                          !! shift of a valve that would round coordinates by more than a
+                                                          !! thousandth of tolerance * half_thickness.
   integer(int64), intent(inout) :: surface                !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_arrays) :: arrays
@@ -1493,27 +1520,27 @@ subroutine riisf_surface_with_skirt(n_vertices, x, y, z, stride, corners_per_fac
   integer(int32), intent(in) :: corners_per_face          !< 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3.
                                                           !! Usually 3.
   integer(int32), intent(in) :: n_faces                   !< 1 to 16,777,216 triangles, half as many quads.
-  integer(int32), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces); the normal follows the right-hand
-                                                          !! rule.
+  integer(int32), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces): the vertices of each face. The normal
+                                                          !! follows the right-hand rule.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(int8), intent(in) :: attached(*)                !< INTEGER*1, (n_vertices): 1 for the vertices of the attachment, 0
                                                           !! for others. attached(1) = -1: the attachment is chosen.
   real(c_double), intent(in) :: skirt_length              !< The length of a skirt before placement. A skirt is a strip that
                                                           !! leads outwards from the attachment. The length is 1e-4 to 10 times
-                                                          !! the mean distance of the attachment from the attachment's axis. 0:
-                                                          !! no skirt.
+                                                          !! the attachment's mean distance from its axis. 0: no skirt.
   real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
                                                           !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
-  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
-                                                          !! its smooth surface differ by at most tolerance * half_thickness
-                                                          !! (docs/theory.md).
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The distance to a valve's triangles
+                                                          !! differs from the distance to its smooth surface by at most
+                                                          !! tolerance * half_thickness (docs/theory.md).
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
-  real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_axis(3)          !< A vector with a length of at least 1e-50 and components up to
+                                                          !! 1e50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse so
-                                                          !! large a shift of a valve that coordinates would be rounded by more
-                                                          !! than a thousandth of tolerance * half_thickness.
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse a
+                                                          !! shift of a valve that would round coordinates by more than a
+                                                          !! thousandth of tolerance * half_thickness.
   integer(int64), intent(inout) :: surface                !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_arrays) :: arrays
@@ -1564,27 +1591,27 @@ subroutine riisf_surface_with_skirt_64(n_vertices, x, y, z, stride, corners_per_
   integer(int32), intent(in) :: corners_per_face          !< 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3.
                                                           !! Usually 3.
   integer(int64), intent(in) :: n_faces                   !< 1 to 16,777,216 triangles, half as many quads.
-  integer(int64), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces); the normal follows the right-hand
-                                                          !! rule.
+  integer(int64), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces): the vertices of each face. The normal
+                                                          !! follows the right-hand rule.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(int8), intent(in) :: attached(*)                !< INTEGER*1, (n_vertices): 1 for the vertices of the attachment, 0
                                                           !! for others. attached(1) = -1: the attachment is chosen.
   real(c_double), intent(in) :: skirt_length              !< The length of a skirt before placement. A skirt is a strip that
                                                           !! leads outwards from the attachment. The length is 1e-4 to 10 times
-                                                          !! the mean distance of the attachment from the attachment's axis. 0:
-                                                          !! no skirt.
+                                                          !! the attachment's mean distance from its axis. 0: no skirt.
   real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
                                                           !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
-  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
-                                                          !! its smooth surface differ by at most tolerance * half_thickness
-                                                          !! (docs/theory.md).
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The distance to a valve's triangles
+                                                          !! differs from the distance to its smooth surface by at most
+                                                          !! tolerance * half_thickness (docs/theory.md).
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
-  real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_axis(3)          !< A vector with a length of at least 1e-50 and components up to
+                                                          !! 1e50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse so
-                                                          !! large a shift of a valve that coordinates would be rounded by more
-                                                          !! than a thousandth of tolerance * half_thickness.
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse a
+                                                          !! shift of a valve that would round coordinates by more than a
+                                                          !! thousandth of tolerance * half_thickness.
   integer(int64), intent(inout) :: surface                !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_arrays) :: arrays
@@ -1636,25 +1663,27 @@ subroutine riisf_surface_offset_arrays(n_vertices, x, y, z, stride, corners_per_
   integer(int32), intent(in) :: corners_per_face          !< 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3.
                                                           !! Usually 3.
   integer(int32), intent(in) :: n_faces                   !< 1 to 16,777,216 triangles, half as many quads.
-  integer(int32), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces); the normal follows the right-hand
-                                                          !! rule.
+  integer(int32), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces): the vertices of each face. The normal
+                                                          !! follows the right-hand rule.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
                                                           !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
-  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
-                                                          !! its smooth surface differ by at most tolerance * half_thickness
-                                                          !! (docs/theory.md).
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The distance to a valve's triangles
+                                                          !! differs from the distance to its smooth surface by at most
+                                                          !! tolerance * half_thickness (docs/theory.md).
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
-  real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_axis(3)          !< A vector with a length of at least 1e-50 and components up to
+                                                          !! 1e50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse so
-                                                          !! large a shift of a valve that coordinates would be rounded by more
-                                                          !! than a thousandth of tolerance * half_thickness.
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse a
+                                                          !! shift of a valve that would round coordinates by more than a
+                                                          !! thousandth of tolerance * half_thickness.
   real(c_double), intent(in) :: offset                    !< The offset o, in half thicknesses, above -1 and below 1, usually
                                                           !! 0. The middle of the band is the surface moved by o half
                                                           !! thicknesses along its normals (after flip_normals).
-                                                          !! RIIS_MEASURE_SAMPLING and RIIS_MEASURE_MINIMIZATION need 0.
+                                                          !! RIIS_MEASURE_SAMPLING and RIIS_MEASURE_MINIMIZATION need the
+                                                          !! offset 0.
   integer(int64), intent(inout) :: surface                !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_arrays) :: arrays
@@ -1703,25 +1732,27 @@ subroutine riisf_surface_offset_arrays_64(n_vertices, x, y, z, stride, corners_p
   integer(int32), intent(in) :: corners_per_face          !< 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3.
                                                           !! Usually 3.
   integer(int64), intent(in) :: n_faces                   !< 1 to 16,777,216 triangles, half as many quads.
-  integer(int64), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces); the normal follows the right-hand
-                                                          !! rule.
+  integer(int64), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces): the vertices of each face. The normal
+                                                          !! follows the right-hand rule.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
                                                           !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
-  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
-                                                          !! its smooth surface differ by at most tolerance * half_thickness
-                                                          !! (docs/theory.md).
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The distance to a valve's triangles
+                                                          !! differs from the distance to its smooth surface by at most
+                                                          !! tolerance * half_thickness (docs/theory.md).
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
-  real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_axis(3)          !< A vector with a length of at least 1e-50 and components up to
+                                                          !! 1e50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse so
-                                                          !! large a shift of a valve that coordinates would be rounded by more
-                                                          !! than a thousandth of tolerance * half_thickness.
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse a
+                                                          !! shift of a valve that would round coordinates by more than a
+                                                          !! thousandth of tolerance * half_thickness.
   real(c_double), intent(in) :: offset                    !< The offset o, in half thicknesses, above -1 and below 1, usually
                                                           !! 0. The middle of the band is the surface moved by o half
                                                           !! thicknesses along its normals (after flip_normals).
-                                                          !! RIIS_MEASURE_SAMPLING and RIIS_MEASURE_MINIMIZATION need 0.
+                                                          !! RIIS_MEASURE_SAMPLING and RIIS_MEASURE_MINIMIZATION need the
+                                                          !! offset 0.
   integer(int64), intent(inout) :: surface                !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_arrays) :: arrays
@@ -1754,8 +1785,8 @@ subroutine riisf_surface_offset_arrays_64(n_vertices, x, y, z, stride, corners_p
 end subroutine riisf_surface_offset_arrays_64
 
 !> Replaces the surface by triangles or quads that moved, with the same options and with the velocities of the vertices. Errors:
-!! as riisf_surface_from_arrays. With n_faces 0, also RIIS_INVALID_ARGUMENT if n_vertices differs from that of the last arrays,
-!! or if the surface was not made from arrays.
+!! as riisf_surface_from_arrays. With n_faces 0, also RIIS_INVALID_ARGUMENT if n_vertices has changed since the last arrays, or
+!! if the surface was not made from arrays.
 subroutine riisf_surface_update_arrays(surface, n_vertices, x, y, z, stride, vx, vy, vz, velocity_stride, &
     corners_per_face, n_faces, vertex_ids, index_base, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -1782,8 +1813,8 @@ subroutine riisf_surface_update_arrays(surface, n_vertices, x, y, z, stride, vx,
   integer(int32), intent(in) :: corners_per_face          !< 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3.
                                                           !! Usually 3.
   integer(int32), intent(in) :: n_faces                   !< 1 to 16,777,216 triangles, half as many quads.
-  integer(int32), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces); the normal follows the right-hand
-                                                          !! rule.
+  integer(int32), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces): the vertices of each face. The normal
+                                                          !! follows the right-hand rule.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_arrays) :: arrays
@@ -1833,8 +1864,8 @@ subroutine riisf_surface_update_arrays_64(surface, n_vertices, x, y, z, stride, 
   integer(int32), intent(in) :: corners_per_face          !< 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3.
                                                           !! Usually 3.
   integer(int64), intent(in) :: n_faces                   !< 1 to 16,777,216 triangles, half as many quads.
-  integer(int64), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces); the normal follows the right-hand
-                                                          !! rule.
+  integer(int64), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces): the vertices of each face. The normal
+                                                          !! follows the right-hand rule.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_arrays) :: arrays
@@ -1857,8 +1888,8 @@ subroutine riisf_surface_update_arrays_64(surface, n_vertices, x, y, z, stride, 
   status = riis_surface_update_from_arrays(c_handle_of(surface), arrays)
 end subroutine riisf_surface_update_arrays_64
 
-!> Makes keyframes from copies of arrays and frames. Errors: RIIS_INVALID_SURFACE for a bad frame, vertex or face; the message
-!! names it. RIIS_LIMIT_EXCEEDED for too many frames, vertices or faces.
+!> Makes keyframes from arrays and frames, which are copied. Errors: RIIS_INVALID_SURFACE for a bad frame, vertex or face; the
+!! message names it. RIIS_LIMIT_EXCEEDED for too many frames, vertices or faces.
 subroutine riisf_keyframes_create(n_vertices, n_keys, time, xyz, period, interpolation, corners_per_face, n_faces, &
     vertex_ids, index_base, keyframes, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_null_ptr, c_ptr, c_sizeof
@@ -1872,18 +1903,18 @@ subroutine riisf_keyframes_create(n_vertices, n_keys, time, xyz, period, interpo
   real(c_double), intent(in) :: time(*)                   !< (n_keys), strictly ascending, magnitude at most 1e30.
   real(c_double), intent(in) :: xyz(*)                    !< (3, n_vertices, n_keys): the vertices, frame after frame;
                                                           !! magnitude at most 1e60.
-  real(c_double), intent(in) :: period                    !< If above 0, the motion repeats with this period. All keys lie
-                                                          !! within one period of the first key. If the last key is exactly one
-                                                          !! period after the first key, the two keys must have the same frame.
-                                                          !! With 0, the default, the surface rests before the first key and
-                                                          !! after the last key.
+  real(c_double), intent(in) :: period                    !< If above 0, the motion repeats with this period. All keys must lie
+                                                          !! within one period after the first key. If the last key is exactly
+                                                          !! one period after the first key, the two keys must have the same
+                                                          !! frame. With 0, the default, the surface rests before the first key
+                                                          !! and after the last key.
   integer(int32), intent(in) :: interpolation             !< RIIS_INTERPOLATION_*, of each coordinate. Usually
                                                           !! RIIS_INTERPOLATION_LINEAR.
   integer(int32), intent(in) :: corners_per_face          !< 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3.
                                                           !! Usually 3.
   integer(int32), intent(in) :: n_faces                   !< 1 to 16,777,216 triangles, half as many quads.
-  integer(int32), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces); the normal follows the right-hand
-                                                          !! rule.
+  integer(int32), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces): the vertices of each face. The normal
+                                                          !! follows the right-hand rule.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(int64), intent(inout) :: keyframes              !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -1925,18 +1956,18 @@ subroutine riisf_keyframes_create_64(n_vertices, n_keys, time, xyz, period, inte
   real(c_double), intent(in) :: time(*)                   !< (n_keys), strictly ascending, magnitude at most 1e30.
   real(c_double), intent(in) :: xyz(*)                    !< (3, n_vertices, n_keys): the vertices, frame after frame;
                                                           !! magnitude at most 1e60.
-  real(c_double), intent(in) :: period                    !< If above 0, the motion repeats with this period. All keys lie
-                                                          !! within one period of the first key. If the last key is exactly one
-                                                          !! period after the first key, the two keys must have the same frame.
-                                                          !! With 0, the default, the surface rests before the first key and
-                                                          !! after the last key.
+  real(c_double), intent(in) :: period                    !< If above 0, the motion repeats with this period. All keys must lie
+                                                          !! within one period after the first key. If the last key is exactly
+                                                          !! one period after the first key, the two keys must have the same
+                                                          !! frame. With 0, the default, the surface rests before the first key
+                                                          !! and after the last key.
   integer(int32), intent(in) :: interpolation             !< RIIS_INTERPOLATION_*, of each coordinate. Usually
                                                           !! RIIS_INTERPOLATION_LINEAR.
   integer(int32), intent(in) :: corners_per_face          !< 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3.
                                                           !! Usually 3.
   integer(int64), intent(in) :: n_faces                   !< 1 to 16,777,216 triangles, half as many quads.
-  integer(int64), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces); the normal follows the right-hand
-                                                          !! rule.
+  integer(int64), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces): the vertices of each face. The normal
+                                                          !! follows the right-hand rule.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(int64), intent(inout) :: keyframes              !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -1964,7 +1995,7 @@ subroutine riisf_keyframes_create_64(n_vertices, n_keys, time, xyz, period, inte
   keyframes = handle_of(c_handle)
 end subroutine riisf_keyframes_create_64
 
-!> Makes a surface from the frames around a time, with velocities. Errors: as riisf_surface_from_arrays.
+!> Makes the surface that keyframes have at a given time, with velocities. Errors: as riisf_surface_from_arrays.
 subroutine riisf_surface_from_keyframes(keyframes, time, dt, half_thickness, tolerance, scale, rotation_axis, &
     rotation_angle, translation, surface, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_null_ptr, c_ptr, c_sizeof
@@ -1975,20 +2006,22 @@ subroutine riisf_surface_from_keyframes(keyframes, time, dt, half_thickness, tol
   implicit none
   integer(int64), intent(in) :: keyframes                 !< From riisf_keyframes_create, for example.
   real(c_double), intent(in) :: time                      !< The time, finite and at most 1e30 in magnitude.
-  real(c_double), intent(in) :: dt                        !< The velocity is the mean from time - dt to time. With dt 0, the
-                                                          !! velocity is the time derivative of the interpolation.
+  real(c_double), intent(in) :: dt                        !< The length of the time interval that ends at `time`, over which
+                                                          !! the velocity is the mean. With dt 0, the velocity is the time
+                                                          !! derivative of the interpolation.
   real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
                                                           !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
-  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
-                                                          !! its smooth surface differ by at most tolerance * half_thickness
-                                                          !! (docs/theory.md).
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The distance to a valve's triangles
+                                                          !! differs from the distance to its smooth surface by at most
+                                                          !! tolerance * half_thickness (docs/theory.md).
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
-  real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_axis(3)          !< A vector with a length of at least 1e-50 and components up to
+                                                          !! 1e50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse so
-                                                          !! large a shift of a valve that coordinates would be rounded by more
-                                                          !! than a thousandth of tolerance * half_thickness.
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse a
+                                                          !! shift of a valve that would round coordinates by more than a
+                                                          !! thousandth of tolerance * half_thickness.
   integer(int64), intent(inout) :: surface                !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_options) :: options
@@ -2019,24 +2052,27 @@ subroutine riisf_surface_offset_keyframes(keyframes, time, dt, half_thickness, t
   implicit none
   integer(int64), intent(in) :: keyframes                 !< From riisf_keyframes_create, for example.
   real(c_double), intent(in) :: time                      !< The time, finite and at most 1e30 in magnitude.
-  real(c_double), intent(in) :: dt                        !< The velocity is the mean from time - dt to time. With dt 0, the
-                                                          !! velocity is the time derivative of the interpolation.
+  real(c_double), intent(in) :: dt                        !< The length of the time interval that ends at `time`, over which
+                                                          !! the velocity is the mean. With dt 0, the velocity is the time
+                                                          !! derivative of the interpolation.
   real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
                                                           !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
-  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
-                                                          !! its smooth surface differ by at most tolerance * half_thickness
-                                                          !! (docs/theory.md).
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The distance to a valve's triangles
+                                                          !! differs from the distance to its smooth surface by at most
+                                                          !! tolerance * half_thickness (docs/theory.md).
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
-  real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_axis(3)          !< A vector with a length of at least 1e-50 and components up to
+                                                          !! 1e50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse so
-                                                          !! large a shift of a valve that coordinates would be rounded by more
-                                                          !! than a thousandth of tolerance * half_thickness.
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse a
+                                                          !! shift of a valve that would round coordinates by more than a
+                                                          !! thousandth of tolerance * half_thickness.
   real(c_double), intent(in) :: offset                    !< The offset o, in half thicknesses, above -1 and below 1, usually
                                                           !! 0. The middle of the band is the surface moved by o half
                                                           !! thicknesses along its normals (after flip_normals).
-                                                          !! RIIS_MEASURE_SAMPLING and RIIS_MEASURE_MINIMIZATION need 0.
+                                                          !! RIIS_MEASURE_SAMPLING and RIIS_MEASURE_MINIMIZATION need the
+                                                          !! offset 0.
   integer(int64), intent(inout) :: surface                !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_options) :: options
@@ -2056,7 +2092,7 @@ subroutine riisf_surface_offset_keyframes(keyframes, time, dt, half_thickness, t
   surface = handle_of(c_handle)
 end subroutine riisf_surface_offset_keyframes
 
-!> Updates the surface from the frames around a time.
+!> Replaces the content of a surface by the surface that keyframes have at a given time.
 subroutine riisf_surface_update_keyframes(surface, keyframes, time, dt, status)
   use, intrinsic :: iso_c_binding, only: c_double
   use, intrinsic :: iso_fortran_env, only: int64
@@ -2066,8 +2102,9 @@ subroutine riisf_surface_update_keyframes(surface, keyframes, time, dt, status)
   integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
   integer(int64), intent(in) :: keyframes                 !< From riisf_keyframes_create, for example.
   real(c_double), intent(in) :: time                      !< The time, finite and at most 1e30 in magnitude.
-  real(c_double), intent(in) :: dt                        !< The velocity is the mean from time - dt to time. With dt 0, the
-                                                          !! velocity is the time derivative of the interpolation.
+  real(c_double), intent(in) :: dt                        !< The length of the time interval that ends at `time`, over which
+                                                          !! the velocity is the mean. With dt 0, the velocity is the time
+                                                          !! derivative of the interpolation.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   status = riis_surface_update_from_keyframes(c_handle_of(surface), c_handle_of(keyframes), time, dt)
 end subroutine riisf_surface_update_keyframes
@@ -2158,11 +2195,12 @@ subroutine riisf_surface_triangles(surface, length, n, vertex_num, triangle_id, 
   integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
                                                           !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
   integer(int32), intent(inout) :: n                      !< The number of triangles, even if an array is too short.
-  integer(int32), intent(inout) :: vertex_num(3, *)       !< (3, length): their vertices, from 1; written up to n.
-  integer(int64), intent(inout) :: triangle_id(*)         !< (length), ascending: the id that queries report; 0, 1, 2, ... for
-                                                          !! a valve; written up to n.
-  integer(int32), intent(inout) :: leaflet_id(*)          !< (length): RIIS_LEAFLET_*, or the caller's from patches and arrays;
-                                                          !! written up to n.
+  integer(int32), intent(inout) :: vertex_num(3, *)       !< (3, length): the vertices of each triangle, from 1; written up to
+                                                          !! n.
+  integer(int64), intent(inout) :: triangle_id(*)         !< (length), ascending: the ids of the triangles in results of
+                                                          !! queries; 0, 1, 2, ... for a valve; written up to n.
+  integer(int32), intent(inout) :: leaflet_id(*)          !< (length): RIIS_LEAFLET_*, or the caller's leaflet_id if the
+                                                          !! surface comes from patches or arrays; written up to n.
   integer(int32), intent(inout) :: patch_id(*)            !< From 0; written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_triangles) :: triangles
@@ -2205,11 +2243,12 @@ subroutine riisf_surface_triangles_64(surface, length, n, vertex_num, triangle_i
   integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
                                                           !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
   integer(int64), intent(inout) :: n                      !< The number of triangles, even if an array is too short.
-  integer(int64), intent(inout) :: vertex_num(3, *)       !< (3, length): their vertices, from 1; written up to n.
-  integer(int64), intent(inout) :: triangle_id(*)         !< (length), ascending: the id that queries report; 0, 1, 2, ... for
-                                                          !! a valve; written up to n.
-  integer(int32), intent(inout) :: leaflet_id(*)          !< (length): RIIS_LEAFLET_*, or the caller's from patches and arrays;
-                                                          !! written up to n.
+  integer(int64), intent(inout) :: vertex_num(3, *)       !< (3, length): the vertices of each triangle, from 1; written up to
+                                                          !! n.
+  integer(int64), intent(inout) :: triangle_id(*)         !< (length), ascending: the ids of the triangles in results of
+                                                          !! queries; 0, 1, 2, ... for a valve; written up to n.
+  integer(int32), intent(inout) :: leaflet_id(*)          !< (length): RIIS_LEAFLET_*, or the caller's leaflet_id if the
+                                                          !! surface comes from patches or arrays; written up to n.
   integer(int32), intent(inout) :: patch_id(*)            !< From 0; written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_triangles) :: triangles
@@ -2312,8 +2351,8 @@ subroutine riisf_surface_attachment(surface, length, n, edges, leaflet_id, statu
   integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
                                                           !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
   integer(int32), intent(inout) :: n                      !< The number of edges, even if an array is too short.
-  real(c_double), intent(inout) :: edges(3, 2, *)         !< (3, 2, length): both ends of each edge, in the layout of
-                                                          !! riis_reaction.edges; written up to n.
+  real(c_double), intent(inout) :: edges(3, 2, *)         !< (3, 2, length): the coordinates of both ends of each edge, in the
+                                                          !! layout of riis_reaction.edges; written up to n.
   integer(int32), intent(inout) :: leaflet_id(*)          !< (length): the leaflet that is attached there; written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_attachment) :: attachment
@@ -2344,8 +2383,8 @@ subroutine riisf_surface_attachment_64(surface, length, n, edges, leaflet_id, st
   integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
                                                           !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
   integer(int64), intent(inout) :: n                      !< The number of edges, even if an array is too short.
-  real(c_double), intent(inout) :: edges(3, 2, *)         !< (3, 2, length): both ends of each edge, in the layout of
-                                                          !! riis_reaction.edges; written up to n.
+  real(c_double), intent(inout) :: edges(3, 2, *)         !< (3, 2, length): the coordinates of both ends of each edge, in the
+                                                          !! layout of riis_reaction.edges; written up to n.
   integer(int32), intent(inout) :: leaflet_id(*)          !< (length): the leaflet that is attached there; written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_attachment) :: attachment
@@ -2365,8 +2404,7 @@ subroutine riisf_surface_attachment_64(surface, length, n, edges, leaflet_id, st
   leaflet_id(:n) = c_leaflet_id
 end subroutine riisf_surface_attachment_64
 
-!> Copies the rates of the surface's vertices in a direction. Errors: RIIS_INVALID_ARGUMENT for a direction that the surface
-!! lacks.
+!> Copies the rates of the surface's vertices in a direction. Errors: RIIS_INVALID_ARGUMENT if the surface lacks the direction.
 subroutine riisf_surface_direction(surface, direction_num, length, n, rate, area_rate, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -2379,8 +2417,8 @@ subroutine riisf_surface_direction(surface, direction_num, length, n, rate, area
                                                           !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
   integer(int32), intent(inout) :: n                      !< The number of vertices, even if an array is too short.
   real(c_double), intent(inout) :: rate(*)                !< (3, length): the derivative of each vertex; written up to n.
-  real(c_double), intent(inout) :: area_rate              !< The derivative of riis_surface_info.area. Each call computes it
-                                                          !! again from all triangles.
+  real(c_double), intent(inout) :: area_rate              !< The derivative of riis_surface_info.area. Each call of
+                                                          !! riisf_surface_direction computes it again from all triangles.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_direction) :: direction
   real(c_double), pointer :: c_rate(:)
@@ -2412,8 +2450,8 @@ subroutine riisf_surface_direction_64(surface, direction_num, length, n, rate, a
                                                           !! RIIS_INVALID_ARGUMENT if n is larger; only n is then written.
   integer(int64), intent(inout) :: n                      !< The number of vertices, even if an array is too short.
   real(c_double), intent(inout) :: rate(*)                !< (3, length): the derivative of each vertex; written up to n.
-  real(c_double), intent(inout) :: area_rate              !< The derivative of riis_surface_info.area. Each call computes it
-                                                          !! again from all triangles.
+  real(c_double), intent(inout) :: area_rate              !< The derivative of riis_surface_info.area. Each call of
+                                                          !! riisf_surface_direction computes it again from all triangles.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_direction) :: direction
   real(c_double), pointer :: c_rate(:)
@@ -2432,8 +2470,8 @@ subroutine riisf_surface_direction_64(surface, direction_num, length, n, rate, a
   area_rate = direction%area_rate
 end subroutine riisf_surface_direction_64
 
-!> Finds the closest points of many points, in parallel. Errors: RIIS_INVALID_ARGUMENT for a bad point; the message names the
-!! first bad point, and nothing is written.
+!> Finds the closest point of the surface for each of many points, in parallel. Errors: RIIS_INVALID_ARGUMENT for a bad point;
+!! the message names the first bad point, and nothing is written.
 subroutine riisf_closest_points(surface, n_points, x, y, z, stride, distance_limit, n_threads, distance, point, &
     normal, triangle_id, leaflet_id, side, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -2657,9 +2695,9 @@ end subroutine riisf_closest_points_listed_64
 ! -----------------------------------------------------------------------------------------------------------------
 
 !> Finds the marked nodes, which lie in the band around the surface (riisf_surface_create), and the nodes within the distance
-!! limit. Without an offset, the band holds the nodes within the half thickness of the surface. Distances in double precision
-!! decide which nodes are found. Errors: RIIS_INVALID_MESH if a coordinate has become non-finite since the mesh was created or
-!! updated.
+!! limit. Without an offset, the band holds the nodes whose distance from the surface is at most the half thickness. Distances in
+!! double precision decide which nodes are found. Errors: RIIS_INVALID_MESH if a coordinate has become non-finite since the mesh
+!! was created or updated.
 subroutine riisf_mark_nodes(surface, mesh, distance_limit, search, n_threads, marks, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -2844,10 +2882,10 @@ subroutine riisf_dense_distance(marks, n_nodes, far_distance, distance, status)
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes, for example.
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
-  real(c_double), intent(in) :: far_distance              !< The number that stands for the distance of nodes that are masked
-                                                          !! out or beyond the limit. It may be NaN, or any value outside [0,
+  real(c_double), intent(in) :: far_distance              !< The number that `distance` gets for nodes that are masked out or
+                                                          !! beyond the limit. This number may be NaN, or any value outside [0,
                                                           !! distance limit]. Usually RIIS_FAR_DISTANCE.
-  real(c_double), intent(inout) :: distance(*)            !< (n_nodes): the distance of nodes within the distance limit,
+  real(c_double), intent(inout) :: distance(*)            !< (n_nodes): the distance for nodes within the distance limit,
                                                           !! far_distance for others.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_dense_arrays) :: arrays
@@ -2868,7 +2906,7 @@ subroutine riisf_dense_triangle(marks, n_nodes, triangle_id, status)
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes, for example.
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
-  integer(int64), intent(inout) :: triangle_id(*)         !< (n_nodes): the closest triangle of nodes within the distance
+  integer(int64), intent(inout) :: triangle_id(*)         !< (n_nodes): the closest triangle for nodes within the distance
                                                           !! limit, -1 for others.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_dense_arrays) :: arrays
@@ -3660,7 +3698,7 @@ subroutine riisf_within_limit_resistance_64(marks, length, n, K, K_u_surface, st
 end subroutine riisf_within_limit_resistance_64
 
 !> Adds the resistance K = (R / eps) delta(d), so that several valves add up. At a distance d below eps, delta(d) is (1 + cos(pi
-!! d / eps)) / (2 eps). Errors: RIIS_INVALID_ARGUMENT if the marks are empty, and if they lack a field.
+!! d / eps)) / (2 eps). Errors: RIIS_INVALID_ARGUMENT if the marks are empty, and if they lack a field that is needed.
 subroutine riisf_add_resistance(marks, R, half_thickness, rim, n_nodes, K, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -3723,7 +3761,7 @@ subroutine riisf_add_resistance_64(marks, R, half_thickness, rim, n_nodes, K, st
 end subroutine riisf_add_resistance_64
 
 !> Adds K like riisf_add_resistance, but for a surface that moves, and also adds K u_surface. A scheme uses (sum of K) u - (sum
-!! of K u_surface). Errors: RIIS_INVALID_ARGUMENT if the marks are empty, and if they lack a field.
+!! of K u_surface). Errors: RIIS_INVALID_ARGUMENT if the marks are empty, and if they lack a field that is needed.
 subroutine riisf_add_moving_resistance(marks, R, half_thickness, rim, n_nodes, K, K_u_surface, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -3796,7 +3834,7 @@ subroutine riisf_add_moving_resistance_64(marks, R, half_thickness, rim, n_nodes
 end subroutine riisf_add_moving_resistance_64
 
 !> Adds K like riisf_add_resistance, but for a surface that moves, and also adds K u_surface. A scheme uses (sum of K) u - (sum
-!! of K u_surface). Errors: RIIS_INVALID_ARGUMENT if the marks are empty, and if they lack a field.
+!! of K u_surface). Errors: RIIS_INVALID_ARGUMENT if the marks are empty, and if they lack a field that is needed.
 subroutine riisf_add_resistance_components(marks, R, half_thickness, rim, n_nodes, K, K_u_x, K_u_y, K_u_z, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -3874,8 +3912,8 @@ end subroutine riisf_add_resistance_components_64
 
 !> Adds the force of the flow on the surface: the sum of weight * K * (velocity - u_surface). Ranks sum their forces by a
 !! reduction. u_surface is 0 without RIIS_FIELD_VELOCITY. Errors: as riisf_add_resistance. RIIS_INVALID_ARGUMENT also if
-!! n_leaflets is too small (the message names the leaflet id), if a leaflet lacks an edge, and if an edge is not finite or too
-!! large.
+!! n_leaflets is too small (the message names the leaflet id), if a leaflet lacks an edge, and if an edge has a coordinate that
+!! is not finite or too large.
 subroutine riisf_add_reaction(marks, R, half_thickness, rim, n_nodes, velocity, weight, force, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -3892,7 +3930,8 @@ subroutine riisf_add_reaction(marks, R, half_thickness, rim, n_nodes, velocity, 
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
-  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes): the volume around each node, 0 for nodes of other
+                                                          !! ranks.
   real(c_double), intent(inout) :: force(3)               !< (3): force on the whole surface, in the unit of weight K velocity,
                                                           !! which is N in SI units.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -3933,7 +3972,8 @@ subroutine riisf_add_reaction_64(marks, R, half_thickness, rim, n_nodes, velocit
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
   integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
-  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes): the volume around each node, 0 for nodes of other
+                                                          !! ranks.
   real(c_double), intent(inout) :: force(3)               !< (3): force on the whole surface, in the unit of weight K velocity,
                                                           !! which is N in SI units.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -3959,8 +3999,8 @@ end subroutine riisf_add_reaction_64
 
 !> Adds the force of the flow on the surface: the sum of weight * K * (velocity - u_surface). Ranks sum their forces by a
 !! reduction. u_surface is 0 without RIIS_FIELD_VELOCITY. Errors: as riisf_add_resistance. RIIS_INVALID_ARGUMENT also if
-!! n_leaflets is too small (the message names the leaflet id), if a leaflet lacks an edge, and if an edge is not finite or too
-!! large.
+!! n_leaflets is too small (the message names the leaflet id), if a leaflet lacks an edge, and if an edge has a coordinate that
+!! is not finite or too large.
 subroutine riisf_add_reaction_components(marks, R, half_thickness, rim, n_nodes, vx, vy, vz, weight, force, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -3980,7 +4020,8 @@ subroutine riisf_add_reaction_components(marks, R, half_thickness, rim, n_nodes,
                                                           !! any.
   real(c_double), intent(in) :: vy(*)                     !< (n_nodes), the y component.
   real(c_double), intent(in) :: vz(*)                     !< (n_nodes), the z component.
-  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes): the volume around each node, 0 for nodes of other
+                                                          !! ranks.
   real(c_double), intent(inout) :: force(3)               !< (3): force on the whole surface, in the unit of weight K velocity,
                                                           !! which is N in SI units.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -4023,7 +4064,8 @@ subroutine riisf_add_reaction_components_64(marks, R, half_thickness, rim, n_nod
                                                           !! any.
   real(c_double), intent(in) :: vy(*)                     !< (n_nodes), the y component.
   real(c_double), intent(in) :: vz(*)                     !< (n_nodes), the z component.
-  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes): the volume around each node, 0 for nodes of other
+                                                          !! ranks.
   real(c_double), intent(inout) :: force(3)               !< (3): force on the whole surface, in the unit of weight K velocity,
                                                           !! which is N in SI units.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -4049,7 +4091,7 @@ end subroutine riisf_add_reaction_components_64
 !> Adds the force of the flow and its moment about a point, for the whole surface and for each leaflet. The force of a node acts
 !! at the closest point of the surface. Ranks pass the same point, and add their sums by a reduction. Errors: as
 !! riisf_add_resistance. RIIS_INVALID_ARGUMENT also if n_leaflets is too small (the message names the leaflet id), if a leaflet
-!! lacks an edge, and if an edge is not finite or too large.
+!! lacks an edge, and if an edge has a coordinate that is not finite or too large.
 subroutine riisf_add_leaflet_reaction(marks, R, half_thickness, rim, n_nodes, velocity, weight, about, n_leaflets, &
     force, moment, leaflet_force, leaflet_moment, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -4067,16 +4109,17 @@ subroutine riisf_add_leaflet_reaction(marks, R, half_thickness, rim, n_nodes, ve
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
-  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes): the volume around each node, 0 for nodes of other
+                                                          !! ranks.
   real(c_double), intent(in) :: about(3)                  !< The reference point of moment and leaflet_moment; each coordinate
                                                           !! at most 1e60 in magnitude. Usually 0.
   integer(int32), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
   real(c_double), intent(inout) :: force(3)               !< (3): force on the whole surface, in the unit of weight K velocity,
                                                           !! which is N in SI units.
   real(c_double), intent(inout) :: moment(3)              !< (3): moment on the whole surface.
-  real(c_double), intent(inout) :: leaflet_force(3, *)    !< (3, n_leaflets): force on each leaflet. A node counts for the
-                                                          !! leaflet riis_mark_list.leaflet_id, even if another leaflet is
-                                                          !! equally near.
+  real(c_double), intent(inout) :: leaflet_force(3, *)    !< (3, n_leaflets): force on each leaflet. The force from a node acts
+                                                          !! on the leaflet riis_mark_list.leaflet_id, even if another leaflet
+                                                          !! is equally near.
   real(c_double), intent(inout) :: leaflet_moment(3, *)   !< (3, n_leaflets): moment on each leaflet.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
@@ -4122,16 +4165,17 @@ subroutine riisf_add_leaflet_reaction_64(marks, R, half_thickness, rim, n_nodes,
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
   integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
-  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes): the volume around each node, 0 for nodes of other
+                                                          !! ranks.
   real(c_double), intent(in) :: about(3)                  !< The reference point of moment and leaflet_moment; each coordinate
                                                           !! at most 1e60 in magnitude. Usually 0.
   integer(int32), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
   real(c_double), intent(inout) :: force(3)               !< (3): force on the whole surface, in the unit of weight K velocity,
                                                           !! which is N in SI units.
   real(c_double), intent(inout) :: moment(3)              !< (3): moment on the whole surface.
-  real(c_double), intent(inout) :: leaflet_force(3, *)    !< (3, n_leaflets): force on each leaflet. A node counts for the
-                                                          !! leaflet riis_mark_list.leaflet_id, even if another leaflet is
-                                                          !! equally near.
+  real(c_double), intent(inout) :: leaflet_force(3, *)    !< (3, n_leaflets): force on each leaflet. The force from a node acts
+                                                          !! on the leaflet riis_mark_list.leaflet_id, even if another leaflet
+                                                          !! is equally near.
   real(c_double), intent(inout) :: leaflet_moment(3, *)   !< (3, n_leaflets): moment on each leaflet.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
@@ -4162,7 +4206,7 @@ end subroutine riisf_add_leaflet_reaction_64
 !> Adds the force of the flow and its moment about a point, for the whole surface and for each leaflet. The force of a node acts
 !! at the closest point of the surface. Ranks pass the same point, and add their sums by a reduction. Errors: as
 !! riisf_add_resistance. RIIS_INVALID_ARGUMENT also if n_leaflets is too small (the message names the leaflet id), if a leaflet
-!! lacks an edge, and if an edge is not finite or too large.
+!! lacks an edge, and if an edge has a coordinate that is not finite or too large.
 subroutine riisf_add_leaflet_reaction_components(marks, R, half_thickness, rim, n_nodes, vx, vy, vz, weight, about, &
     n_leaflets, force, moment, leaflet_force, leaflet_moment, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -4183,16 +4227,17 @@ subroutine riisf_add_leaflet_reaction_components(marks, R, half_thickness, rim, 
                                                           !! any.
   real(c_double), intent(in) :: vy(*)                     !< (n_nodes), the y component.
   real(c_double), intent(in) :: vz(*)                     !< (n_nodes), the z component.
-  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes): the volume around each node, 0 for nodes of other
+                                                          !! ranks.
   real(c_double), intent(in) :: about(3)                  !< The reference point of moment and leaflet_moment; each coordinate
                                                           !! at most 1e60 in magnitude. Usually 0.
   integer(int32), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
   real(c_double), intent(inout) :: force(3)               !< (3): force on the whole surface, in the unit of weight K velocity,
                                                           !! which is N in SI units.
   real(c_double), intent(inout) :: moment(3)              !< (3): moment on the whole surface.
-  real(c_double), intent(inout) :: leaflet_force(3, *)    !< (3, n_leaflets): force on each leaflet. A node counts for the
-                                                          !! leaflet riis_mark_list.leaflet_id, even if another leaflet is
-                                                          !! equally near.
+  real(c_double), intent(inout) :: leaflet_force(3, *)    !< (3, n_leaflets): force on each leaflet. The force from a node acts
+                                                          !! on the leaflet riis_mark_list.leaflet_id, even if another leaflet
+                                                          !! is equally near.
   real(c_double), intent(inout) :: leaflet_moment(3, *)   !< (3, n_leaflets): moment on each leaflet.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
@@ -4240,16 +4285,17 @@ subroutine riisf_add_leaflet_reaction_components_64(marks, R, half_thickness, ri
                                                           !! any.
   real(c_double), intent(in) :: vy(*)                     !< (n_nodes), the y component.
   real(c_double), intent(in) :: vz(*)                     !< (n_nodes), the z component.
-  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes): the volume around each node, 0 for nodes of other
+                                                          !! ranks.
   real(c_double), intent(in) :: about(3)                  !< The reference point of moment and leaflet_moment; each coordinate
                                                           !! at most 1e60 in magnitude. Usually 0.
   integer(int32), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
   real(c_double), intent(inout) :: force(3)               !< (3): force on the whole surface, in the unit of weight K velocity,
                                                           !! which is N in SI units.
   real(c_double), intent(inout) :: moment(3)              !< (3): moment on the whole surface.
-  real(c_double), intent(inout) :: leaflet_force(3, *)    !< (3, n_leaflets): force on each leaflet. A node counts for the
-                                                          !! leaflet riis_mark_list.leaflet_id, even if another leaflet is
-                                                          !! equally near.
+  real(c_double), intent(inout) :: leaflet_force(3, *)    !< (3, n_leaflets): force on each leaflet. The force from a node acts
+                                                          !! on the leaflet riis_mark_list.leaflet_id, even if another leaflet
+                                                          !! is equally near.
   real(c_double), intent(inout) :: leaflet_moment(3, *)   !< (3, n_leaflets): moment on each leaflet.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
@@ -4279,8 +4325,8 @@ end subroutine riisf_add_leaflet_reaction_components_64
 !> Adds the force of the flow, and its moment about the edge's middle, to edges. The force of a node goes to the edge nearest to
 !! its closest point. The sums of edges are loads for tissue codes. They do not model how a membrane carries loads to its edges.
 !! Ranks pass the same edges, and add their sums by a reduction. Errors: as riisf_add_resistance. RIIS_INVALID_ARGUMENT also if
-!! n_leaflets is too small (the message names the leaflet id), if a leaflet lacks an edge, and if an edge is not finite or too
-!! large.
+!! n_leaflets is too small (the message names the leaflet id), if a leaflet lacks an edge, and if an edge has a coordinate that
+!! is not finite or too large.
 subroutine riisf_add_edge_reaction(marks, R, half_thickness, rim, n_nodes, velocity, weight, n_edges, edges, &
     edge_leaflet_id, edge_force, edge_moment, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -4298,7 +4344,8 @@ subroutine riisf_add_edge_reaction(marks, R, half_thickness, rim, n_nodes, veloc
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
-  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes): the volume around each node, 0 for nodes of other
+                                                          !! ranks.
   integer(int32), intent(in) :: n_edges                   !< At least 1.
   real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge, for example
                                                           !! riis_attachment.edges; coordinates at most 1e60 in magnitude. An
@@ -4306,12 +4353,11 @@ subroutine riisf_add_edge_reaction(marks, R, half_thickness, rim, n_nodes, veloc
   integer(int32), intent(in) :: edge_leaflet_id(*)        !< (n_edges): a node's force goes to the nearest edge of its leaflet.
                                                           !! If the first entry is -1, the other entries are not read, and each
                                                           !! edge serves all leaflets.
-  real(c_double), intent(inout) :: edge_force(3, *)       !< (3, n_edges): the sum of the forces of all nodes that count for
-                                                          !! the edge. The nearest edge is the one nearest to the node's
-                                                          !! closest point on the surface. Of equally near edges, the first one
-                                                          !! counts.
-  real(c_double), intent(inout) :: edge_moment(3, *)      !< (3, n_edges): the moment of these forces about the middle of the
-                                                          !! edge.
+  real(c_double), intent(inout) :: edge_force(3, *)       !< (3, n_edges): for each edge, the sum of the forces that act at the
+                                                          !! edge. The nearest edge is the one nearest to the node's closest
+                                                          !! point on the surface. Of equally near edges, the first one counts.
+  real(c_double), intent(inout) :: edge_moment(3, *)      !< (3, n_edges): for each edge, the moment of these forces about the
+                                                          !! middle of the edge.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
   type(riis_flow_arrays) :: flow
@@ -4355,7 +4401,8 @@ subroutine riisf_add_edge_reaction_64(marks, R, half_thickness, rim, n_nodes, ve
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
   integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
-  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes): the volume around each node, 0 for nodes of other
+                                                          !! ranks.
   integer(int64), intent(in) :: n_edges                   !< At least 1.
   real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge, for example
                                                           !! riis_attachment.edges; coordinates at most 1e60 in magnitude. An
@@ -4363,12 +4410,11 @@ subroutine riisf_add_edge_reaction_64(marks, R, half_thickness, rim, n_nodes, ve
   integer(int32), intent(in) :: edge_leaflet_id(*)        !< (n_edges): a node's force goes to the nearest edge of its leaflet.
                                                           !! If the first entry is -1, the other entries are not read, and each
                                                           !! edge serves all leaflets.
-  real(c_double), intent(inout) :: edge_force(3, *)       !< (3, n_edges): the sum of the forces of all nodes that count for
-                                                          !! the edge. The nearest edge is the one nearest to the node's
-                                                          !! closest point on the surface. Of equally near edges, the first one
-                                                          !! counts.
-  real(c_double), intent(inout) :: edge_moment(3, *)      !< (3, n_edges): the moment of these forces about the middle of the
-                                                          !! edge.
+  real(c_double), intent(inout) :: edge_force(3, *)       !< (3, n_edges): for each edge, the sum of the forces that act at the
+                                                          !! edge. The nearest edge is the one nearest to the node's closest
+                                                          !! point on the surface. Of equally near edges, the first one counts.
+  real(c_double), intent(inout) :: edge_moment(3, *)      !< (3, n_edges): for each edge, the moment of these forces about the
+                                                          !! middle of the edge.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
   type(riis_flow_arrays) :: flow
@@ -4397,8 +4443,8 @@ end subroutine riisf_add_edge_reaction_64
 !> Adds the force of the flow, and its moment about the edge's middle, to edges. The force of a node goes to the edge nearest to
 !! its closest point. The sums of edges are loads for tissue codes. They do not model how a membrane carries loads to its edges.
 !! Ranks pass the same edges, and add their sums by a reduction. Errors: as riisf_add_resistance. RIIS_INVALID_ARGUMENT also if
-!! n_leaflets is too small (the message names the leaflet id), if a leaflet lacks an edge, and if an edge is not finite or too
-!! large.
+!! n_leaflets is too small (the message names the leaflet id), if a leaflet lacks an edge, and if an edge has a coordinate that
+!! is not finite or too large.
 subroutine riisf_add_edge_reaction_components(marks, R, half_thickness, rim, n_nodes, vx, vy, vz, weight, n_edges, &
     edges, edge_leaflet_id, edge_force, edge_moment, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -4419,7 +4465,8 @@ subroutine riisf_add_edge_reaction_components(marks, R, half_thickness, rim, n_n
                                                           !! any.
   real(c_double), intent(in) :: vy(*)                     !< (n_nodes), the y component.
   real(c_double), intent(in) :: vz(*)                     !< (n_nodes), the z component.
-  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes): the volume around each node, 0 for nodes of other
+                                                          !! ranks.
   integer(int32), intent(in) :: n_edges                   !< At least 1.
   real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge, for example
                                                           !! riis_attachment.edges; coordinates at most 1e60 in magnitude. An
@@ -4427,12 +4474,11 @@ subroutine riisf_add_edge_reaction_components(marks, R, half_thickness, rim, n_n
   integer(int32), intent(in) :: edge_leaflet_id(*)        !< (n_edges): a node's force goes to the nearest edge of its leaflet.
                                                           !! If the first entry is -1, the other entries are not read, and each
                                                           !! edge serves all leaflets.
-  real(c_double), intent(inout) :: edge_force(3, *)       !< (3, n_edges): the sum of the forces of all nodes that count for
-                                                          !! the edge. The nearest edge is the one nearest to the node's
-                                                          !! closest point on the surface. Of equally near edges, the first one
-                                                          !! counts.
-  real(c_double), intent(inout) :: edge_moment(3, *)      !< (3, n_edges): the moment of these forces about the middle of the
-                                                          !! edge.
+  real(c_double), intent(inout) :: edge_force(3, *)       !< (3, n_edges): for each edge, the sum of the forces that act at the
+                                                          !! edge. The nearest edge is the one nearest to the node's closest
+                                                          !! point on the surface. Of equally near edges, the first one counts.
+  real(c_double), intent(inout) :: edge_moment(3, *)      !< (3, n_edges): for each edge, the moment of these forces about the
+                                                          !! middle of the edge.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
   type(riis_flow_arrays) :: flow
@@ -4478,7 +4524,8 @@ subroutine riisf_add_edge_reaction_components_64(marks, R, half_thickness, rim, 
                                                           !! any.
   real(c_double), intent(in) :: vy(*)                     !< (n_nodes), the y component.
   real(c_double), intent(in) :: vz(*)                     !< (n_nodes), the z component.
-  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes): the volume around each node, 0 for nodes of other
+                                                          !! ranks.
   integer(int64), intent(in) :: n_edges                   !< At least 1.
   real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge, for example
                                                           !! riis_attachment.edges; coordinates at most 1e60 in magnitude. An
@@ -4486,12 +4533,11 @@ subroutine riisf_add_edge_reaction_components_64(marks, R, half_thickness, rim, 
   integer(int32), intent(in) :: edge_leaflet_id(*)        !< (n_edges): a node's force goes to the nearest edge of its leaflet.
                                                           !! If the first entry is -1, the other entries are not read, and each
                                                           !! edge serves all leaflets.
-  real(c_double), intent(inout) :: edge_force(3, *)       !< (3, n_edges): the sum of the forces of all nodes that count for
-                                                          !! the edge. The nearest edge is the one nearest to the node's
-                                                          !! closest point on the surface. Of equally near edges, the first one
-                                                          !! counts.
-  real(c_double), intent(inout) :: edge_moment(3, *)      !< (3, n_edges): the moment of these forces about the middle of the
-                                                          !! edge.
+  real(c_double), intent(inout) :: edge_force(3, *)       !< (3, n_edges): for each edge, the sum of the forces that act at the
+                                                          !! edge. The nearest edge is the one nearest to the node's closest
+                                                          !! point on the surface. Of equally near edges, the first one counts.
+  real(c_double), intent(inout) :: edge_moment(3, *)      !< (3, n_edges): for each edge, the moment of these forces about the
+                                                          !! middle of the edge.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
   type(riis_flow_arrays) :: flow
@@ -4516,9 +4562,9 @@ subroutine riisf_add_edge_reaction_components_64(marks, R, half_thickness, rim, 
   status = riis_marks_add_reaction(c_handle_of(marks), resistance, flow, reaction)
 end subroutine riisf_add_edge_reaction_components_64
 
-!> Adds the force of the flow on each vertex of the surface, so that a code for shells can move the leaflets. Errors: as
-!! riisf_add_reaction. RIIS_INVALID_ARGUMENT also if the marks lack RIIS_FIELD_BARYCENTRIC, if n_vertices is wrong, and if the
-!! surface lacks the closest triangle of a node.
+!> Adds to an array the force of the flow on each vertex of the surface, so that a code for shells can move the leaflets. Errors:
+!! as riisf_add_reaction. RIIS_INVALID_ARGUMENT also if the marks lack RIIS_FIELD_BARYCENTRIC, if n_vertices is wrong, and if the
+!! closest triangle of a node is not in the surface.
 subroutine riisf_add_vertex_reaction(marks, surface, R, half_thickness, rim, n_nodes, velocity, weight, n_vertices, &
     vertex_force, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -4538,12 +4584,13 @@ subroutine riisf_add_vertex_reaction(marks, surface, R, half_thickness, rim, n_n
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
-  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes): the volume around each node, 0 for nodes of other
+                                                          !! ranks.
   integer(int32), intent(in) :: n_vertices                !< The surface's number of vertices.
   real(c_double), intent(inout) :: vertex_force(3, *)     !< (3, n_vertices): the array to which the forces are added. The
-                                                          !! force of a node is divided among the three vertices of its closest
-                                                          !! triangle, in the proportions of the barycentric coordinates of its
-                                                          !! closest point.
+                                                          !! force from a node is divided among the three vertices of the
+                                                          !! node's closest triangle, in proportion to the barycentric
+                                                          !! coordinates of the closest point.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
   type(riis_flow_arrays) :: flow
@@ -4583,12 +4630,13 @@ subroutine riisf_add_vertex_reaction_64(marks, surface, R, half_thickness, rim, 
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
   integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
-  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes): the volume around each node, 0 for nodes of other
+                                                          !! ranks.
   integer(int64), intent(in) :: n_vertices                !< The surface's number of vertices.
   real(c_double), intent(inout) :: vertex_force(3, *)     !< (3, n_vertices): the array to which the forces are added. The
-                                                          !! force of a node is divided among the three vertices of its closest
-                                                          !! triangle, in the proportions of the barycentric coordinates of its
-                                                          !! closest point.
+                                                          !! force from a node is divided among the three vertices of the
+                                                          !! node's closest triangle, in proportion to the barycentric
+                                                          !! coordinates of the closest point.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
   type(riis_flow_arrays) :: flow
@@ -4608,9 +4656,9 @@ subroutine riisf_add_vertex_reaction_64(marks, surface, R, half_thickness, rim, 
       vertex_force)
 end subroutine riisf_add_vertex_reaction_64
 
-!> Adds the force of the flow on each vertex of the surface, so that a code for shells can move the leaflets. Errors: as
-!! riisf_add_reaction. RIIS_INVALID_ARGUMENT also if the marks lack RIIS_FIELD_BARYCENTRIC, if n_vertices is wrong, and if the
-!! surface lacks the closest triangle of a node.
+!> Adds to an array the force of the flow on each vertex of the surface, so that a code for shells can move the leaflets. Errors:
+!! as riisf_add_reaction. RIIS_INVALID_ARGUMENT also if the marks lack RIIS_FIELD_BARYCENTRIC, if n_vertices is wrong, and if the
+!! closest triangle of a node is not in the surface.
 subroutine riisf_add_vertex_reaction_components(marks, surface, R, half_thickness, rim, n_nodes, vx, vy, vz, weight, &
     n_vertices, vertex_force, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -4633,12 +4681,13 @@ subroutine riisf_add_vertex_reaction_components(marks, surface, R, half_thicknes
                                                           !! any.
   real(c_double), intent(in) :: vy(*)                     !< (n_nodes), the y component.
   real(c_double), intent(in) :: vz(*)                     !< (n_nodes), the z component.
-  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes): the volume around each node, 0 for nodes of other
+                                                          !! ranks.
   integer(int32), intent(in) :: n_vertices                !< The surface's number of vertices.
   real(c_double), intent(inout) :: vertex_force(3, *)     !< (3, n_vertices): the array to which the forces are added. The
-                                                          !! force of a node is divided among the three vertices of its closest
-                                                          !! triangle, in the proportions of the barycentric coordinates of its
-                                                          !! closest point.
+                                                          !! force from a node is divided among the three vertices of the
+                                                          !! node's closest triangle, in proportion to the barycentric
+                                                          !! coordinates of the closest point.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
   type(riis_flow_arrays) :: flow
@@ -4680,12 +4729,13 @@ subroutine riisf_add_vertex_reaction_components_64(marks, surface, R, half_thick
                                                           !! any.
   real(c_double), intent(in) :: vy(*)                     !< (n_nodes), the y component.
   real(c_double), intent(in) :: vz(*)                     !< (n_nodes), the z component.
-  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes): the volume around each node, 0 for nodes of other
+                                                          !! ranks.
   integer(int64), intent(in) :: n_vertices                !< The surface's number of vertices.
   real(c_double), intent(inout) :: vertex_force(3, *)     !< (3, n_vertices): the array to which the forces are added. The
-                                                          !! force of a node is divided among the three vertices of its closest
-                                                          !! triangle, in the proportions of the barycentric coordinates of its
-                                                          !! closest point.
+                                                          !! force from a node is divided among the three vertices of the
+                                                          !! node's closest triangle, in proportion to the barycentric
+                                                          !! coordinates of the closest point.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
   type(riis_flow_arrays) :: flow
@@ -4704,11 +4754,11 @@ subroutine riisf_add_vertex_reaction_components_64(marks, surface, R, half_thick
       vertex_force)
 end subroutine riisf_add_vertex_reaction_components_64
 
-!> Gives the sums of a value over the nodes in the band, for each side of the surface. Nodes whose closest point is on the rim,
-!! and nodes with side 0, are left out. For an open valve, the two sides have no meaning. If the surface has an offset o, the
-!! middle of the marked band takes the place of the surface. Let s be the signed distance of a node, and eps the half thickness
-!! of the marking. Then |s - o eps| is the distance of the node, and the sign of s - o eps is its side. Errors:
-!! RIIS_INVALID_ARGUMENT also if the marks lack a field.
+!> Gives the sums of a value over the nodes in the band, for each side of the surface. Nodes whose closest point is on the rim
+!! and nodes with side 0 are left out. For an open valve, the two sides have no meaning. If the surface has an offset o,
+!! distances and sides refer to the middle of the marked band instead of the surface. Let s be the signed distance of a node, and
+!! eps the half thickness of the marking. Then |s - o eps| is the distance of the node, and the sign of s - o eps is its side.
+!! Errors: RIIS_INVALID_ARGUMENT also if the marks lack a field.
 subroutine riisf_band_sums(marks, inner, outer, n_nodes, value, weight, sum_of_values, sum_of_weights, n_in_band, &
     status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -4718,19 +4768,20 @@ subroutine riisf_band_sums(marks, inner, outer, n_nodes, value, weight, sum_of_v
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_SIDE and _RIM.
   real(c_double), intent(in) :: inner                     !< inner, outer: the band holds the nodes with distances from inner
-                                                          !! to outer, where 0 <= inner <= outer. If the surface has an offset
-                                                          !! o, outer + |o| eps must be at most the marking's distance limit,
-                                                          !! with the half thickness eps. Usually 0.
+                                                          !! to outer, where 0 <= inner <= outer. Let o be the offset of the
+                                                          !! surface, and eps the half thickness: outer + |o| eps must be at
+                                                          !! most the marking's distance limit. Usually 0.
   real(c_double), intent(in) :: outer                     !< inner, outer: the band holds the nodes with distances from inner
-                                                          !! to outer, where 0 <= inner <= outer. If the surface has an offset
-                                                          !! o, outer + |o| eps must be at most the marking's distance limit,
-                                                          !! with the half thickness eps. Usually 0.
+                                                          !! to outer, where 0 <= inner <= outer. Let o be the offset of the
+                                                          !! surface, and eps the half thickness: outer + |o| eps must be at
+                                                          !! most the marking's distance limit. Usually 0.
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
-  real(c_double), intent(in) :: value(*)                  !< (n_nodes), such as the pressure.
-  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
+  real(c_double), intent(in) :: value(*)                  !< (n_nodes): the value at each node, such as the pressure.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes): the volume around each node, 0 for nodes of other
+                                                          !! ranks.
   real(c_double), intent(inout) :: sum_of_values(2)       !< The sum of weight * value: 1 is upstream, 2 downstream.
   real(c_double), intent(inout) :: sum_of_weights(2)      !< The sum of weight.
-  integer(int64), intent(inout) :: n_in_band(2)           !< Nodes in the band.
+  integer(int64), intent(inout) :: n_in_band(2)           !< The number of nodes in the band.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_band) :: band
   type(riis_band_sums) :: sums
@@ -4758,19 +4809,20 @@ subroutine riisf_band_sums_64(marks, inner, outer, n_nodes, value, weight, sum_o
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_SIDE and _RIM.
   real(c_double), intent(in) :: inner                     !< inner, outer: the band holds the nodes with distances from inner
-                                                          !! to outer, where 0 <= inner <= outer. If the surface has an offset
-                                                          !! o, outer + |o| eps must be at most the marking's distance limit,
-                                                          !! with the half thickness eps. Usually 0.
+                                                          !! to outer, where 0 <= inner <= outer. Let o be the offset of the
+                                                          !! surface, and eps the half thickness: outer + |o| eps must be at
+                                                          !! most the marking's distance limit. Usually 0.
   real(c_double), intent(in) :: outer                     !< inner, outer: the band holds the nodes with distances from inner
-                                                          !! to outer, where 0 <= inner <= outer. If the surface has an offset
-                                                          !! o, outer + |o| eps must be at most the marking's distance limit,
-                                                          !! with the half thickness eps. Usually 0.
+                                                          !! to outer, where 0 <= inner <= outer. Let o be the offset of the
+                                                          !! surface, and eps the half thickness: outer + |o| eps must be at
+                                                          !! most the marking's distance limit. Usually 0.
   integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
-  real(c_double), intent(in) :: value(*)                  !< (n_nodes), such as the pressure.
-  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
+  real(c_double), intent(in) :: value(*)                  !< (n_nodes): the value at each node, such as the pressure.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes): the volume around each node, 0 for nodes of other
+                                                          !! ranks.
   real(c_double), intent(inout) :: sum_of_values(2)       !< The sum of weight * value: 1 is upstream, 2 downstream.
   real(c_double), intent(inout) :: sum_of_weights(2)      !< The sum of weight.
-  integer(int64), intent(inout) :: n_in_band(2)           !< Nodes in the band.
+  integer(int64), intent(inout) :: n_in_band(2)           !< The number of nodes in the band.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_band) :: band
   type(riis_band_sums) :: sums
@@ -4793,7 +4845,7 @@ end subroutine riisf_band_sums_64
 ! -----------------------------------------------------------------------------------------------------------------
 
 !> Computes sums over nodes of tissue for riisf_loads_forces, and adds them to an array. Errors: RIIS_INVALID_ARGUMENT for a bad
-!! field, edge, node or weight; the message names it and its value.
+!! field, edge, node or weight; the message names the bad entry and its value.
 subroutine riisf_loads_sums(radius, n_edges, edges, edge_leaflet_id, n_nodes, xyz, weight, n_leaflets, sums, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32
@@ -4802,7 +4854,7 @@ subroutine riisf_loads_sums(radius, n_edges, edges, edge_leaflet_id, n_nodes, xy
       riis_status
   implicit none
   real(c_double), intent(in) :: radius                    !< Mesh units, 1e-50 to 1e50. The force of a leaflet acts at the
-                                                          !! nodes that are nearer to the leaflet's edges than the radius.
+                                                          !! nodes whose distance from the leaflet's edges is below the radius.
   integer(int32), intent(in) :: n_edges                   !< At least 1.
   real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge, for example
                                                           !! riis_attachment.edges; coordinates at most 1e60 in magnitude. An
@@ -4844,7 +4896,7 @@ subroutine riisf_loads_sums_64(radius, n_edges, edges, edge_leaflet_id, n_nodes,
       riis_status
   implicit none
   real(c_double), intent(in) :: radius                    !< Mesh units, 1e-50 to 1e50. The force of a leaflet acts at the
-                                                          !! nodes that are nearer to the leaflet's edges than the radius.
+                                                          !! nodes whose distance from the leaflet's edges is below the radius.
   integer(int64), intent(in) :: n_edges                   !< At least 1.
   real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge, for example
                                                           !! riis_attachment.edges; coordinates at most 1e60 in magnitude. An
@@ -4877,11 +4929,12 @@ subroutine riisf_loads_sums_64(radius, n_edges, edges, edge_leaflet_id, n_nodes,
   status = riis_loads_add_sums(loads, nodes, weight, sums)
 end subroutine riisf_loads_sums_64
 
-!> Adds the forces of the leaflets at nodes of tissue. Up to rounding, the forces of a leaflet have the sum leaflet_force and the
-!! moment leaflet_moment. Errors: as riisf_loads_sums. RIIS_INVALID_ARGUMENT also if a leaflet with a force has fewer than three
-!! nodes within the radius, or only nodes that lie nearly on a line. Let r be the root-mean-square distance of these nodes from
-!! the line. The nodes are too near the line if r is less than a hundredth of their root-mean-square distance from their middle.
-!! They are also too near if r is less than a thousandth of the size of the edges (docs/theory/loads.md).
+!> Adds to an array the forces of the leaflets at nodes of tissue. Up to rounding, the forces of a leaflet have the sum
+!! leaflet_force and the moment leaflet_moment. Errors: as riisf_loads_sums. RIIS_INVALID_ARGUMENT also if a leaflet with a force
+!! has fewer than three nodes within the radius, or only nodes that lie nearly on a line. Let r be the root-mean-square distance
+!! of these nodes from the line. The nodes are too near the line if r is less than a hundredth of the root-mean-square distance
+!! of the nodes from their middle. The nodes are also too near the line if r is less than a thousandth of the size of the edges
+!! (docs/theory/loads.md).
 subroutine riisf_loads_forces(radius, n_edges, edges, edge_leaflet_id, n_nodes, xyz, weight, n_leaflets, about, &
     leaflet_force, leaflet_moment, sums, node_force, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -4891,7 +4944,7 @@ subroutine riisf_loads_forces(radius, n_edges, edges, edge_leaflet_id, n_nodes, 
       riis_status
   implicit none
   real(c_double), intent(in) :: radius                    !< Mesh units, 1e-50 to 1e50. The force of a leaflet acts at the
-                                                          !! nodes that are nearer to the leaflet's edges than the radius.
+                                                          !! nodes whose distance from the leaflet's edges is below the radius.
   integer(int32), intent(in) :: n_edges                   !< At least 1.
   real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge, for example
                                                           !! riis_attachment.edges; coordinates at most 1e60 in magnitude. An
@@ -4944,7 +4997,7 @@ subroutine riisf_loads_forces_64(radius, n_edges, edges, edge_leaflet_id, n_node
       riis_status
   implicit none
   real(c_double), intent(in) :: radius                    !< Mesh units, 1e-50 to 1e50. The force of a leaflet acts at the
-                                                          !! nodes that are nearer to the leaflet's edges than the radius.
+                                                          !! nodes whose distance from the leaflet's edges is below the radius.
   integer(int64), intent(in) :: n_edges                   !< At least 1.
   real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge, for example
                                                           !! riis_attachment.edges; coordinates at most 1e60 in magnitude. An
@@ -4991,10 +5044,10 @@ end subroutine riisf_loads_forces_64
 ! Leaks
 ! -----------------------------------------------------------------------------------------------------------------
 
-!> Finds the mesh edges that leak through the surface. An edge of the mesh's adjacency leaks if both of its nodes are unmarked
-!! and the edge crosses or touches a triangle of the surface. Errors: RIIS_INVALID_ARGUMENT if the mesh has no adjacency, if the
-!! marks are empty, and if the marks have another number of nodes or another half thickness. RIIS_INVALID_MESH as
-!! riisf_mark_nodes.
+!> Finds the mesh edges that leak through the surface. An edge of the mesh's adjacency leaks if its two nodes are unmarked and
+!! the edge crosses or touches a triangle of the surface. Errors: RIIS_INVALID_ARGUMENT if the mesh has no adjacency, if the
+!! marks are empty, if the marks and the mesh differ in the number of nodes, and if the marks and the surface differ in the half
+!! thickness. RIIS_INVALID_MESH as riisf_mark_nodes.
 subroutine riisf_find_leaks(surface, mesh, marks, n_threads, leaks, n_edges, longest, middle, half_thickness, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -5009,11 +5062,11 @@ subroutine riisf_find_leaks(surface, mesh, marks, n_threads, leaks, n_edges, lon
   integer(int64), intent(in) :: marks                     !< Marks from riisf_mark_nodes.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int64), intent(inout) :: leaks                  !< 0, which creates them, or from an earlier call.
-  integer(int64), intent(inout) :: n_edges                !< The number of edges that leak. If it is 0, node ids are -1, and
-                                                          !! all other fields except seconds are 0.
+  integer(int64), intent(inout) :: n_edges                !< The number of edges that leak. If n_edges is 0, the node ids are
+                                                          !! -1, and all other fields except seconds are 0.
   real(c_double), intent(inout) :: longest                !< The length of the longest edge; 0 if none leaks.
   real(c_double), intent(inout) :: middle(3)              !< The middle of the longest edge.
-  real(c_double), intent(inout) :: half_thickness         !< The least half thickness with which each of these edges has a
+  real(c_double), intent(inout) :: half_thickness         !< The least half thickness with which each edge of the list has a
                                                           !! marked node, for the present triangles.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_mark_options) :: options
@@ -5116,7 +5169,7 @@ subroutine riisf_leaks_destroy(handle)
 end subroutine riisf_leaks_destroy
 
 !> Labels the open regions: the connected components of the unmarked nodes, along mesh edges. Errors: RIIS_INVALID_ARGUMENT for a
-!! mesh without adjacency, for empty marks, and for marks with another number of nodes.
+!! mesh without adjacency, for empty marks, and if the marks and the mesh differ in the number of nodes.
 subroutine riisf_label_open_regions(mesh, marks, n_threads, n_nodes, region_num, n_regions, status)
   use, intrinsic :: iso_c_binding, only: c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -5174,7 +5227,7 @@ end subroutine riisf_label_open_regions_64
 
 !> Finds the widest passage along the edges of the mesh's adjacency, whether it is open or closed. Errors: RIIS_INVALID_ARGUMENT
 !! for a mesh without adjacency, and for a bad node in `from` or `to`. A node is bad if it is not in the mesh, if node_mask
-!! leaves it out, or if it lies within the half thickness of the surface. RIIS_INVALID_MESH as riisf_mark_nodes.
+!! leaves it out, or if it lies in the band around the surface. RIIS_INVALID_MESH as riisf_mark_nodes.
 subroutine riisf_find_passage(surface, mesh, n_from, from_num, n_to, to_num, n_threads, state, node_num, distance, &
     point, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_loc, c_ptr, c_sizeof
@@ -5184,13 +5237,13 @@ subroutine riisf_find_passage(surface, mesh, n_from, from_num, n_to, to_num, n_t
       riis_passage_ends, riis_passage_ends_init, riis_status
   implicit none
   integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
-  integer(int64), intent(in) :: mesh                      !< Must have an adjacency, and need not have been marked.
+  integer(int64), intent(in) :: mesh                      !< A mesh with an adjacency, marked or not.
   integer(int32), intent(in) :: n_from                    !< At least 1.
   integer(int32), intent(in) :: from_num(n_from)          !< (n_from): the ids of the nodes at which paths begin, in any order.
                                                           !! Counted from 1.
   integer(int32), intent(in) :: n_to                      !< At least 1.
   integer(int32), intent(in) :: to_num(n_to)              !< (n_to): the ids of the nodes at which paths end, in any order. A
-                                                          !! node that is in both sets is a path. Counted from 1.
+                                                          !! node in both sets is itself a path. Counted from 1.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int32), intent(inout) :: state                  !< RIIS_PASSAGE_*.
   integer(int32), intent(inout) :: node_num               !< The path's node nearest to the surface, from 1; 0 without a path.
@@ -5235,13 +5288,13 @@ subroutine riisf_find_passage_64(surface, mesh, n_from, from_num, n_to, to_num, 
       riis_passage_ends, riis_passage_ends_init, riis_status
   implicit none
   integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
-  integer(int64), intent(in) :: mesh                      !< Must have an adjacency, and need not have been marked.
+  integer(int64), intent(in) :: mesh                      !< A mesh with an adjacency, marked or not.
   integer(int64), intent(in) :: n_from                    !< At least 1.
   integer(int64), intent(in) :: from_num(n_from)          !< (n_from): the ids of the nodes at which paths begin, in any order.
                                                           !! Counted from 1.
   integer(int64), intent(in) :: n_to                      !< At least 1.
   integer(int64), intent(in) :: to_num(n_to)              !< (n_to): the ids of the nodes at which paths end, in any order. A
-                                                          !! node that is in both sets is a path. Counted from 1.
+                                                          !! node in both sets is itself a path. Counted from 1.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int32), intent(inout) :: state                  !< RIIS_PASSAGE_*.
   integer(int64), intent(inout) :: node_num               !< The path's node nearest to the surface, from 1; 0 without a path.
@@ -5290,12 +5343,12 @@ subroutine riisf_find_crossings(surface, depth, n_threads, crossings, n_pairs, l
       riis_crossings_create, riis_crossings_destroy, riis_crossings_get_list, riis_find_crossings, riis_status
   implicit none
   integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
-  real(c_double), intent(in) :: depth                     !< The depth up to which pairs only touch, in half thicknesses, 0 to
-                                                          !! 1. Usually 1e-6.
+  real(c_double), intent(in) :: depth                     !< The largest depth of a pair of triangles that counts as touching,
+                                                          !! in half thicknesses, 0 to 1. Usually 1e-6.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int64), intent(inout) :: crossings              !< 0, which creates them, or from an earlier call.
-  integer(int64), intent(inout) :: n_pairs                !< The number of pairs. If it is 0, the ids in this struct are -1,
-                                                          !! and all other fields except seconds are 0.
+  integer(int64), intent(inout) :: n_pairs                !< The number of pairs. If n_pairs is 0, the ids in this struct are
+                                                          !! -1, and all other fields except seconds are 0.
   real(c_double), intent(inout) :: length                 !< The total length of their intersections.
   real(c_double), intent(inout) :: deepest                !< The depth of the deepest pair. Of equally deep pairs, the first
                                                           !! one counts as the deepest.
@@ -5422,7 +5475,7 @@ end subroutine riisf_crossing_pairs_64
 ! Measures for a flow
 ! -----------------------------------------------------------------------------------------------------------------
 
-!> Gives the number of the surface's leaflets.
+!> Gives the number of leaflets of the surface.
 subroutine riisf_surface_n_leaflets(surface, n_leaflets, status)
   use, intrinsic :: iso_fortran_env, only: int32, int64
   use riis_support, only: c_handle_of
@@ -5447,12 +5500,12 @@ subroutine riisf_surface_leaflet(surface, leaflet_num, leaflet_id, area, free_ed
   integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
   integer(int32), intent(in) :: leaflet_num               !< 1 to n_leaflets, ascending by leaflet_id.
   integer(int32), intent(inout) :: leaflet_id             !< As in riis_triangles.
-  real(c_double), intent(inout) :: area                   !< The area of its triangles.
-  real(c_double), intent(inout) :: free_edge              !< The length of the free edge. The free edge of a valve's leaflet
-                                                          !! consists of the sides v = 1 that belong to only one patch of the
-                                                          !! leaflet. For a surface from arrays, it consists of the edges that
-                                                          !! belong to only one triangle, without the longest closed line of
-                                                          !! such edges. 0 for a skirt.
+  real(c_double), intent(inout) :: area                   !< The sum of the areas of these triangles.
+  real(c_double), intent(inout) :: free_edge              !< The length of the free edge, 0 for a skirt. The free edge of a
+                                                          !! valve's leaflet consists of the sides v = 1 that belong to only
+                                                          !! one patch of the leaflet. In a surface from arrays, the free edge
+                                                          !! consists of the edges that belong to only one triangle, without
+                                                          !! the longest closed line of such edges.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_leaflet) :: sizes
   status = riis_surface_get_leaflet(c_handle_of(surface), int(leaflet_num, int64) - 1, sizes, c_sizeof(sizes))
@@ -5476,15 +5529,15 @@ subroutine riisf_surface_orifice(surface, half_thickness, rim, area, outline_are
   real(c_double), intent(inout) :: area                   !< The area of the orifice. If there is no outline, all fields except
                                                           !! axis and rim_reach are 0.
   real(c_double), intent(inout) :: outline_area           !< The area inside the outline.
-  real(c_double), intent(inout) :: perimeter              !< The length of the orifice's edge along the triangles. Before it is
-                                                          !! measured, the edge is moved inwards by a tenth of the half
-                                                          !! thickness, so that narrow slits vanish. Parts of the edge on the
-                                                          !! outline are walls, and do not count.
-  real(c_double), intent(inout) :: effective_area         !< The area that the band around the leaflets leaves for the flow. It
-                                                          !! is the area of the orifice after the edge along the triangles was
-                                                          !! moved inwards by rim_reach * half_thickness. To first order this
-                                                          !! is area - rim_reach * half_thickness * perimeter. The effective
-                                                          !! area is never below 0.
+  real(c_double), intent(inout) :: perimeter              !< The length of the orifice's edge along the triangles. Before the
+                                                          !! measurement, the edge is moved inwards by a tenth of the half
+                                                          !! thickness, so that narrow slits vanish. Parts of the edge that lie
+                                                          !! on the outline count as walls, and do not add to the perimeter.
+  real(c_double), intent(inout) :: effective_area         !< The area that the band around the leaflets leaves for the flow. To
+                                                          !! find it, the edge of the orifice along the triangles is moved
+                                                          !! inwards by rim_reach * half_thickness. To first order the
+                                                          !! effective area is area - rim_reach * half_thickness * perimeter.
+                                                          !! The effective area is never below 0.
   integer(int32), intent(inout) :: outline                !< RIIS_OUTLINE_*.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
@@ -5514,23 +5567,23 @@ subroutine riisf_surface_orifice_in_wall(surface, wall, half_thickness, rim, are
       riis_surface_get_orifice_in_wall
   implicit none
   integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
-  integer(int64), intent(in) :: wall                      !< The wall, in the same coordinates as the surface. The call returns
-                                                          !! RIIS_INVALID_ARGUMENT if the line that gives the outline does not
-                                                          !! surround a centre.
+  integer(int64), intent(in) :: wall                      !< The wall, in the same coordinates as the surface. If the line of
+                                                          !! the outline does not surround a centre, the call returns
+                                                          !! RIIS_INVALID_ARGUMENT.
   real(c_double), intent(in) :: half_thickness            !< eps of the resistance; RIIS_AUTO: the surface's.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_*, usually RIIS_RIM_ROUND.
   real(c_double), intent(inout) :: area                   !< The area of the orifice. If there is no outline, all fields except
                                                           !! axis and rim_reach are 0.
   real(c_double), intent(inout) :: outline_area           !< The area inside the outline.
-  real(c_double), intent(inout) :: perimeter              !< The length of the orifice's edge along the triangles. Before it is
-                                                          !! measured, the edge is moved inwards by a tenth of the half
-                                                          !! thickness, so that narrow slits vanish. Parts of the edge on the
-                                                          !! outline are walls, and do not count.
-  real(c_double), intent(inout) :: effective_area         !< The area that the band around the leaflets leaves for the flow. It
-                                                          !! is the area of the orifice after the edge along the triangles was
-                                                          !! moved inwards by rim_reach * half_thickness. To first order this
-                                                          !! is area - rim_reach * half_thickness * perimeter. The effective
-                                                          !! area is never below 0.
+  real(c_double), intent(inout) :: perimeter              !< The length of the orifice's edge along the triangles. Before the
+                                                          !! measurement, the edge is moved inwards by a tenth of the half
+                                                          !! thickness, so that narrow slits vanish. Parts of the edge that lie
+                                                          !! on the outline count as walls, and do not add to the perimeter.
+  real(c_double), intent(inout) :: effective_area         !< The area that the band around the leaflets leaves for the flow. To
+                                                          !! find it, the edge of the orifice along the triangles is moved
+                                                          !! inwards by rim_reach * half_thickness. To first order the
+                                                          !! effective area is area - rim_reach * half_thickness * perimeter.
+                                                          !! The effective area is never below 0.
   integer(int32), intent(inout) :: outline                !< RIIS_OUTLINE_*.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
@@ -5562,10 +5615,10 @@ subroutine riisf_surface_coaptation(surface, reach, leaflet_id, area, edge, stat
   integer(int32), intent(in) :: leaflet_id                !< As in riis_triangles, or RIIS_ALL_LEAFLETS for the sum over all
                                                           !! leaflets. In this sum each contact counts twice, once for each of
                                                           !! the two leaflets.
-  real(c_double), intent(inout) :: area                   !< The area of the leaflet's triangles within reach of another
-                                                          !! leaflet.
-  real(c_double), intent(inout) :: edge                   !< The length of the part of the free edge (riis_leaflet) within
-                                                          !! reach of another leaflet.
+  real(c_double), intent(inout) :: area                   !< The area of the part of the leaflet whose distance from another
+                                                          !! leaflet is at most `reach`.
+  real(c_double), intent(inout) :: edge                   !< The length of the part of the free edge (riis_leaflet) whose
+                                                          !! distance from another leaflet is at most `reach`.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_coaptation) :: coaptation
   status = riis_surface_get_coaptation(c_handle_of(surface), reach, leaflet_id, coaptation, c_sizeof(coaptation))
@@ -5583,20 +5636,20 @@ subroutine riisf_surface_gap(surface, wall, least, mean, most, missed, status)
   use riis_c, only: RIIS_OK, riis_gap, riis_status, riis_surface_get_gap
   implicit none
   integer(int64), intent(in) :: surface                   !< From riisf_surface_create, for example.
-  integer(int64), intent(in) :: wall                      !< A surface in the valve's frame, usually by
-                                                          !! riisf_surface_from_arrays.
+  integer(int64), intent(in) :: wall                      !< A surface in the same coordinates as the valve's surface, usually
+                                                          !! from riisf_surface_from_arrays.
   real(c_double), intent(inout) :: least                  !< least, mean, most: the least, the mean and the largest gap at the
                                                           !! ends of the edges of riis_attachment. The mean is weighted by the
-                                                          !! lengths of the edges. 0 if no end meets the wall.
+                                                          !! lengths of the edges. All three are 0 if no end has a gap.
   real(c_double), intent(inout) :: mean                   !< least, mean, most: the least, the mean and the largest gap at the
                                                           !! ends of the edges of riis_attachment. The mean is weighted by the
-                                                          !! lengths of the edges. 0 if no end meets the wall.
+                                                          !! lengths of the edges. All three are 0 if no end has a gap.
   real(c_double), intent(inout) :: most                   !< least, mean, most: the least, the mean and the largest gap at the
                                                           !! ends of the edges of riis_attachment. The mean is weighted by the
-                                                          !! lengths of the edges. 0 if no end meets the wall.
-  integer(int32), intent(inout) :: missed                 !< The number of ends from which the skirt's direction does not meet
-                                                          !! the wall. These ends have no gap, and count only here and in
-                                                          !! n_ends.
+                                                          !! lengths of the edges. All three are 0 if no end has a gap.
+  integer(int32), intent(inout) :: missed                 !< The number of ends from which a line in the skirt's direction does
+                                                          !! not meet the wall. These ends have no gap, and count only here and
+                                                          !! in n_ends.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_gap) :: gap
   status = riis_surface_get_gap(c_handle_of(surface), c_handle_of(wall), gap=gap, struct_size=c_sizeof(gap))
@@ -5607,9 +5660,9 @@ subroutine riisf_surface_gap(surface, wall, least, mean, most, missed, status)
   missed = int(gap%n_without_wall, int32)
 end subroutine riisf_surface_gap
 
-!> Gives a valve a skirt that just reaches a wall. An earlier skirt of the valve is replaced. Errors: RIIS_INVALID_ARGUMENT if a
-!! skirt from some point does not meet the wall, or would be longer than `longest`; the message names the first such point.
-!! RIIS_INVALID_PARAMETER for a bileaflet valve, and for an attachment that encloses no area.
+!> Gives a valve a skirt that just reaches a wall. An earlier skirt of the valve is replaced. Errors: RIIS_INVALID_ARGUMENT if
+!! the skirt from a point of the attachment does not meet the wall, or would be longer than `longest`. The message names the
+!! first such point. RIIS_INVALID_PARAMETER for a bileaflet valve, and for an attachment that encloses no area.
 subroutine riisf_valve_skirt_to_wall(valve, wall, longest, half_thickness, tolerance, scale, rotation_axis, &
     rotation_angle, translation, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -5619,19 +5672,21 @@ subroutine riisf_valve_skirt_to_wall(valve, wall, longest, half_thickness, toler
   implicit none
   integer(int64), intent(in) :: valve                     !< From riisf_valve_create, for example.
   integer(int64), intent(in) :: wall                      !< As in riisf_surface_gap.
-  real(c_double), intent(in) :: longest                   !< The longest acceptable length, mesh units, 1e-50 to 1e50.
+  real(c_double), intent(in) :: longest                   !< The largest permitted length of the skirt, in mesh units, 1e-50 to
+                                                          !! 1e50.
   real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
                                                           !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
-  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
-                                                          !! its smooth surface differ by at most tolerance * half_thickness
-                                                          !! (docs/theory.md).
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The distance to a valve's triangles
+                                                          !! differs from the distance to its smooth surface by at most
+                                                          !! tolerance * half_thickness (docs/theory.md).
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
-  real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_axis(3)          !< A vector with a length of at least 1e-50 and components up to
+                                                          !! 1e50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse so
-                                                          !! large a shift of a valve that coordinates would be rounded by more
-                                                          !! than a thousandth of tolerance * half_thickness.
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse a
+                                                          !! shift of a valve that would round coordinates by more than a
+                                                          !! thousandth of tolerance * half_thickness.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_options) :: options
   status = riis_surface_options_init(options, c_sizeof(options))
@@ -5645,10 +5700,10 @@ subroutine riisf_valve_skirt_to_wall(valve, wall, longest, half_thickness, toler
   status = riis_valve_set_skirt_to_wall(c_handle_of(valve), c_handle_of(wall), longest, options)
 end subroutine riisf_valve_skirt_to_wall
 
-!> Gives the ideal leak of a closed surface: a pressure drop causes the volume flow drop * (eps / R) * area. The area is that of
-!! the surface without a bileaflet housing. If there is an offset o, it is the area of the surface after a shift by o eps along
-!! its normals. The leak in a solver differs from the ideal leak (docs/solvers.md). Errors: RIIS_INVALID_ARGUMENT for a bad field
-!! or argument; the message names it and its value.
+!> Gives the ideal leak of a closed surface: the volume flow drop * (eps / R) * area that a pressure drop causes. The area is
+!! that of the surface without a bileaflet housing. If the surface has an offset o, the area is that of the surface after a shift
+!! by o eps along its normals. The leak in a solver differs from the ideal leak (docs/solvers.md). Errors: RIIS_INVALID_ARGUMENT
+!! for a bad field or argument; the message names the field or argument and its value.
 subroutine riisf_surface_leak(surface, R, half_thickness, drop, flow, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int64
@@ -5671,9 +5726,9 @@ subroutine riisf_surface_leak(surface, R, half_thickness, drop, flow, status)
   status = riis_surface_get_leak(c_handle_of(surface), resistance, drop, flow)
 end subroutine riisf_surface_leak
 
-!> Computes the number of mesh edges that fit across the band. An edge counts once, even if the adjacency has it in the rows of
-!! both of its nodes. Edges to ghosts and edges of length 0 do not count. Errors: RIIS_INVALID_ARGUMENT if the mesh has no
-!! adjacency, if the marks are empty, and if the marks have another number of nodes. RIIS_INVALID_MESH as riisf_mark_nodes.
+!> Computes how many mesh edges fit across the band. An edge counts once, even if the adjacency has it in the rows of both of its
+!! nodes. Edges to ghosts and edges of length 0 do not count. Errors: RIIS_INVALID_ARGUMENT if the mesh has no adjacency, if the
+!! marks are empty, and if the marks and the mesh differ in the number of nodes. RIIS_INVALID_MESH as riisf_mark_nodes.
 subroutine riisf_cells_across(marks, mesh, least, mean, most, mean_edge, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int64
@@ -5682,12 +5737,15 @@ subroutine riisf_cells_across(marks, mesh, least, mean, most, mean_edge, status)
   implicit none
   integer(int64), intent(in) :: marks                     !< Marks from riisf_mark_nodes.
   integer(int64), intent(in) :: mesh                      !< The mesh of the marking, with an adjacency.
-  real(c_double), intent(inout) :: least                  !< least, mean, most: 2 * half_thickness divided by longest_edge, by
-                                                          !! mean_edge and by shortest_edge.
-  real(c_double), intent(inout) :: mean                   !< least, mean, most: 2 * half_thickness divided by longest_edge, by
-                                                          !! mean_edge and by shortest_edge.
-  real(c_double), intent(inout) :: most                   !< least, mean, most: 2 * half_thickness divided by longest_edge, by
-                                                          !! mean_edge and by shortest_edge.
+  real(c_double), intent(inout) :: least                  !< least, mean, most: the numbers of mesh edges across the band: 2 *
+                                                          !! half_thickness divided by longest_edge, by mean_edge and by
+                                                          !! shortest_edge.
+  real(c_double), intent(inout) :: mean                   !< least, mean, most: the numbers of mesh edges across the band: 2 *
+                                                          !! half_thickness divided by longest_edge, by mean_edge and by
+                                                          !! shortest_edge.
+  real(c_double), intent(inout) :: most                   !< least, mean, most: the numbers of mesh edges across the band: 2 *
+                                                          !! half_thickness divided by longest_edge, by mean_edge and by
+                                                          !! shortest_edge.
   real(c_double), intent(inout) :: mean_edge              !< The mean length of the edges.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_cells_across) :: cells
@@ -5700,10 +5758,10 @@ subroutine riisf_cells_across(marks, mesh, least, mean, most, mean_edge, status)
 end subroutine riisf_cells_across
 
 !> Gives the volume that the valve sweeps between two openings, in mesh units cubed. The volume is the integral of u_surface . n
-!! over surface and time, so motion along the normals counts as positive. In a flow, a valve displaces less blood than this
-!! volume, because blood slips past the leaflets. Errors: RIIS_INVALID_ARGUMENT if an opening is out of range, and if the valve
-!! lacks the leaflet. RIIS_INVALID_PARAMETER if parameters do not fit together, and if the valve has only one state and an
-!! opening is above 0.
+!! over surface and time, so motion in the direction of the normals counts as positive. In a flow, a valve displaces less blood
+!! than this volume, because blood slips past the leaflets. Errors: RIIS_INVALID_ARGUMENT if an opening is out of range, and if
+!! the valve has no leaflet of this id. RIIS_INVALID_PARAMETER if parameters do not fit together, and for an opening above 0 of a
+!! valve that has only one state.
 subroutine riisf_valve_swept_volume(valve, opening_from, opening_to, scale, leaflet_id, volume, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -5714,7 +5772,7 @@ subroutine riisf_valve_swept_volume(valve, opening_from, opening_to, scale, leaf
   real(c_double), intent(in) :: opening_from              !< 0 to 1. The valve's own opening is ignored.
   real(c_double), intent(in) :: opening_to                !< 0 to 1. The valve's own opening is ignored.
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
-  integer(int32), intent(in) :: leaflet_id                !< RIIS_LEAFLET_*, or the id of a patch's leaflet, or
+  integer(int32), intent(in) :: leaflet_id                !< RIIS_LEAFLET_*, a leaflet_id of the caller's patches, or
                                                           !! RIIS_ALL_LEAFLETS.
   real(c_double), intent(inout) :: volume                 !< Written on success, mesh units cubed.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -5728,8 +5786,8 @@ end subroutine riisf_valve_swept_volume
 !> Finds the openings, or the sizes, at which the orifice of a valve has given areas (docs/theory/measures.md, 'From an area to a
 !! valve'). Errors: RIIS_INVALID_ARGUMENT for a bad area; the message names the area. If no opening or size has the area, the
 !! message names the range of areas. RIIS_INVALID_PARAMETER for an unknown name, and for a parameter that has three values or
-!! does not change the area. RIIS_INVALID_PARAMETER also for a valve with one state or no orifice. If a surface cannot be made,
-!! the message also names the opening or size. On an error nothing is written.
+!! does not change the area. RIIS_INVALID_PARAMETER also for a valve with only one state, and for a valve without an orifice. If
+!! a surface cannot be made, the message names the opening or size. After an error nothing is written.
 subroutine riisf_find_by_area(valve, name, n_areas, areas, half_thickness, tolerance, scale, rotation_axis, &
     rotation_angle, translation, n_threads, area_kind, values, reached, least, most, n_turns, status)
   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_loc, c_ptr, c_sizeof
@@ -5746,24 +5804,25 @@ subroutine riisf_find_by_area(valve, name, n_areas, areas, half_thickness, toler
   real(c_double), intent(in) :: areas(*)                  !< (n_areas): the wanted areas, 0 to 1e120, in mesh units squared.
   real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
                                                           !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
-  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
-                                                          !! its smooth surface differ by at most tolerance * half_thickness
-                                                          !! (docs/theory.md).
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The distance to a valve's triangles
+                                                          !! differs from the distance to its smooth surface by at most
+                                                          !! tolerance * half_thickness (docs/theory.md).
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
-  real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_axis(3)          !< A vector with a length of at least 1e-50 and components up to
+                                                          !! 1e50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse so
-                                                          !! large a shift of a valve that coordinates would be rounded by more
-                                                          !! than a thousandth of tolerance * half_thickness.
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse a
+                                                          !! shift of a valve that would round coordinates by more than a
+                                                          !! thousandth of tolerance * half_thickness.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int32), intent(in) :: area_kind                 !< RIIS_AREA_*, usually RIIS_AREA_GEOMETRIC.
-  real(c_double), intent(inout) :: values(*)              !< (n_areas): the openings or sizes.
-  real(c_double), intent(inout) :: reached(*)             !< (n_areas): the areas at these values.
-  real(c_double), intent(inout) :: least                  !< least, most: the least and the largest area.
-  real(c_double), intent(inout) :: most                   !< least, most: the least and the largest area.
-  integer(int32), intent(inout) :: n_turns                !< The number of such openings or sizes. If it is 0, the area only
-                                                          !! grows or only falls.
+  real(c_double), intent(inout) :: values(*)              !< (n_areas): the openings or sizes that were found.
+  real(c_double), intent(inout) :: reached(*)             !< (n_areas): the areas at these openings or sizes.
+  real(c_double), intent(inout) :: least                  !< least, most: the least and the largest area in this range.
+  real(c_double), intent(inout) :: most                   !< least, most: the least and the largest area in this range.
+  integer(int32), intent(inout) :: n_turns                !< The number of all such openings or sizes. If n_turns is 0, the
+                                                          !! area only grows or only falls.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   character(len=len_trim(name) + 1, kind=c_char) :: c_name
   type(riis_area_search) :: search
@@ -5807,24 +5866,25 @@ subroutine riisf_find_by_area_64(valve, name, n_areas, areas, half_thickness, to
   real(c_double), intent(in) :: areas(*)                  !< (n_areas): the wanted areas, 0 to 1e120, in mesh units squared.
   real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
                                                           !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
-  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
-                                                          !! its smooth surface differ by at most tolerance * half_thickness
-                                                          !! (docs/theory.md).
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The distance to a valve's triangles
+                                                          !! differs from the distance to its smooth surface by at most
+                                                          !! tolerance * half_thickness (docs/theory.md).
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
-  real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_axis(3)          !< A vector with a length of at least 1e-50 and components up to
+                                                          !! 1e50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse so
-                                                          !! large a shift of a valve that coordinates would be rounded by more
-                                                          !! than a thousandth of tolerance * half_thickness.
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse a
+                                                          !! shift of a valve that would round coordinates by more than a
+                                                          !! thousandth of tolerance * half_thickness.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int32), intent(in) :: area_kind                 !< RIIS_AREA_*, usually RIIS_AREA_GEOMETRIC.
-  real(c_double), intent(inout) :: values(*)              !< (n_areas): the openings or sizes.
-  real(c_double), intent(inout) :: reached(*)             !< (n_areas): the areas at these values.
-  real(c_double), intent(inout) :: least                  !< least, most: the least and the largest area.
-  real(c_double), intent(inout) :: most                   !< least, most: the least and the largest area.
-  integer(int64), intent(inout) :: n_turns                !< The number of such openings or sizes. If it is 0, the area only
-                                                          !! grows or only falls.
+  real(c_double), intent(inout) :: values(*)              !< (n_areas): the openings or sizes that were found.
+  real(c_double), intent(inout) :: reached(*)             !< (n_areas): the areas at these openings or sizes.
+  real(c_double), intent(inout) :: least                  !< least, most: the least and the largest area in this range.
+  real(c_double), intent(inout) :: most                   !< least, most: the least and the largest area in this range.
+  integer(int64), intent(inout) :: n_turns                !< The number of all such openings or sizes. If n_turns is 0, the
+                                                          !! area only grows or only falls.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   character(len=len_trim(name) + 1, kind=c_char) :: c_name
   type(riis_area_search) :: search
@@ -5851,8 +5911,8 @@ subroutine riisf_find_by_area_64(valve, name, n_areas, areas, half_thickness, to
   n_turns = range%n_turns
 end subroutine riisf_find_by_area_64
 
-!> Finds the opening at which riisf_find_passage first finds a passage. Errors: as riisf_surface_create and riisf_find_passage;
-!! the message also names the opening. RIIS_INVALID_PARAMETER for a valve with only one state.
+!> Finds the first opening of a valve at which riisf_find_passage finds a passage. Errors: as riisf_surface_create and
+!! riisf_find_passage; the message also names the opening. RIIS_INVALID_PARAMETER for a valve with only one state.
 subroutine riisf_find_first_passage(valve, mesh, n_from, from_num, n_to, to_num, half_thickness, tolerance, scale, &
     rotation_axis, rotation_angle, translation, opening_tolerance, n_threads, state, opening, closed_opening, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_loc, c_ptr, c_sizeof
@@ -5862,33 +5922,34 @@ subroutine riisf_find_first_passage(valve, mesh, n_from, from_num, n_to, to_num,
       riis_first_passage_options_init, riis_mark_options, riis_mark_options_init, riis_passage_ends, &
       riis_passage_ends_init, riis_status, riis_surface_options, riis_surface_options_init
   implicit none
-  integer(int64), intent(in) :: valve                     !< Its own opening is ignored.
-  integer(int64), intent(in) :: mesh                      !< Must have an adjacency, and need not have been marked.
+  integer(int64), intent(in) :: valve                     !< The valve, whose own opening is ignored.
+  integer(int64), intent(in) :: mesh                      !< A mesh with an adjacency, marked or not.
   integer(int32), intent(in) :: n_from                    !< At least 1.
   integer(int32), intent(in) :: from_num(n_from)          !< (n_from): the ids of the nodes at which paths begin, in any order.
                                                           !! Counted from 1.
   integer(int32), intent(in) :: n_to                      !< At least 1.
   integer(int32), intent(in) :: to_num(n_to)              !< (n_to): the ids of the nodes at which paths end, in any order. A
-                                                          !! node that is in both sets is a path. Counted from 1.
+                                                          !! node in both sets is itself a path. Counted from 1.
   real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
                                                           !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
-  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
-                                                          !! its smooth surface differ by at most tolerance * half_thickness
-                                                          !! (docs/theory.md).
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The distance to a valve's triangles
+                                                          !! differs from the distance to its smooth surface by at most
+                                                          !! tolerance * half_thickness (docs/theory.md).
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
-  real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_axis(3)          !< A vector with a length of at least 1e-50 and components up to
+                                                          !! 1e50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse so
-                                                          !! large a shift of a valve that coordinates would be rounded by more
-                                                          !! than a thousandth of tolerance * half_thickness.
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse a
+                                                          !! shift of a valve that would round coordinates by more than a
+                                                          !! thousandth of tolerance * half_thickness.
   real(c_double), intent(in) :: opening_tolerance         !< Tolerance of the opening, 1e-6 to 1. Usually 1e-3.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int32), intent(inout) :: state                  !< RIIS_FIRST_PASSAGE_*.
   real(c_double), intent(inout) :: opening                !< The first opening with a passage; 0 for ALWAYS, 1 for NEVER, 0 for
                                                           !! NONE.
   real(c_double), intent(inout) :: closed_opening         !< With RIIS_FIRST_PASSAGE_FOUND, the largest opening below `opening`
-                                                          !! at which the call found no passage; otherwise the same as
+                                                          !! at which the call found no passage. In other states it equals
                                                           !! `opening`.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   integer(int64), allocatable, target :: c_from_num(:)
@@ -5941,33 +6002,34 @@ subroutine riisf_find_first_passage_64(valve, mesh, n_from, from_num, n_to, to_n
       riis_first_passage_options_init, riis_mark_options, riis_mark_options_init, riis_passage_ends, &
       riis_passage_ends_init, riis_status, riis_surface_options, riis_surface_options_init
   implicit none
-  integer(int64), intent(in) :: valve                     !< Its own opening is ignored.
-  integer(int64), intent(in) :: mesh                      !< Must have an adjacency, and need not have been marked.
+  integer(int64), intent(in) :: valve                     !< The valve, whose own opening is ignored.
+  integer(int64), intent(in) :: mesh                      !< A mesh with an adjacency, marked or not.
   integer(int64), intent(in) :: n_from                    !< At least 1.
   integer(int64), intent(in) :: from_num(n_from)          !< (n_from): the ids of the nodes at which paths begin, in any order.
                                                           !! Counted from 1.
   integer(int64), intent(in) :: n_to                      !< At least 1.
   integer(int64), intent(in) :: to_num(n_to)              !< (n_to): the ids of the nodes at which paths end, in any order. A
-                                                          !! node that is in both sets is a path. Counted from 1.
+                                                          !! node in both sets is itself a path. Counted from 1.
   real(c_double), intent(in) :: half_thickness            !< The half thickness of the band, in mesh units, 1e-50 to 1e50:
                                                           !! d_min in the paper (4.2). RIIS_AUTO: 0.1 * scale.
-  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. Distances to a valve's triangles and to
-                                                          !! its smooth surface differ by at most tolerance * half_thickness
-                                                          !! (docs/theory.md).
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The distance to a valve's triangles
+                                                          !! differs from the distance to its smooth surface by at most
+                                                          !! tolerance * half_thickness (docs/theory.md).
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
-  real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_axis(3)          !< A vector with a length of at least 1e-50 and components up to
+                                                          !! 1e50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse so
-                                                          !! large a shift of a valve that coordinates would be rounded by more
-                                                          !! than a thousandth of tolerance * half_thickness.
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse a
+                                                          !! shift of a valve that would round coordinates by more than a
+                                                          !! thousandth of tolerance * half_thickness.
   real(c_double), intent(in) :: opening_tolerance         !< Tolerance of the opening, 1e-6 to 1. Usually 1e-3.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int32), intent(inout) :: state                  !< RIIS_FIRST_PASSAGE_*.
   real(c_double), intent(inout) :: opening                !< The first opening with a passage; 0 for ALWAYS, 1 for NEVER, 0 for
                                                           !! NONE.
   real(c_double), intent(inout) :: closed_opening         !< With RIIS_FIRST_PASSAGE_FOUND, the largest opening below `opening`
-                                                          !! at which the call found no passage; otherwise the same as
+                                                          !! at which the call found no passage. In other states it equals
                                                           !! `opening`.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   integer(int64), allocatable, target :: c_from_num(:)
@@ -6018,8 +6080,8 @@ end subroutine riisf_find_first_passage_64
 ! a copy of the state. The rate is the derivative of the opening by time.
 ! -----------------------------------------------------------------------------------------------------------------
 
-!> Gives the opening of a table at a time. Errors: RIIS_INVALID_ARGUMENT for a bad field or key; the message names it and its
-!! value.
+!> Gives the opening and its rate at a given time, from a table. Errors: RIIS_INVALID_ARGUMENT for a bad field or key; the
+!! message names the field or key and its value.
 subroutine riisf_opening_from_table(n_keys, key_time, key_opening, period, interpolation, time, opening, rate, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32
@@ -6029,9 +6091,9 @@ subroutine riisf_opening_from_table(n_keys, key_time, key_opening, period, inter
   integer(int32), intent(in) :: n_keys                    !< 1 to 1,000,000.
   real(c_double), intent(in) :: key_time(*)               !< (n_keys), strictly ascending, magnitude at most 1e30.
   real(c_double), intent(in) :: key_opening(*)            !< (n_keys), 0 to 1.
-  real(c_double), intent(in) :: period                    !< If above 0, the table repeats with this period. All keys lie
-                                                          !! within one period of the first key. If the last key is exactly one
-                                                          !! period after the first key, the two keys must have the same
+  real(c_double), intent(in) :: period                    !< If above 0, the table repeats with this period. All keys must lie
+                                                          !! within one period after the first key. If the last key is exactly
+                                                          !! one period after the first key, the two keys must have the same
                                                           !! opening. With 0, the default, the opening is constant before the
                                                           !! first key and after the last key.
   integer(int32), intent(in) :: interpolation             !< RIIS_INTERPOLATION_*, usually RIIS_INTERPOLATION_LINEAR.
@@ -6050,8 +6112,8 @@ subroutine riisf_opening_from_table(n_keys, key_time, key_opening, period, inter
   status = riis_opening_from_table(table, time, opening, rate)
 end subroutine riisf_opening_from_table
 
-!> Gives the opening at a time, from the times of the two ramps. Errors: RIIS_INVALID_ARGUMENT for a bad field; the message names
-!! the field and its value.
+!> Gives the opening and its rate at a given time, from the times of the two ramps. Errors: RIIS_INVALID_ARGUMENT for a bad
+!! field; the message names the field and its value.
 subroutine riisf_opening_from_times(opening_start, opening_duration, closing_start, closing_duration, closed, open, &
     period, time, opening, rate, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -6063,12 +6125,12 @@ subroutine riisf_opening_from_times(opening_start, opening_duration, closing_sta
   real(c_double), intent(in) :: closing_start             !< The time at which the valve begins to close, at least
                                                           !! opening_start + opening_duration.
   real(c_double), intent(in) :: closing_duration          !< How long closing takes, > 0.
-  real(c_double), intent(in) :: closed                    !< closed, open: the openings of the closed and of the open valve, 0
-                                                          !! to 1. Usually 0 and 1.
-  real(c_double), intent(in) :: open                      !< closed, open: the openings of the closed and of the open valve, 0
-                                                          !! to 1. Usually 0 and 1.
+  real(c_double), intent(in) :: closed                    !< closed, open: the opening of the closed valve, and the opening of
+                                                          !! the open valve, each 0 to 1. Usually 0 and 1.
+  real(c_double), intent(in) :: open                      !< closed, open: the opening of the closed valve, and the opening of
+                                                          !! the open valve, each 0 to 1. Usually 0 and 1.
   real(c_double), intent(in) :: period                    !< If above 0, the valve opens and closes once in each period. With
-                                                          !! 0, the default, it opens and closes only once.
+                                                          !! 0, the default, the valve opens and closes only once.
   real(c_double), intent(in) :: time                      !< Magnitude at most 1e30.
   real(c_double), intent(inout) :: opening                !< Written on success.
   real(c_double), intent(inout) :: rate                   !< Written on success.
@@ -6103,8 +6165,9 @@ subroutine riisf_opening_switch_init(state, phase, status)
   phase = the_state%phase
 end subroutine riisf_opening_switch_init
 
-!> Advances a switch to a time. The phase changes only at the end of a step, so the error of the opening is of first order in the
-!! length of the step. Errors: RIIS_INVALID_ARGUMENT for a bad field or argument; the message names it and its value.
+!> Advances the state of a switch to a later time. The phase changes only at the end of a step, so the error of the opening is of
+!! first order in the length of the step. Errors: RIIS_INVALID_ARGUMENT for a bad field or argument; the message names the field
+!! or argument and its value.
 subroutine riisf_opening_switch_advance(opening_duration, closing_duration, open_above, close_below, filter_time, &
     dwell_time, time, pressure_difference, flow, state, phase, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -6116,12 +6179,12 @@ subroutine riisf_opening_switch_advance(opening_duration, closing_duration, open
   real(c_double), intent(in) :: closing_duration          !< The time that the valve takes to close, > 0.
   real(c_double), intent(in) :: open_above                !< The pressure difference above which the valve opens. Usually 0.
   real(c_double), intent(in) :: close_below               !< The flow below which the valve closes. Usually 0.
-  real(c_double), intent(in) :: filter_time               !< The time constant of the filter for pressure difference and flow,
-                                                          !! >= 0. 0: no filter.
+  real(c_double), intent(in) :: filter_time               !< The time constant of the filter that smooths pressure difference
+                                                          !! and flow, >= 0. 0: no filter.
   real(c_double), intent(in) :: dwell_time                !< The shortest time between two changes of phase, >= 0. Usually 0.
   real(c_double), intent(in) :: time                      !< At least state(1).
-  real(c_double), intent(in) :: pressure_difference       !< The values at this time, at most 1e30 in magnitude.
-  real(c_double), intent(in) :: flow                      !< The values at this time, at most 1e30 in magnitude.
+  real(c_double), intent(in) :: pressure_difference       !< The values at `time`, each at most 1e30 in magnitude.
+  real(c_double), intent(in) :: flow                      !< The values at `time`, each at most 1e30 in magnitude.
   real(c_double), intent(inout) :: state(7)               !< Time, opening, rate, progress, filtered pressure difference,
                                                           !! filtered flow, time of the last change of phase (NaN: none yet).
                                                           !! Written on success.
@@ -6168,18 +6231,19 @@ subroutine riisf_opening_angle_init(state, status)
       the_state%pressure_difference, the_state%flow]
 end subroutine riisf_opening_angle_init
 
-!> Advances the angle law to a time. During a step, the law takes the pressure difference and the flow as linear in time. The
-!! error of the angle is therefore of second order in the length of the step. During the first step the law takes both as
-!! constant, because no earlier values are known. Errors: RIIS_INVALID_ARGUMENT for a bad field or argument; the message names it
-!! and its value. RIIS_LIMIT_EXCEEDED if the integration of the step needs more than a million smaller steps.
+!> Advances the state of the angle law to a later time. The law assumes that the pressure difference and the flow change linearly
+!! during a step. The error of the angle is therefore of second order in the length of the step. During the first step both are
+!! assumed to be constant, because no earlier values are known. Errors: RIIS_INVALID_ARGUMENT for a bad field or argument; the
+!! message names the field or argument and its value. RIIS_LIMIT_EXCEEDED if the integration of the step needs more than a
+!! million smaller steps.
 subroutine riisf_opening_angle_advance(pressure_gain, flow_gain, friction, vortex_gain, angle_min, angle_max, time, &
     pressure_difference, flow, state, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use riis_c, only: RIIS_OK, riis_opening_angle, riis_opening_angle_advance, riis_opening_angle_init, &
       riis_opening_angle_state, riis_opening_angle_state_init, riis_status
   implicit none
-  real(c_double), intent(in) :: pressure_gain             !< K_p, >= 0. This field and the next three have the default NaN,
-                                                          !! which is refused.
+  real(c_double), intent(in) :: pressure_gain             !< K_p in the paper, >= 0. This field and the next three have the
+                                                          !! default NaN, which is refused.
   real(c_double), intent(in) :: flow_gain                 !< K_q, >= 0.
   real(c_double), intent(in) :: friction                  !< K_f, >= 0.
   real(c_double), intent(in) :: vortex_gain               !< K_v, >= 0.
@@ -6187,8 +6251,8 @@ subroutine riisf_opening_angle_advance(pressure_gain, flow_gain, friction, vorte
   real(c_double), intent(in) :: angle_max                 !< The angle of the open valve in degrees, above angle_min, at most
                                                           !! 90. Usually 75.
   real(c_double), intent(in) :: time                      !< At least state(1).
-  real(c_double), intent(in) :: pressure_difference       !< The values at this time, at most 1e30 in magnitude.
-  real(c_double), intent(in) :: flow                      !< The values at this time, at most 1e30 in magnitude.
+  real(c_double), intent(in) :: pressure_difference       !< The values at `time`, each at most 1e30 in magnitude.
+  real(c_double), intent(in) :: flow                      !< The values at `time`, each at most 1e30 in magnitude.
   real(c_double), intent(inout) :: state(7)               !< Time, opening, rate, angle in degrees, its rate, pressure
                                                           !! difference, flow (NaN: none yet). Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -6221,16 +6285,16 @@ end subroutine riisf_opening_angle_advance
 ! Placing and warping by a patient's landmarks
 ! -----------------------------------------------------------------------------------------------------------------
 
-!> Sets a valve's sizes, in centimetres, to a patient's sizes, and finds the placement of the valve. Errors:
-!! RIIS_INVALID_ARGUMENT if landmarks are missing, too many, in one place, collinear or mirrored, and if they do not show the
-!! direction of flow. RIIS_INVALID_ARGUMENT also if they are too large or too small for a heart valve at this scale. The message
-!! names the landmarks. The axis of a tricuspid or mitral_coapting valve must be at most 20 degrees from the normal of the
-!! annulus. A mitral valve must satisfy three conditions: - The posterior horn is on the posterior side of the annulus, and the
-!! trigones are on the anterior side. - The axis of the fitted valve is at most 20 degrees from the annulus' normal. - The fitted
-!! AP_diameter differs from the depth of the annulus by at most a twelfth of this depth, or by at most five times the noise. The
-!! depth is measured from the anterior horn to the posterior horn, or without a posterior horn to the farthest point of the
-!! annulus. RIIS_INVALID_PARAMETER for a valve from patches, for an unknown name in `held`, and for sizes that do not fit
-!! together.
+!> Sets a valve's sizes to a patient's sizes, in centimetres, and finds the placement of the valve. Errors: RIIS_INVALID_ARGUMENT
+!! if landmarks are missing, too many, in one place, collinear or mirrored, and if they do not show the direction of flow.
+!! RIIS_INVALID_ARGUMENT also if the distances between landmarks are too large or too small for a heart valve at this scale. The
+!! message names the landmarks. The axis of a tricuspid or mitral_coapting valve must be at most 20 degrees from the normal of
+!! the annulus. A mitral valve must satisfy three conditions: - The posterior horn is on the posterior side of the annulus, and
+!! the trigones are on the anterior side. - The axis of the fitted valve is at most 20 degrees from the annulus' normal. - The
+!! fitted AP_diameter differs from the depth of the annulus by at most a twelfth of this depth, or by at most five times the
+!! noise. The depth is measured from the anterior horn to the posterior horn, or if there is no posterior horn, to the farthest
+!! point of the annulus. RIIS_INVALID_PARAMETER for a valve from patches, for an unknown name in `held`, and for sizes that do
+!! not fit together.
 subroutine riisf_place(valve, n_landmarks, xyz, role, leaflet_id, scale, noise, flow, held, rotation_axis, &
     rotation_angle, translation, residual, size_state, status)
   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_sizeof
@@ -6245,29 +6309,30 @@ subroutine riisf_place(valve, n_landmarks, xyz, role, leaflet_id, scale, noise, 
   integer(int32), intent(in) :: n_landmarks               !< 1 to 10,000.
   real(c_double), intent(in) :: xyz(3, *)                 !< (3, n_landmarks): the points, in mesh units.
   integer(int32), intent(in) :: role(*)                   !< (n_landmarks): RIIS_LANDMARK_*.
-  integer(int32), intent(in) :: leaflet_id(2, *)          !< (2, n_landmarks): the leaflets of each landmark. For a nadir or an
-                                                          !! attachment point, pass the id of its cusp, and -1. For a
-                                                          !! commissure, pass the ids of its two leaflets in any order. Pass -1
-                                                          !! and -1 if the leaflets are not known. For an aortic or tricuspid
-                                                          !! valve, the known leaflets must determine the names of all
-                                                          !! leaflets. For other kinds, if no leaflet is known, the cusp of the
+  integer(int32), intent(in) :: leaflet_id(2, *)          !< (2, n_landmarks): the ids of up to two leaflets for each landmark.
+                                                          !! For a nadir or an attachment point, pass the id of its cusp, and
+                                                          !! -1. For a commissure, pass the ids of its two leaflets in any
+                                                          !! order. Pass -1 and -1 if the leaflets are not known. For an aortic
+                                                          !! or tricuspid valve, enough ids must be known to name all leaflets.
+                                                          !! For other kinds with cusps, if no id is known, the cusp of the
                                                           !! first nadir becomes cusp 0.
-  real(c_double), intent(in) :: scale                     !< Mesh units in a centimetre: 10 for millimetres, 1 for centimetres,
-                                                          !! or 0.01 for metres. Must be set.
+  real(c_double), intent(in) :: scale                     !< The number of mesh units in a centimetre: 10 for millimetres, 1
+                                                          !! for centimetres, or 0.01 for metres. This field must be set.
   real(c_double), intent(in) :: noise                     !< The standard deviation of each coordinate of the landmarks, mesh
                                                           !! units, >= 0. RIIS_AUTO: 0.03 * scale.
-  real(c_double), intent(in) :: flow(3)                   !< The direction of flow, of any length. 0: not known. bileaflet:
-                                                          !! must be set. mitral: needed unless both commissures or the horns
-                                                          !! show the side of the atrium. mitral_coapting: needed unless the
-                                                          !! anterior horn and both commissures are given. tricuspid: needed
-                                                          !! unless the leaflets of two commissures are known.
-  character(len=*), intent(in) :: held                    !< The names of the parameters whose values do not change, separated
-                                                          !! by blanks or commas. '' stands for no name.
+  real(c_double), intent(in) :: flow(3)                   !< The direction of flow, a vector of any length. 0: not known.
+                                                          !! bileaflet: must be set. mitral: needed unless both commissures or
+                                                          !! both horns show the side of the atrium. mitral_coapting: needed
+                                                          !! unless the anterior horn and both commissures are among the
+                                                          !! landmarks. tricuspid: needed unless the leaflets of two
+                                                          !! commissures are known.
+  character(len=*), intent(in) :: held                    !< The names of the parameters whose values must not change,
+                                                          !! separated by blanks or commas. '' stands for no name.
   real(c_double), intent(inout) :: rotation_axis(3)       !< Unit vector.
   real(c_double), intent(inout) :: rotation_angle         !< Degrees, 0 to 180.
   real(c_double), intent(inout) :: translation(3)         !< Mesh units.
-  real(c_double), intent(inout) :: residual(*)            !< (n_landmarks): distances from the landmarks to their places, mesh
-                                                          !! units.
+  real(c_double), intent(inout) :: residual(*)            !< (n_landmarks): the distance of each landmark from its place on the
+                                                          !! closed valve, mesh units.
   integer(int32), intent(inout) :: size_state(*)          !< (number of parameters): RIIS_SIZE_*.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   character(len=len_trim(held) + 1, kind=c_char) :: c_held
@@ -6298,8 +6363,8 @@ subroutine riisf_place(valve, n_landmarks, xyz, role, leaflet_id, scale, noise, 
 end subroutine riisf_place
 
 !> Makes a warp from landmarks on the unwarped valve. The map is the identity until riisf_warp_set_targets gives it targets.
-!! Errors: RIIS_INVALID_ARGUMENT for a bad landmark or field, if two landmarks are in one place, and if all landmarks lie on a
-!! line. The message names the landmark or field and its value.
+!! Errors: RIIS_INVALID_ARGUMENT for a bad landmark or field, if two landmarks coincide, and if all landmarks lie on a line. The
+!! message names the landmark or field and its value.
 subroutine riisf_warp_create(n_landmarks, xyz, noise, scale, rotation_axis, rotation_angle, translation, warp, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_loc, c_null_ptr, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -6314,12 +6379,13 @@ subroutine riisf_warp_create(n_landmarks, xyz, noise, scale, rotation_axis, rota
                                                           !! 1e50. The map is smoothed until it misses the targets by about
                                                           !! this noise. 0: the map takes the landmarks exactly to the targets.
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
-  real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_axis(3)          !< A vector with a length of at least 1e-50 and components up to
+                                                          !! 1e50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
                                                           !! usually 0.
-  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse so
-                                                          !! large a shift of a valve that coordinates would be rounded by more
-                                                          !! than a thousandth of tolerance * half_thickness.
+  real(c_double), intent(in) :: translation(3)            !< A shift in mesh units, -1e50 to 1e50, usually 0. Calls refuse a
+                                                          !! shift of a valve that would round coordinates by more than a
+                                                          !! thousandth of tolerance * half_thickness.
   integer(int64), intent(inout) :: warp                   !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_points) :: sources
@@ -6347,10 +6413,11 @@ subroutine riisf_warp_create(n_landmarks, xyz, noise, scale, rotation_axis, rota
   warp = handle_of(c_handle)
 end subroutine riisf_warp_create
 
-!> Makes the warp take the landmarks to the targets. Earlier targets have no influence on the map, not even on its last bits.
-!! Errors: RIIS_INVALID_ARGUMENT for a bad point; the message names the point. RIIS_INVALID_PARAMETER for a warp that folds. For
-!! this test, the call computes the determinant of the map's derivative half way between each landmark and its nearest landmark.
-!! The warp folds if a determinant is 0 or less. A larger noise in the options smooths the map, and may prevent folds.
+!> Sets the targets to which the warp takes its landmarks. Earlier targets have no influence on the map, not even on its last
+!! bits. Errors: RIIS_INVALID_ARGUMENT for a bad point; the message names the point. RIIS_INVALID_PARAMETER for a warp that
+!! folds. To find folds, the call computes the determinant of the map's derivative half way between each landmark and the
+!! landmark nearest to it. The warp folds if any of these determinants is 0 or less. A larger noise in the options smooths the
+!! map more, and may prevent folds.
 subroutine riisf_warp_set_targets(warp, n_landmarks, xyz, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -6372,9 +6439,8 @@ subroutine riisf_warp_set_targets(warp, n_landmarks, xyz, status)
   status = riis_warp_set_targets(c_handle_of(warp), targets)
 end subroutine riisf_warp_set_targets
 
-!> Warps a valve by one or two maps, which the valve copies. The maps move the valve's curves at every opening, before the
-!! placement. Errors: RIIS_INVALID_ARGUMENT for `open` without `closed`. RIIS_INVALID_PARAMETER for a bileaflet valve, which is
-!! rigid.
+!> Warps a valve by one or two maps, which are copied. At every opening the maps move the valve's curves, before the placement.
+!! Errors: RIIS_INVALID_ARGUMENT for `open` without `closed`. RIIS_INVALID_PARAMETER for a bileaflet valve, which is rigid.
 subroutine riisf_valve_set_warp(valve, closed, open, status)
   use, intrinsic :: iso_fortran_env, only: int64
   use riis_support, only: c_handle_of

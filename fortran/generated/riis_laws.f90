@@ -35,12 +35,12 @@ module riis_laws
     real(c_double) :: closing_start = no_value              !< The time at which the valve begins to close, at least
                                                             !! opening_start + opening_duration.
     real(c_double) :: closing_duration = no_value           !< How long closing takes, > 0.
-    real(c_double) :: closed = 0                            !< closed, open: the openings of the closed and of the open valve, 0
-                                                            !! to 1. Default 0 and 1.
-    real(c_double) :: open = 1                              !< closed, open: the openings of the closed and of the open valve, 0
-                                                            !! to 1. Default 0 and 1.
+    real(c_double) :: closed = 0                            !< closed, open: the opening of the closed valve, and the opening of
+                                                            !! the open valve, each 0 to 1. Default 0 and 1.
+    real(c_double) :: open = 1                              !< closed, open: the opening of the closed valve, and the opening of
+                                                            !! the open valve, each 0 to 1. Default 0 and 1.
     real(c_double) :: period = 0                            !< If above 0, the valve opens and closes once in each period. With
-                                                            !! 0, the default, it opens and closes only once.
+                                                            !! 0, the default, the valve opens and closes only once.
   end type riis_opening_times
 
   !> A valve that opens when the pressure difference exceeds open_above, and closes when the flow falls below close_below.
@@ -53,8 +53,8 @@ module riis_laws
                                                             !! refused.
     real(c_double) :: open_above = 0                        !< The pressure difference above which the valve opens. Default 0.
     real(c_double) :: close_below = 0                       !< The flow below which the valve closes. Default 0.
-    real(c_double) :: filter_time = 0                       !< The time constant of the filter for pressure difference and flow,
-                                                            !! >= 0. Default 0: no filter.
+    real(c_double) :: filter_time = 0                       !< The time constant of the filter that smooths pressure difference
+                                                            !! and flow, >= 0. Default 0: no filter.
     real(c_double) :: dwell_time = 0                        !< The shortest time between two changes of phase, >= 0. Default 0.
   end type riis_opening_switch
 
@@ -63,11 +63,11 @@ module riis_laws
     real(c_double) :: time = 0                              !< Of this state.
     real(c_double) :: opening = 0                           !< opening, rate: at that time.
     real(c_double) :: rate = 0                              !< opening, rate: at that time.
-    real(c_double) :: progress = 0                          !< The fraction of the motion from closed (0) to open (1); the
-                                                            !! opening is a smooth function of it.
+    real(c_double) :: progress = 0                          !< The position within the motion from closed (0) to open (1). The
+                                                            !! opening is a smooth function of this position.
     real(c_double) :: pressure_difference = no_value        !< Filtered; NaN: none yet.
     real(c_double) :: flow = no_value                       !< Filtered; NaN: none yet.
-    real(c_double) :: turn_time = no_value                  !< Time of the last change of phase; NaN: none yet.
+    real(c_double) :: turn_time = no_value                  !< The time of the last change of phase; NaN: none yet.
     integer(int32) :: phase = RIIS_PHASE_CLOSING            !< RIIS_PHASE_*.
   end type riis_opening_switch_state
 
@@ -79,8 +79,8 @@ module riis_laws
   !! The opening is the angle's fraction of the range from angle_min to angle_max. The paper's values, for mmHg, ml and s:
   !! pressure_gain 5500, flow_gain 2, friction 50, vortex_gain 7 for the aortic and 3.5 for the mitral valve.
   type :: riis_opening_angle
-    real(c_double) :: pressure_gain = no_value              !< K_p, >= 0. This field and the next three have the default NaN,
-                                                            !! which is refused.
+    real(c_double) :: pressure_gain = no_value              !< K_p in the paper, >= 0. This field and the next three have the
+                                                            !! default NaN, which is refused.
     real(c_double) :: flow_gain = no_value                  !< K_q, >= 0.
     real(c_double) :: friction = no_value                   !< K_f, >= 0.
     real(c_double) :: vortex_gain = no_value                !< K_v, >= 0.
@@ -94,8 +94,8 @@ module riis_laws
     real(c_double) :: time = 0                              !< Of this state.
     real(c_double) :: opening = 0                           !< opening, rate: at that time.
     real(c_double) :: rate = 0                              !< opening, rate: at that time.
-    real(c_double) :: angle = 0                             !< angle, angle_rate: degrees, degrees per time.
-    real(c_double) :: angle_rate = 0                        !< angle, angle_rate: degrees, degrees per time.
+    real(c_double) :: angle = 0                             !< angle, angle_rate: in degrees, and in degrees per unit of time.
+    real(c_double) :: angle_rate = 0                        !< angle, angle_rate: in degrees, and in degrees per unit of time.
     real(c_double) :: pressure_difference = no_value        !< At that time; NaN: none yet.
     real(c_double) :: flow = no_value                       !< At that time; NaN: none yet.
   end type riis_opening_angle_state

@@ -16,14 +16,14 @@ module riis_leaking
   !> Edges that leak, from %get_list. The object of the leaks owns the arrays, which count from 1. Ids count from
   !! 0: node_id + 1 are columns of xyz. Lengths are in mesh units.
   type :: riis_leak_list
-    integer(int64) :: n_edges = 0                           !< The number of edges that leak. If it is 0, node ids are -1, and
-                                                            !! all other components except seconds are 0.
+    integer(int64) :: n_edges = 0                           !< The number of edges that leak. If n_edges is 0, the node ids are
+                                                            !! -1, and all other components except seconds are 0.
     integer(int64), pointer :: node_id(:, :) => null()      !< (2, n_edges): the two nodes, the lower id first.
     real(c_double), pointer :: length(:) => null()          !< (n_edges).
-    real(c_double), pointer :: distance(:) => null()        !< (n_edges): the least half thickness at which the edge does not
-                                                            !! leak. Without an offset this is the distance of the edge's nearer
-                                                            !! node.
-    real(c_double) :: half_thickness = 0                    !< The least half thickness with which each of these edges has a
+    real(c_double), pointer :: distance(:) => null()        !< (n_edges): for each edge, the least half thickness with which the
+                                                            !! edge does not leak. Without an offset, this is the distance of the
+                                                            !! edge's nearer node from the surface.
+    real(c_double) :: half_thickness = 0                    !< The least half thickness with which each edge of the list has a
                                                             !! marked node, for the present triangles.
     integer(int64) :: longest_node_id(2) = -1               !< The nodes of the longest edge, the lower id first. Of equally long
                                                             !! edges, the first one counts.

@@ -25,38 +25,40 @@ module riis_marking
     real(c_double), pointer :: K_u_surface(:, :) => null()  !< (3, n_nodes): K u_surface.
     real(c_double), pointer :: point(:, :) => null()        !< (3, n_nodes): the closest point of the surface.
     real(c_double), pointer :: normal(:, :) => null()       !< (3, n_nodes): the unit normal of its triangle.
-    real(c_double), pointer :: barycentric(:, :) => null()  !< (3, n_nodes): the point's weights for the triangle's vertices.
-    real(c_double), pointer :: uv(:, :) => null()           !< (2, n_nodes): u and v of the point on its patch, in [0,1]. S_u x
-                                                            !! S_v points along the normal. On mirrored patches it points against
-                                                            !! the normal (cusps: patch_id % 4 >= 2; mitral: 3, 4, 5, 8, 9). With
-                                                            !! flip_normals, both directions are reversed.
+    real(c_double), pointer :: barycentric(:, :) => null()  !< (3, n_nodes): the closest point's weights for the vertices of its
+                                                            !! triangle.
+    real(c_double), pointer :: uv(:, :) => null()           !< (2, n_nodes): u and v of the closest point on its patch S(u,v), in
+                                                            !! [0,1]. The vector S_u x S_v points along the normal. On mirrored
+                                                            !! patches (cusps: patch_id % 4 >= 2; mitral: 3, 4, 5, 8, 9), this
+                                                            !! vector points against the normal. With flip_normals, both
+                                                            !! directions are reversed.
     real(c_double), pointer :: velocity(:, :) => null()     !< (3, n_nodes): the velocity of the surface at the closest point,
                                                             !! from the surface's last update. If several leaflets are equally
                                                             !! near (within 1e-6 half thicknesses), the velocity is the mean of
                                                             !! the velocities at their closest points (docs/theory/marks.md). The
-                                                            !! same holds for several patches of one leaflet (within 1e-9). All
-                                                            !! other components come from the closest triangle.
+                                                            !! same holds for several patches of one leaflet (within 1e-9 half
+                                                            !! thicknesses). All other components come from the closest triangle.
     integer(int32), pointer :: side(:) => null()            !< (n_nodes): as riis_closest%side.
     integer(int32), pointer :: rim(:) => null()             !< (n_nodes): 1 if the closest point lies on the rim of the surface,
-                                                            !! else 0. The rim of a valve consists of the sides that belong to
-                                                            !! only one patch, such as free edges and the annulus. Where free
-                                                            !! edges of a closed valve coincide, they are not part of the rim.
-                                                            !! The rim of a surface from arrays consists of the edges that belong
-                                                            !! to only one triangle. Vertices with equal coordinates count as one
-                                                            !! vertex.
+                                                            !! else 0. The rim of a valve consists of those sides of patches that
+                                                            !! belong to only one patch, such as free edges and the annulus.
+                                                            !! Where free edges of a closed valve coincide, they are not part of
+                                                            !! the rim. The rim of a surface from arrays consists of the edges
+                                                            !! that belong to only one triangle. Vertices with equal coordinates
+                                                            !! count as one vertex.
     integer(int32), pointer :: patch_id(:) => null()        !< (n_nodes): as in riis_triangles.
     real(c_double), pointer :: distance_gradient(:, :) => null() !< (n_directions, n_nodes): the derivative of the distance in
-                                                            !! each direction. It is -n.V. The unit vector n points from the
-                                                            !! closest point to the node, and V is the rate of the closest
-                                                            !! point in the triangle triangle_id. At nodes on the surface
-                                                            !! the array has 0, because the distance has a kink there. The
+                                                            !! each direction, which is -n.V. The unit vector n points from
+                                                            !! the closest point to the node, and V is the rate of the
+                                                            !! closest point in the triangle triangle_id. Nodes on the
+                                                            !! surface get 0, because the distance has a kink there. The
                                                             !! distance also has a kink at nodes with several closest
                                                             !! points.
     real(c_double), pointer :: K_gradient(:, :) => null()   !< (n_directions, n_nodes): the derivative of K in each direction,
                                                             !! for constant R and half thickness. The derivative is 0 where K is
-                                                            !! 0. If there is an offset, the unit vector n of distance_gradient
-                                                            !! is the surface's normal at nodes on the surface. At a rim, the
-                                                            !! derivative then includes the rotation of this normal.
+                                                            !! 0. If the surface has an offset, the unit vector n of a node on
+                                                            !! the surface is the surface's normal. At a rim, the derivative then
+                                                            !! includes the rotation of this normal.
     real(c_double), pointer :: height(:) => null()          !< (n_nodes): for a surface with an offset, the signed distance s of
                                                             !! riis_surface_create. If the closest point p is on a rim, the
                                                             !! height of a node x is n.(x - p) with the normal n.

@@ -19,26 +19,26 @@ module riis_surfaces
     real(c_double), pointer :: uv(:, :) => null()           !< (2, n_vertices): each vertex's u and v on its patch, in [0,1].
     real(c_double), pointer :: velocity(:, :) => null()     !< (3, n_vertices): each vertex's velocity. Where closed cusps meet,
                                                             !! each vertex has the velocity of its own cusp.
-    integer(int64), pointer :: vertex_id(:, :) => null()    !< (3, n_triangles): their vertices.
-    integer(int64), pointer :: triangle_id(:) => null()     !< (n_triangles), ascending: the id that queries report; 0, 1, 2, ...
-                                                            !! for a valve.
-    integer(int32), pointer :: leaflet_id(:) => null()      !< (n_triangles): RIIS_LEAFLET_*, or the caller's from patches and
-                                                            !! arrays.
-    integer(int32), pointer :: patch_id(:) => null()        !< (n_triangles). In a surface from arrays, leaflets have 0 and a
-                                                            !! skirt has 1. Patches of the caller are numbered from 0. In a valve
-                                                            !! of n cusps, the bottom of a cusp has 4 * leaflet, the top has 1
-                                                            !! more, and the mirror images of bottom and top have 2 and 3 more. A
-                                                            !! patch in a fused part has a further 4 * n more. In the anterior
-                                                            !! mitral leaflet, the triangle at the posteromedial commissure has
-                                                            !! 0, the side has 1, and the middle has 2. The mirror images of 2, 1
-                                                            !! and 0 have 3, 4 and 5. In the posterior mitral leaflet, a side
-                                                            !! scallop has 6, and half of the middle scallop has 7. The mirror
-                                                            !! images of 7 and 6 have 8 and 9. In a bileaflet valve, the halves
-                                                            !! of a leaflet have 2 * leaflet and 2 * leaflet + 1, and the
-                                                            !! quarters of the ring have 4 to 7. A patch of a skirt has the id of
-                                                            !! the patch that it continues, plus the number of patch ids without
-                                                            !! a skirt. This number is 10 for mitral, and 12 for three cusps
-                                                            !! without a fused commissure.
+    integer(int64), pointer :: vertex_id(:, :) => null()    !< (3, n_triangles): the vertices of each triangle.
+    integer(int64), pointer :: triangle_id(:) => null()     !< (n_triangles), ascending: the ids of the triangles in results of
+                                                            !! queries; 0, 1, 2, ... for a valve.
+    integer(int32), pointer :: leaflet_id(:) => null()      !< (n_triangles): RIIS_LEAFLET_*, or the caller's leaflet_id if the
+                                                            !! surface comes from patches or arrays.
+    integer(int32), pointer :: patch_id(:) => null()        !< (n_triangles): the number of the patch. In a surface from arrays,
+                                                            !! leaflets have 0 and a skirt has 1. Patches of the caller are
+                                                            !! numbered from 0. In a valve of n cusps, the bottom of the cusp
+                                                            !! with leaflet_id i has 4 i, and the top 4 i + 1. The mirror images
+                                                            !! of bottom and top have 4 i + 2 and 4 i + 3. In a fused part, each
+                                                            !! of these ids is 4 n larger. In the anterior mitral leaflet, the
+                                                            !! triangle at the posteromedial commissure has 0, the side has 1,
+                                                            !! and the middle has 2. The mirror images of 2, 1 and 0 have 3, 4
+                                                            !! and 5. In the posterior mitral leaflet, a side scallop has 6, and
+                                                            !! half of the middle scallop has 7. The mirror images of 7 and 6
+                                                            !! have 8 and 9. In a bileaflet valve, the halves of leaflet i have 2
+                                                            !! i and 2 i + 1, and the quarters of the ring have 4 to 7. A patch
+                                                            !! of a skirt has the id of the leaflet's patch that it continues,
+                                                            !! plus the number of patch ids of the leaflets. This number is 10
+                                                            !! for mitral, and 12 for three cusps without a fused commissure.
   end type riis_triangles
 
   !> Pointers to the attachment of a valve's surface, by %get_attachment. The surface owns the arrays, which count from 1. Ids

@@ -18,20 +18,20 @@ module riis_valves
     integer(int64), pointer, contiguous :: first_piece(:) => null() !< (n_curves + 1): the pieces of curve i are first_piece(i +
                                                             !! 1) to first_piece(i + 2) - 1.
     integer(int32), pointer, contiguous :: degree(:) => null() !< (n_pieces): 2 or 3.
-    real(c_double), pointer, contiguous :: control(:, :) => null() !< (3, sum of all degree + 1): control points, piece after
-                                                            !! piece.
+    real(c_double), pointer, contiguous :: control(:, :) => null() !< (3, the sum of degree + 1 over all pieces): the control
+                                                            !! points, piece after piece.
     integer(int32), pointer, contiguous :: curve_id(:, :) => null() !< (4, n_patches): the curves at v = 0, v = 1, u = 0, u = 1.
-    integer(int32), pointer, contiguous :: reversed(:, :) => null() !< (4, n_patches): 1 if the side runs against its curve, else
-                                                            !! 0.
+    integer(int32), pointer, contiguous :: reversed(:, :) => null() !< (4, n_patches): 1 if the side runs opposite to the
+                                                            !! direction of its curve, else 0.
     integer(int32), pointer, contiguous :: leaflet_id(:) => null() !< (n_patches): as in riis_triangles.
     integer(int32), pointer, contiguous :: patch_id(:) => null() !< (n_patches): as in riis_triangles.
     integer(int32), pointer, contiguous :: attached(:) => null() !< (n_patches): the side that is attached, 0 to 3 in the order
-                                                            !! of curve_id, or -1.
+                                                            !! of curve_id; -1 if no side is attached.
     real(c_double), pointer, contiguous :: bulge(:) => null() !< (n_patches): 0 for a Coons patch. If the bulge is not 0, the
                                                             !! line at each u is an arc from v = 0 to v = 1. Let W be the
-                                                            !! vector from v = 0 to v = 1 at this u, and T the unit tangent of
-                                                            !! the side v = 0. The middle control point of the arc is the
-                                                            !! middle of the straight line plus bulge |W| unit(W x T).
+                                                            !! vector from the start to the end of the arc, and T the unit
+                                                            !! tangent of the side v = 0. The middle control point of the arc
+                                                            !! is the midpoint of start and end plus bulge |W| unit(W x T).
   end type riis_valve_patches
 
   !> The description of a parameter.

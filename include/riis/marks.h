@@ -25,11 +25,12 @@ RIIS_API void riis_marks_destroy(riis_marks **marks); /* destroys the marks and 
 /* How a marking searches for the nodes near the surface. All searches except RIIS_SEARCH_PAPER find the same nodes
  * (docs/theory/search.md). */
 enum {
-  RIIS_SEARCH_AUTO = 0,       /* uses clusters or the exhaustive search, whichever is expected to be faster. The exhaustive search
-                                 runs for distances by sampling or minimisation, and for few nodes with a distance limit above a
-                                 fifth of the surface's extent. With a smaller limit, the exhaustive search runs only in the first
-                                 marking of a mesh that riis_mesh_prepare has not prepared. A grid (riis_mesh_create_grid) is
-                                 searched by clusters from the first marking on */
+  RIIS_SEARCH_AUTO = 0,       /* uses clusters or the exhaustive search, whichever is expected to be faster. If distances are
+                                 measured by sampling or minimisation, the exhaustive search runs. If the distance limit is above
+                                 a fifth of the surface's extent, the exhaustive search runs only for few nodes. If the limit is
+                                 smaller, the exhaustive search runs only in the first marking of a mesh that riis_mesh_prepare
+                                 has not prepared. A grid (riis_mesh_create_grid) is searched by clusters from the first marking
+                                 on */
   RIIS_SEARCH_EXHAUSTIVE = 1, /* queries every node (paper, algorithm "Exhaustive node iteration") */
   RIIS_SEARCH_NEIGHBOR = 2,   /* walks from marked nodes to their neighbours (paper, algorithm "Recursive neighbor search"), and
                                  also queries all other nodes that may be near the surface. The mesh must have an adjacency, which
@@ -38,8 +39,8 @@ enum {
                                  and misses nodes that are not connected to it. The mesh must have an adjacency */
   RIIS_SEARCH_CLUSTERS = 4    /* discards distant clusters of nodes in single precision, and tests the other nodes in double
                                  precision. The exhaustive search runs instead if there are 2^32 nodes or more. It also runs if
-                                 the mesh is a million times as large as the surface, or a million times the surface's size away
-                                 from it. riis_mark_stats.search tells which search ran */
+                                 the mesh is a million times as large as the surface, or if the mesh is farther from the surface
+                                 than a million times the surface's size. riis_mark_stats.search tells which search ran */
 };
 
 /* The processor's instructions that a marking uses. The results are bitwise the same for all instruction sets. */
@@ -66,16 +67,16 @@ enum {
                                 surface has directions (riis_surface_add_direction) */
 };
 
-/* How the band around the surface ends at its rim. */
+/* How the band around a surface ends at the rim of the surface. */
 enum {
   RIIS_RIM_ROUND = 0, /* the band ends in half a tube around the rim: K acts at every node within the half thickness */
   RIIS_RIM_CUT = 1    /* there is no half tube: K is 0 at nodes whose closest point is on the rim */
 };
 
-/* The term K (u - u_surface) of the momentum equation, with the fluid velocity u and the surface velocity u_surface (paper, 2.1;
- * docs/theory/marks.md, "Resistance"). Let d be the distance of a node from the surface, and eps the half thickness of this
- * resistance. For d < eps, K = (R / eps) delta(d) with delta(d) = (1 + cos(pi d / eps)) / (2 eps). For d >= eps, K is 0. If the
- * surface has an offset o, d is the distance from the middle of the band, |s - o eps|, with the signed distance s
+/* The term K (u - u_surface) of the momentum equation, where u is the velocity of the fluid and u_surface that of the surface
+ * (paper, 2.1; docs/theory/marks.md, "Resistance"). Let d be the distance of a node from the surface, and let eps be the field
+ * half_thickness. For d < eps, K = (R / eps) delta(d) with delta(d) = (1 + cos(pi d / eps)) / (2 eps). For d >= eps, K is 0. If
+ * the surface has an offset o, d is the distance from the middle of the band, |s - o eps|, with the signed distance s
  * (riis_surface_create). */
 typedef struct riis_resistance {
   int64_t struct_size;   /* set by the init function */
@@ -97,7 +98,7 @@ typedef struct riis_mark_options {
                                 nodes are marked */
   const uint8_t *node_mask;  /* (n_nodes): 0 leaves a node out of the search. The coordinates of the node must still be finite.
                                 NULL: all nodes */
-  const riis_resistance *resistance; /* requests riis_mark_list.K, and if the surface has velocities also
+  const riis_resistance *resistance; /* the resistance for riis_mark_list.K. If the surface has velocities, the marking also gives
                                         riis_mark_list.K_u_surface. Default NULL: no K */
   int32_t fields;            /* a sum of RIIS_FIELD_*, for the nodes of riis_mark_list. Default 0 */
   int32_t search;            /* RIIS_SEARCH_*, default RIIS_SEARCH_AUTO */
@@ -109,12 +110,12 @@ typedef struct riis_mark_options {
 RIIS_API riis_status riis_mark_options_init(riis_mark_options *options, int64_t struct_size); /* the defaults */
 
 /* Finds the marked nodes, which lie in the band around the surface (riis_surface_create), and the nodes within the distance
- * limit. Without an offset, the band holds the nodes within the half thickness of the surface. Distances in double precision
- * decide which nodes are found.
+ * limit. Without an offset, the band holds the nodes whose distance from the surface is at most the half thickness. Distances in
+ * double precision decide which nodes are found.
  *   `marks`: its content is replaced.
- * The log gets a warning if the mesh and the surface seem to have different units. In this case, the largest sides of their
- * bounding boxes differ by more than a factor of 50, or one of these sides is below the half thickness. The warning comes once
- * for each pair of surface and mesh, at most eight times for each mesh, and never for fewer than 1000 nodes.
+ * The log gets a warning if the mesh and the surface seem to have different units: the largest sides of their bounding boxes
+ * differ by more than a factor of 50, or one of these sides is below the half thickness. The warning comes once for each pair of
+ * surface and mesh, at most eight times for each mesh, and never for fewer than 1000 nodes.
  * Errors: RIIS_INVALID_MESH if a coordinate has become non-finite since the mesh was created or updated. */
 RIIS_API riis_status riis_mark_nodes(const riis_surface *surface, const riis_mesh *mesh,
                                      const riis_mark_options *options, riis_marks *marks);
@@ -122,11 +123,11 @@ RIIS_API riis_status riis_mark_nodes(const riis_surface *surface, const riis_mes
 /* The lists of a marking. */
 enum {
   RIIS_LIST_MARKED = 0,      /* the marked nodes, which lie in the band around the surface */
-  RIIS_LIST_WITHIN_LIMIT = 1 /* the nodes within the distance limit, marked or not. Without a distance limit, these are the marked
-                                nodes */
+  RIIS_LIST_WITHIN_LIMIT = 1 /* the nodes within the distance limit, marked or not. Without a distance limit, this list has the
+                                same nodes as RIIS_LIST_MARKED */
 };
-/* A list of nodes, ascending by node_id. Lengths are in mesh units. The arrays from `point` on are NULL if options.fields did not
- * request them. Their values are bitwise the same as those of riis_closest_point. */
+/* A list of nodes, ascending by node_id. Lengths are in mesh units. The arrays from `point` to `K_gradient` are NULL if
+ * options.fields did not request them. Values that riis_closest_point also gives are bitwise the same in both calls. */
 typedef struct riis_mark_list {
   int64_t n_nodes;            /* in the list */
   const int64_t *node_id;     /* (n_nodes) */
@@ -137,32 +138,31 @@ typedef struct riis_mark_list {
   const double *K_u_surface;  /* (3, n_nodes): K u_surface; NULL without a resistance or velocities */
   const double *point;        /* (3, n_nodes): the closest point of the surface */
   const double *normal;       /* (3, n_nodes): the unit normal of its triangle */
-  const double *barycentric;  /* (3, n_nodes): the point's weights for the triangle's vertices */
-  const double *uv;           /* (2, n_nodes): u and v of the point on its patch, in [0,1]. S_u x S_v points along
-                                 the normal. On mirrored patches it points against the normal (cusps: patch_id % 4 >= 2; mitral:
-                                 3, 4, 5, 8, 9). With flip_normals, both directions are reversed */
+  const double *barycentric;  /* (3, n_nodes): the closest point's weights for the vertices of its triangle */
+  const double *uv;           /* (2, n_nodes): u and v of the closest point on its patch S(u,v), in [0,1]. The vector S_u x S_v
+                                 points along the normal. On mirrored patches (cusps: patch_id % 4 >= 2; mitral: 3, 4, 5, 8, 9),
+                                 this vector points against the normal. With flip_normals, both directions are reversed */
   const double *velocity;     /* (3, n_nodes): the velocity of the surface at the closest point, from the surface's last update.
                                  If several leaflets are equally near (within 1e-6 half thicknesses), the velocity is the mean of
                                  the velocities at their closest points (docs/theory/marks.md). The same holds for several patches
-                                 of one leaflet (within 1e-9). All other fields come from the closest triangle */
+                                 of one leaflet (within 1e-9 half thicknesses). All other fields come from the closest triangle */
   const int32_t *side;        /* (n_nodes): as riis_closest.side */
   const int32_t *rim;         /* (n_nodes): 1 if the closest point lies on the rim of the surface, else 0. The rim of a valve
-                                 consists of the sides that belong to only one patch, such as free edges and the annulus. Where
-                                 free edges of a closed valve coincide, they are not part of the rim. The rim of a surface from
-                                 arrays consists of the edges that belong to only one triangle. Vertices with equal coordinates
-                                 count as one vertex */
+                                 consists of those sides of patches that belong to only one patch, such as free edges and the
+                                 annulus. Where free edges of a closed valve coincide, they are not part of the rim. The rim of a
+                                 surface from arrays consists of the edges that belong to only one triangle. Vertices with equal
+                                 coordinates count as one vertex */
   const int32_t *patch_id;    /* (n_nodes): as in riis_triangles */
   int64_t n_directions;       /* the number of directions that the surface had during the marking; 0 without
                                  RIIS_FIELD_GRADIENT */
-  const double *distance_gradient; /* (n_directions, n_nodes): the derivative of the distance in each direction. It is -n.V. The
-                                      unit vector n points from the closest point to the node, and V is the rate of the closest
-                                      point in the triangle triangle_id. At nodes on the surface the array has 0, because the
-                                      distance has a kink there. The distance also has a kink at nodes with several closest
-                                      points */
+  const double *distance_gradient; /* (n_directions, n_nodes): the derivative of the distance in each direction, which is -n.V.
+                                      The unit vector n points from the closest point to the node, and V is the rate of the
+                                      closest point in the triangle triangle_id. Nodes on the surface get 0, because the distance
+                                      has a kink there. The distance also has a kink at nodes with several closest points */
   const double *K_gradient;   /* (n_directions, n_nodes): the derivative of K in each direction, for constant R and half
-                                 thickness. The derivative is 0 where K is 0. NULL without a resistance. If there is an offset,
-                                 the unit vector n of distance_gradient is the surface's normal at nodes on the surface. At a rim,
-                                 the derivative then includes the rotation of this normal */
+                                 thickness. The derivative is 0 where K is 0. NULL without a resistance. If the surface has an
+                                 offset, the unit vector n of a node on the surface is the surface's normal. At a rim, the
+                                 derivative then includes the rotation of this normal */
   const double *height;       /* (n_nodes): for a surface with an offset, the signed distance s of riis_surface_create. If the
                                  closest point p is on a rim, the height of a node x is n.(x - p) with the normal n. NULL without
                                  an offset */
@@ -177,11 +177,11 @@ RIIS_API riis_status riis_marks_get_list(const riis_marks *marks, int32_t which,
 typedef struct riis_dense_arrays {
   int64_t struct_size;  /* set by the init function */
   int64_t n_nodes;      /* the number of nodes of the marking, 0 for empty marks */
-  double far_distance;  /* the number that stands for the distance of nodes that are masked out or beyond the limit. It may be
+  double far_distance;  /* the number that `distance` gets for nodes that are masked out or beyond the limit. This number may be
                            NaN, or any value outside [0, distance limit]. Default RIIS_FAR_DISTANCE */
   uint8_t *mark;        /* (n_nodes): 1 for marked nodes, 0 for others */
-  double *distance;     /* (n_nodes): the distance of nodes within the distance limit, far_distance for others */
-  int64_t *triangle_id; /* (n_nodes): the closest triangle of nodes within the distance limit, -1 for others */
+  double *distance;     /* (n_nodes): the distance for nodes within the distance limit, far_distance for others */
+  int64_t *triangle_id; /* (n_nodes): the closest triangle for nodes within the distance limit, -1 for others */
   int32_t *leaflet_id;  /* (n_nodes): the leaflet of this triangle, -1 for others */
 } riis_dense_arrays;
 RIIS_API riis_status riis_dense_arrays_init(riis_dense_arrays *arrays, int64_t struct_size); /* the defaults */
@@ -193,18 +193,18 @@ RIIS_API riis_status riis_marks_get_dense(const riis_marks *marks, const riis_de
 typedef struct riis_mark_stats {
   int64_t n_nodes;      /* the number of nodes of the mesh, masked out or not */
   int64_t n_marked;     /* the length of RIIS_LIST_MARKED */
-  int64_t n_within_limit; /* nodes within the distance limit, marked or not */
-  int64_t n_queries;    /* number of closest-point queries, of nodes and of parts of the mesh */
+  int64_t n_within_limit; /* the number of nodes within the distance limit, marked or not */
+  int64_t n_queries;    /* the number of closest-point queries for nodes and for parts of the mesh */
   double seconds;       /* wall time of riis_mark_nodes */
   int32_t search;       /* the search that ran, never RIIS_SEARCH_AUTO */
-  int32_t n_threads;    /* the largest number of threads that any part of the marking used. If the caller limits the threads of
-                           TBB, this limit affects only the walks of the neighbour search */
-  int32_t complete;     /* 1: certainly all nodes within the limit were found, for the coordinates at the last creation or update
-                           of the mesh. 0: nodes may have been missed */
+  int32_t n_threads;    /* the largest number of threads that any part of the marking used. A limit that the caller sets for TBB's
+                           threads affects only the walks of the neighbour search */
+  int32_t complete;     /* 1: all nodes within the limit were found, for the coordinates that the mesh had when it was made or
+                           last updated. 0: nodes may have been missed */
   int32_t instructions; /* the instructions that were used, never RIIS_INSTRUCTIONS_AUTO */
-  int64_t n_unreached;  /* the number of nodes within the limit that the neighbour search found outside of its walks */
+  int64_t n_unreached;  /* the number of nodes within the limit that the neighbour search found without walking to them */
 } riis_mark_stats;
-/* Gives counts and times of the last marking with these marks. For empty marks all fields are 0. */
+/* Gives counts and times of the marking that last filled these marks. For empty marks all fields are 0. */
 RIIS_API riis_status riis_marks_get_stats(const riis_marks *marks, riis_mark_stats *stats, int64_t struct_size);
 
 #ifdef __cplusplus

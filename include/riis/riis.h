@@ -28,9 +28,9 @@
  *   in this struct count from index_base, which is 0 (default) or 1. A field id_bits gives the number of bits of each id: 32
  *   (default) or 64.
  * - Points: point i is x[i * stride], y[i * stride], z[i * stride]. Coordinates are finite, of magnitude at most 1e60. The stride
- *   counts numbers, not bytes, and is at least 1. Separate arrays have the stride 1. An array xyz(3,n) has the stride 3, with y =
- *   x + 1 and z = x + 2. Calls refuse arrays x, y and z that overlap. A field real_bits gives the width of the numbers: 64
- *   (default) or 32 bits. Without a field real_bits the numbers are doubles. The rules of points also hold for vectors.
+ *   counts numbers, not bytes, and is at least 1. Three separate arrays x, y and z have the stride 1. One array xyz(3,n) has the
+ *   stride 3, with y = x + 1 and z = x + 2. Calls refuse arrays x, y and z that overlap. A field real_bits gives the width of the
+ *   numbers: 64 (default) or 32 bits. Without a field real_bits the numbers are doubles. These rules also hold for vectors.
  * - Order: the first argument is the object after which the function is named. The other arguments follow in this order: inputs,
  *   options, outputs. Functions with `get` in their names return the content of an object.
  * - Status: a function that can fail returns a riis_status; 0 is success, and riis_last_error() gives the message of a failure.
@@ -39,33 +39,33 @@
  * - Any function may return RIIS_INVALID_ARGUMENT for a forbidden NULL, and for an argument or field out of range. It may also
  *   return RIIS_INVALID_STRUCT_SIZE for a struct of a wrong size, and RIIS_OUT_OF_MEMORY.
  * - Handles: a new object is the last argument, and is written only on success. A destroy function takes a handle's address,
- *   accepts NULL, and sets the handle to NULL. If a handle has the wrong kind, a destroy function ignores the handle, and all
- *   other functions return an error.
+ *   accepts NULL, and sets the handle to NULL. If a handle belongs to an object of another kind, a destroy function ignores the
+ *   handle, and all other functions return an error.
  * - Memory: a call reads its arguments and their arrays only while it runs. If a call borrows arrays for longer, its comment says
  *   so. Arrays that a call returns belong to the handle, and are valid until the handle's next update or destruction. An array
  *   without entries is returned as NULL, and may be passed as NULL.
  * - If a call fills in a struct, the next argument is the struct's size, as in (&list, sizeof list). The call writes at most this
  *   many bytes.
  * - Structs that a call reads begin with struct_size. The init function of a struct sets struct_size and the defaults, and sets
- *   all other fields to 0 or NULL. A NULL options pointer means all defaults. Later releases add fields at the end of a struct,
- *   or in place of its field `reserved`. Until then `reserved` must be 0.
- * - Threads: several threads may pass the same handle at once if all calls take it as const. While a call takes a handle that is
- *   not const, no other thread may use this handle. The library refuses most calls that break this rule. Different handles never
- *   interfere. Results are bitwise the same for any number of threads.
+ *   all other fields to 0 or NULL. If the pointer to options is NULL, all options have their defaults. Later releases add fields
+ *   at the end of a struct, or in place of its field `reserved`. Until then `reserved` must be 0.
+ * - Threads: several threads may pass the same handle at once if all these calls take the handle as const. If a call takes a
+ *   handle without const, no other thread may use this handle while the call runs. The library refuses most calls that break this
+ *   rule. Different handles never interfere. Results are bitwise the same for any number of threads.
  * - n_threads: 1 to 1024, or 0, the default. By default a call uses one thread, plus one thread for each 4096 triangles of the
- *   surface, for each 16,384 nodes, cells or faces, or for each 2048 points. For an update, the triangles before the update
- *   count. The default never exceeds the number of processors in the calling thread's affinity mask. By default, parts of a call
- *   with little work use only one thread. With n_threads 1, the library starts no thread. OMP_NUM_THREADS and omp_set_num_threads
- *   have no effect. If the system refuses a thread or its memory, OpenMP and TBB end the process (docs/building.md). The
- *   library's own threads block all signals except signals of errors, such as SIGSEGV.
- * - fork(): after the library has used several threads, a child process may use only one thread in each call. By default the
- *   child then uses one thread. If the child requests more threads, the call returns RIIS_UNAVAILABLE. A child cannot make
- *   surfaces if another thread was inside the library during the fork.
+ *   surface, for each 16,384 nodes, cells or faces, or for each 2048 points. For an update, the triangles are those before the
+ *   update. The default never exceeds the number of processors in the calling thread's affinity mask. By default, a part of a
+ *   call that has little work uses only one thread. With n_threads 1, the library starts no thread. OMP_NUM_THREADS and
+ *   omp_set_num_threads have no effect. If the system refuses a thread or the memory for a thread, OpenMP and TBB end the process
+ *   (docs/building.md). The library's own threads block all signals except signals of errors, such as SIGSEGV.
+ * - fork(): if the library used several threads before the fork, each call in the child process may use only one thread. By
+ *   default such a call then uses one thread. If the child requests more threads, the call returns RIIS_UNAVAILABLE. A child
+ *   cannot make surfaces if another thread was inside the library during the fork.
  * - Environment: calls and log functions run with the default floating-point environment. At its end, each call restores the
  *   caller's floating-point environment. The caller's settings of OpenMP and TBB do not change.
  *
- * "Paper" is B. van der Vuurst, J. Kosinka, C. Bertoglio, "Fast generation of 3D flow obstacles from parametric surface
- * models: application to cardiac valves" (2025); docs/theory/departures.md lists every departure.
+ * "Paper" is B. van der Vuurst, J. Kosinka, C. Bertoglio, "Fast generation of 3D flow obstacles from parametric surface models:
+ * application to cardiac valves" (2025); docs/theory/departures.md lists every departure from the paper.
  *
  * Contents, by file. docs/fortran_calls.md has the same calls in Fortran, in this order.
  *
@@ -94,13 +94,13 @@
  *   riis_surface_create                  the surface of a valve
  *   riis_surface_arrays_init
  *   riis_surface_create_from_arrays      the caller's own surface
- *   riis_surface_update                  the valve has moved
- *   riis_surface_update_from_arrays      the caller's surface has moved
+ *   riis_surface_update                  updates a surface after its valve has moved
+ *   riis_surface_update_from_arrays      updates the caller's surface
  *   riis_surface_destroy
  *   riis_surface_get_info                size, area, bounds, seconds
  *   riis_surface_get_triangles           the triangles
  *   riis_surface_get_attachment          the edges that hold the leaflets
- *   riis_surface_update_moving           the valve has moved, and its points have velocities
+ *   riis_surface_update_moving           updates a surface and gives its vertices velocities
  *   riis_keyframe_arrays_init
  *   riis_keyframes_create, riis_keyframes_destroy
  *   riis_surface_create_from_keyframes   a surface from frames in time
@@ -115,14 +115,14 @@
  *   riis_crossings_get_list              these pairs
  * mesh.h: nodes and their neighbours
  *   riis_mesh_create                     borrows the nodes' coordinates
- *   riis_mesh_update                     the coordinates have changed
+ *   riis_mesh_update                     tells the mesh that coordinates have changed
  *   riis_mesh_create_copy                copies the coordinates, also of single precision
  *   riis_mesh_update_copy                copies changed coordinates
  *   riis_mesh_destroy
  *   riis_mesh_prepare                    makes clusters of nodes in advance
  *   riis_grid_init
  *   riis_mesh_create_grid                a rectilinear grid, by its axes
- *   riis_mesh_update_grid                other axes
+ *   riis_mesh_update_grid                gives a mesh other axes
  *   riis_csr_init
  *   riis_mesh_set_adjacency              the neighbours of the nodes
  *   riis_mesh_cells_init
@@ -169,8 +169,8 @@
  *   riis_surface_get_coaptation          the area in which leaflets touch
  *   riis_surface_get_leak                the ideal leak of a closed surface
  *   riis_first_passage_options_init
- *   riis_find_first_passage              the opening at which the valve lets the mesh pass
- *   riis_marks_get_cells_across          mesh edges across the band
+ *   riis_find_first_passage              the first opening at which the mesh has a passage
+ *   riis_marks_get_cells_across          how many mesh edges fit across the band
  *   riis_valve_get_swept_volume          the volume that an opening valve sweeps
  * patient.h: landmarks, warps, skirts
  *   riis_landmarks_init, riis_placement_arrays_init
@@ -178,24 +178,24 @@
  *   riis_warp_options_init
  *   riis_warp_create, riis_warp_destroy  a map from landmarks to landmarks
  *   riis_warp_set_targets                the places to which the warp takes the landmarks
- *   riis_warp_set_targets_at             the same from a table in time
+ *   riis_warp_set_targets_at             the same for a given time, from a table
  *   riis_warp_get_info                   the quality of the map
  *   riis_warp_map                        maps points
  *   riis_valve_set_warp                  warps a valve
  *   riis_surface_get_gap                 the gap between a valve and a wall
  *   riis_valve_set_skirt_to_wall         a skirt that closes this gap
- * gradients.h: derivatives by parameters
+ * gradients.h: derivatives with respect to parameters
  *   riis_surface_add_direction           a direction in which the surface changes
  *   riis_surface_get_direction           the rates of the vertices
- * laws.h: who opens the valve
+ * laws.h: a valve's opening from the time, the pressure difference and the flow
  *   riis_opening_table_init
- *   riis_opening_from_table              by keys in time
+ *   riis_opening_from_table              the opening from a table of times
  *   riis_opening_times_init
- *   riis_opening_from_times              by two ramps
+ *   riis_opening_from_times              the opening from two ramps
  *   riis_opening_switch_init, riis_opening_switch_state_init
- *   riis_opening_switch_advance          by pressure difference and flow
+ *   riis_opening_switch_advance          the opening from pressure difference and flow
  *   riis_opening_angle_init, riis_opening_angle_state_init
- *   riis_opening_angle_advance           by the angle law of Korakianitis and Shi
+ *   riis_opening_angle_advance           the opening by the angle law of Korakianitis and Shi
  */
 /* clang-format off: argument lists in comments are laid out by hand */
 #ifndef RIIS_RIIS_H

@@ -3,8 +3,8 @@
 // riis.hpp - riis.h for C++14 and later: handles that destroy themselves, errors as exceptions, structs with their defaults,
 // spans.
 //
-// All calls are the functions of riis.h. Pass a handle for a pointer to an object. Pass the handle's out() for the address of
-// such a pointer:
+// All calls are the functions of riis.h. Where a function takes a pointer to an object, pass a handle. Where it takes the address
+// of such a pointer, pass the handle's out():
 //
 //   riis::Valve valve; riis::Surface surface; riis::Mesh mesh; riis::Marks marks;
 //   riis::check(riis_valve_create("mitral", valve.out()));
@@ -32,7 +32,7 @@
 namespace riis {
 inline namespace interface_1 {
 
-// A refused or failed call of the library. what() returns the message of riis_last_error().
+// The error of a call that the library refused or that failed. what() returns the message of riis_last_error().
 class Error : public std::runtime_error {
  public:
   Error(riis_status status, const char *message) : std::runtime_error(message), status_(status) {}
@@ -42,12 +42,12 @@ class Error : public std::runtime_error {
   riis_status status_;
 };
 
-// Throws an Error if the status is not RIIS_OK. Call check() on the thread that made the refused call.
+// Throws an Error if the status is not RIIS_OK. Call check() in the thread that made the failed call.
 inline void check(riis_status status) {
   if (status != RIIS_OK) throw Error(status, riis_last_error());
 }
 
-// Owns an object of the library, or nothing. A handle can be moved, but not copied.
+// A handle: the owner of one object of the library, or of none. A handle can be moved, but not copied.
 template <class Object, void (*destroy)(Object **)>
 class Handle {
  public:
@@ -63,7 +63,7 @@ class Handle {
 
   operator Object *() const noexcept { return object_; }
   Object *get() const noexcept { return object_; }
-  // Destroys the object. Returns the address of the empty pointer, for a call that makes a new object.
+  // Destroys the object, and returns the address of the pointer, now NULL, for a call that makes a new object.
   Object **out() noexcept {
     reset();
     return &object_;
@@ -72,7 +72,7 @@ class Handle {
     destroy(&object_);
     object_ = object;
   }
-  // Gives up the object and returns it. The caller must then destroy the object.
+  // Returns the object, and owns it no longer. The caller must then destroy the object.
   Object *release() noexcept { return std::exchange(object_, nullptr); }
 
  private:
@@ -132,7 +132,7 @@ RIIS_INIT(riis_opening_angle_state)
 #undef RIIS_INIT
 }  // namespace detail
 
-// Returns a struct for a call to read, with its default values.
+// Returns a struct with its default values, for a call that reads it.
 template <class Struct>
 Struct defaults() {
   Struct made;
@@ -140,7 +140,7 @@ Struct defaults() {
   return made;
 }
 
-// Returns a struct that a call fills in, such as get<riis_surface_info>(riis_surface_get_info, surface).
+// Calls a function that fills in a struct, and returns the struct, as in get<riis_surface_info>(riis_surface_get_info, surface).
 template <class Struct, class Call, class... Arguments>
 Struct get(const Call &call, const Arguments &...arguments) {
   Struct filled;
@@ -153,7 +153,7 @@ template <class T>
 class Span {
  public:
   Span() = default;
-  // `data` is NULL if the library made no array. The span is then empty.
+  // If the library made no array, `data` is NULL, and the span is empty.
   Span(T *data, std::int64_t size) noexcept : data_(data), size_(data ? size : 0) {}
 
   T *data() const noexcept { return data_; }
