@@ -18,7 +18,7 @@ TRIANGLE = 0.1
 COMMISSURE_AT = 0.5 - ANTERIOR_RATIO / 2
 SHRUNK = 0.98  # the size of the inflow tube, relative to the annulus
 INFLOW, OUTFLOW, CHAMBER = 1.5, 3.4, 2.6  # lengths before and behind the annulus, and the radius of the chamber
-N = 8  # steps of u and of v between the points of a patch
+N = 12  # steps of u and of v between the points of a patch
 
 
 class Curve:

@@ -77,7 +77,7 @@ class Resumed(unittest.TestCase):
         missing = {f"offset_trileaflet_0.5_{eps}_0.75" for eps in ("1", "0.5")}
         script = (ROOT / "bench/validation/body_fitted.sh").read_text()
         wanted = set(re.findall(r"finished (offset_blood\S+)", script))
-        for valve, openings in (("trileaflet", ("1", "0.5", "0.25")), ("coapting", ("1", "0.5"))):
+        for valve, openings in (("trileaflet", ("1", "0.5", "0.25")), ("coapting", ("1", "0.5")), ("mitral", ("1", "0.5"))):
             wanted |= {f"offset_{valve}_{opening}_{eps}_{offset}" for opening in openings for eps in ("1", "0.5")
                        for offset in ("0", "0.5", "0.75", "0.85")}
         have = {row["id"] for row in found["rows"]}

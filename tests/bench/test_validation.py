@@ -25,6 +25,8 @@ try:
     import exact
     import jets
     import marking
+    import mitral
+    import numpy
     import octant
     import rows
     import staggered
@@ -193,6 +195,8 @@ class Judged(unittest.TestCase):
             # If the case of the walls is missing, a kept row provides the area of the walls.
             again = beside.beside("trileaflet", 0.5, runs[1:], {made[0]["id"]: made[0]})
             none = beside.beside("trileaflet", 0.5, runs[1:], {})
+            case(folder, f"riis-{valve}-0.1-0.05-cut-1e3-0.75-0.16", f"wide-{valve}-0.1-0.05-0.16", [2.5] * 400, done)
+            mean = beside.beside("trileaflet", 0.5, cases.read_runs(pathlib.Path(folder)), {})
         self.assertIn(f"left out: riis-{valve}-0.1-0.05-cut-1e3-0: simpleFoam did not converge in 400 steps", told.getvalue())
         self.assertEqual([row["id"] for row in made], ["offset_trileaflet_0.5_1_0.75"])
         # The area is Q / sqrt(2 dp / rho), with the total pressure 1.625 or 2.125 rho.
@@ -201,11 +205,32 @@ class Judged(unittest.TestCase):
         self.assertEqual(made[0]["bar"], 0.04)
         self.assertIn("stalled above the limit of the residuals", made[0]["note"])
         self.assertEqual([row["reference"] for row in again + none], [made[0]["reference"]])
+        # With a second mesh, the row has the mean of both areas.
+        other = math.sqrt(1.625 / 2.625) - 1
+        self.assertEqual([row["id"] for row in mean], ["offset_trileaflet_0.5_1_0.75"])
+        self.assertAlmostEqual(mean[0]["deviation"], (made[0]["deviation"] + other) / 2, delta=1e-4)
+        self.assertIn(f"the area is the mean of 2 meshes: {100 * other:+.1f} to -12.6 %", mean[0]["note"])
         validate.check_rows(made, "here")
         table = validate.offsets_of([*made, {**made[0], "opening": 1.0, "offset": 0, "deviation": -0.05, "drop": 0.1}])
         self.assertEqual(table.splitlines(), ["| valve | opening | ε | o = 0 | o = 0.75 |", "|---|---|---|---|---|",
                                               "| trileaflet | 1 | 1 mm | -5.0 % (+10 %) |  |",
                                               "| trileaflet | 0.5 | 1 mm |  | -12.6 % (+31 %) |"])
+
+    def test_the_mitral_valve_of_the_walls(self):
+        # docs/theory/mitral.md has these lengths and points, which the library's own tests check.
+        for opening, length in ((0, 12.62), (1, 12.21)):
+            points = mitral.Curve(mitral.annulus_cubics(opening)).points
+            self.assertAlmostEqual(2 * numpy.linalg.norm(numpy.diff(points, axis=0), axis=1).sum(), length, delta=0.005)
+        middle, side, triangle, anterior = mitral.patches(1)
+        numpy.testing.assert_allclose(anterior[-1, -1], (0, -0.951, 2.048), atol=1e-3)
+        numpy.testing.assert_allclose(numpy.ptp(triangle[-1], axis=0), 0, atol=1e-12)
+        for opening in (0, 0.3, 1):
+            middle, side, triangle, anterior = mitral.patches(opening)
+            for left, right in ((middle, side), (side, triangle), (triangle, anterior)):
+                numpy.testing.assert_allclose(left[:, -1], right[:, 0], atol=1e-4)
+            numpy.testing.assert_allclose((middle[:, 0, 0], anterior[:, -1, 0]), 0, atol=1e-9)
+        closed = mitral.patches(0)
+        self.assertLess(abs(numpy.concatenate([patch[-1] for patch in closed])[:, 2]).max(), 1e-9)
 
     def test_rows_are_kept(self):
         kept = {key: {"id": key, "commit": "old", "deviation": 1} for key in "ab"}
