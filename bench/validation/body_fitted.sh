@@ -268,7 +268,8 @@ beside_leaflets() {
   for offset in 0.75 0.5 0; do for valve in mitral-1 mitral-0.5; do beside "$valve" 1 "$offset"; done; done
   some=$cases cases=''
   for valve in "${valves[@]}"; do
-    for size in 0.05 0.03 0.02; do fitted "$valve" "$size"; done
+    for size in 0.05 0.03; do fitted "$valve" "$size"; done
+    [[ $valve == mitral* ]] || fitted "$valve" 0.02 # the mitral valve would have a million cells
   done
   cases+=$some
   finished offset_blood_trileaflet_0.5_1_0.75 || {

@@ -79,8 +79,8 @@ def mirrored(points):
 
 
 def edges(opening):
-    """Returns the cubics of three edges: half the middle scallop, the side scallop and half the anterior edge. Each cubic runs away
-    from the posterior point, like the annulus."""
+    """Returns the cubics of three edges: half the middle scallop, the side scallop and half the anterior edge. Each cubic runs
+    away from the posterior point, like the annulus."""
     closed, flat = Curve(annulus_cubics(0)), Curve(annulus_cubics(1))
 
     def inward(annulus, at):
@@ -147,7 +147,7 @@ def main():
         return points[place]
 
     def spline(row):
-        """Returns the number of the curve through the points. The number is negative if the curve exists in the other direction."""
+        """Returns the number of the curve through the points. The number is negative if the curve runs in the other direction."""
         numbers = [point(at) for at in row]
         forward = numbers[0] < numbers[-1]
         key = tuple(numbers if forward else numbers[::-1])

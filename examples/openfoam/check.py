@@ -125,7 +125,8 @@ def drops(cases):
           f" {size * 1e4:.3f} cm2.\nDrop in Pa between sections below and above the valve:")
     print(f"  {'':<34} {'1st step':>10} {'2nd step':>10} {'last step':>10} {'of riis':>9}")
     last = {}
-    for name, text in (("closed", "closed valve, riis"), ("aside", "closed valve, band beside it"), ("powerLaw", "OpenFOAM's powerLaw porosity"),
+    for name, text in (("closed", "closed valve, riis"), ("aside", "closed valve, band beside it"),
+                       ("powerLaw", "OpenFOAM's powerLaw porosity"),
                        ("DarcyForchheimer", "OpenFOAM's DarcyForchheimer"), ("open", "open valve, riis"), ("none", "no valve")):
         values, _ = drop(cases / name)
         require(len(values) == 10, f"{name} has 10 steps, not {len(values)}")
@@ -135,7 +136,8 @@ def drops(cases):
     for name, text in (("closed", "The log"), ("aside", "For a band beside the leaflets, the log")):
         inside, share, _ = estimate(cases / name)
         measured = last[name] / flat * inside / size  # u is the flow through the leaflets inside the mesh
-        print(f"{text} expects {share:.3f} of (R / eps) u, for the {1e4 * inside:.3f} cm2 inside the mesh. Measured: {measured:.3f}")
+        print(f"{text} expects {share:.3f} of (R / eps) u, for the {1e4 * inside:.3f} cm2 inside the mesh."
+              f" Measured: {measured:.3f}")
         require(abs(share / measured - 1) < 0.03,
                 f"{name}: the log expects the measured drop to 3 %: {share:.4f} and {measured:.4f}")
     require(abs(last["powerLaw"] / closed[-1] - 1) < 5e-3,

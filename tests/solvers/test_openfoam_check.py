@@ -263,8 +263,8 @@ class Drops(Files):
         self.valve(self.folder / "closed")
         for name in ("closed", "aside"):
             share = self.share.get(name) or self.drop[name][-1] / 5e4 * 0.9
-            self.write(self.folder / name / "log.pimpleFoam", f"riis aorticValve: the closed valve has 0.00072 m2 in the mesh, and"
-                       f" is expected to drop {share} of (R / eps) u, u = flow / area\n")
+            self.write(self.folder / name / "log.pimpleFoam", "riis aorticValve: the closed valve has 0.00072 m2 in the mesh,"
+                       f" and is expected to drop {share} of (R / eps) u, u = flow / area\n")
         change()
         if words:
             self.stopped(words, check.drops, self.folder)
