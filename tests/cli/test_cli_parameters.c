@@ -222,7 +222,10 @@ static void expect_table(const char *kind) {
   assert_int_equal(riis_valve_get_n_parameters(valve, &n), RIIS_OK);
   for (const char *c = program_out; *c; ++c) n_lines += *c == '\n';
   /* After an empty line, the table gives advice on the band. */
-  const int n_of_advice = strcmp(kind, "bileaflet") == 0 ? 1 : strcmp(kind, "coapting") == 0 ? 6 : 4;
+  const int n_of_advice = strcmp(kind, "bileaflet") == 0  ? 1
+                          : strcmp(kind, "coapting") == 0 ? 6
+                          : strcmp(kind, "mitral") == 0   ? 5
+                                                          : 4;
   assert_int_equal(n_lines, n + 2 + n_of_advice);
   assert_non_null(strstr(program_out, n_of_advice == 1 ? "\n\nband: leave --offset at 0" : "\n\nband: with a cut rim"));
   const char *line = strchr(program_out, '\n') + 1;

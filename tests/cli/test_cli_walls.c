@@ -127,7 +127,7 @@ TEST(test_other_axes) {
   run_program("check", "crossings", "--valve", scratch_path("placed.json"), "--skirt", "1.2345678901234567", "--wall",
               write_tube("wall.stl", &wall), NULL);
   assert_non_null(strstr(program_err, "the wall is not within --skirt, 1.23457, at "));
-  assert_non_null(strstr(program_err, " in RAS: place the valve by riis place --axes RAS\n"));
+  assert_non_null(strstr(program_err, " axes, LPS and RAS: place the valve by riis place --axes RAS\n"));
 }
 
 TEST(test_volume_mesh_as_wall) {

@@ -73,8 +73,8 @@ def offset_of(valve: Any) -> dict[str, Any]:
     """Returns the slider of the offset, with the advice of riis params."""
     advice = (
         "leave it at 0, because the flow passes on both sides of the leaflets" if valve.kind == "bileaflet" else
-        "with a cut rim and a skirt, take 0.5 if the half thickness is at least the gap of the closed valve, and 0 for a wider gap"
-        if valve.kind == "mitral" else
+        "with a cut rim and a skirt, take 0.5 if the half thickness is at least the gap of the closed valve. Take 0 for a wider"
+        " gap" if valve.kind == "mitral" else
         "with a cut rim and a skirt, 0.75 gives an open valve its full width if the flow is on one side and the half thickness "
         "is at least twice the gap of the closed valve. Take 0.5 from one gap on, and 0 for a wider gap"
     )  # fmt: skip

@@ -18,14 +18,13 @@ namespace {
 // about it.
 std::string advice_on_band(const std::string &kind) {
   if (kind == "bileaflet") return "band: leave --offset at 0, because the flow passes on both sides of the leaflets\n";
-  if (kind == "mitral")
-    return "band: with a cut rim and a skirt, --offset 0.5 gives the flow nearly the full width of an open valve. With "
-           "a\n"
-           "half thickness of 1 mm, the open mitral valve then leaves 2 % less area than its leaflets would leave as "
-           "thin\n"
-           "walls, and the half-open valve leaves 5 % more. With --offset 0.75, the half-open valve leaves 8 % more. "
-           "If the\n"
-           "half thickness is below the gap of the closed valve, leave --offset at 0 (docs/choosing.md)\n";
+  if (kind == "mitral") {
+    return "band: with a cut rim and a skirt, --offset 0.5 gives the flow nearly the full width of an open valve.\n"
+           "With a half thickness of 1 mm, the open mitral valve then leaves 2 % less area than its leaflets would\n"
+           "leave as thin walls, and the half-open valve 5 % more. With --offset 0.75, the half-open valve leaves\n"
+           "8 % more. If the half thickness is below the gap of the closed valve, leave --offset at 0\n"
+           "(docs/choosing.md)\n";
+  }
   std::string advice =
       "band: with a cut rim and a skirt, --offset 0.75 gives the flow the full width of an open valve. This offset\n"
       "needs a half thickness of at least twice the gap of the closed valve. If the half thickness is between the gap\n"
