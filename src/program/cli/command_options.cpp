@@ -241,7 +241,7 @@ void declare_marking(Command &command, MarkOptions &options) {
       "--resistance", "R", "Write riis_K at each node: R/eps times the delta function, with R in kg/(m s)",
       options.given_resistance, amount_of(a_resistance));
   command
-      .parsed("--k-unit", "UNIT", "Unit of riis_K (default by the mesh's unit: kg/(m3 s), g/(cm3 s) or g/(mm3 s))",
+      .parsed("--k-unit", "UNIT", "Unit of riis_K (default: kg/(m3 s), g/(cm3 s) or g/(mm3 s), by the mesh's unit)",
               options.chosen_K_unit, [](const std::string &text, const std::string &) { return text; })
       ->needs(resistance);
   command

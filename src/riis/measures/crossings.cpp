@@ -15,8 +15,8 @@
 namespace riis {
 namespace {
 
-// Measures how deep two triangles penetrate each other, and finds the segment that they have in common. The triangles have an
-// area, and coordinates up to 1e60.
+// Measures how deep two triangles penetrate each other, and finds the segment that they have in common. No
+// triangle may have the area 0, and coordinates are at most 1e60.
 
 using Triangle = std::array<Vec3, 3>;
 

@@ -47,7 +47,7 @@ double nearest_parameter(const Bezier &span, Vec3 p) {
   }
   constexpr double step = 1.0 / n_search_steps;
   double low = std::max(0.0, t - step), high = std::min(1.0, t + step);
-  // The nearest point is an end unless the derivative of half the squared distance changes its sign between the ends.
+  // If the derivative of half the squared distance keeps its sign between the ends, the nearest point is an end.
   for (int i = 0; i < 60 && high - low > 1e-15; ++i) {
     const auto d = derivatives(span, t);
     const Vec3 apart = evaluate(span, t) - p;
