@@ -40,7 +40,7 @@ refused 'gone or changed: RIIS_SEARCH_PAPER = 3' "$list" "$scratch/riis.h"
 
 # The check also reads the last header that riis.h includes, so it refuses a value and a function that are planted there.
 last=$("$here/headers.sh" "$header" | tail -n 1)
-plant() { sed "s|^/\* The phases of a switch|$1\n&|" "$last" >"$scratch/$(basename "$last")"; }
+plant() { sed "s|^/\* The phases of a valve|$1\n&|" "$last" >"$scratch/$(basename "$last")"; }
 cp "$(dirname "$header")"/*.h "$scratch"
 plant 'enum { RIIS_PLANTED = 1 };'
 refused "($version): RIIS_PLANTED = 1" "$list" "$scratch/riis.h"

@@ -193,7 +193,7 @@ TEST(test_names) {
   uris_free(&valve);
   REFUSED(2, "--name: 'a b' must have 1 to 64 characters: letters, digits, _, . and -, without two - in a row", EXPORT,
           "--time-step", "0.01", RAMPS, "--name", "a b");
-  REFUSED(2, "--name: 'a--b' must be", EXPORT, "--time-step", "0.01", RAMPS, "--name", "a--b");
+  REFUSED(2, "--name: 'a--b' must have", EXPORT, "--time-step", "0.01", RAMPS, "--name", "a--b");
   REFUSED(2, "--ring has no effect: only a bileaflet valve has a ring", EXPORT, "--time-step", "0.01", RAMPS, "--ring",
           "none");
   REFUSED(2, "--starts: half not in {closed,open}", EXPORT, "--time-step", "0.01", RAMPS, "--starts", "half");

@@ -381,7 +381,7 @@ class OpenfoamCase(unittest.TestCase):
         (case / "0/p").write_text(inlet.replace("(0.8 ", "(1.2 "), encoding="utf-8")
         self.assertIn("steps of 0.001 s", self.run_case(case, "--fresh", tools=tools).stdout)
         # The page changes all three places.
-        page = (TEXTS.parents[2] / "docs/patient_openfoam.md").read_text(encoding="utf-8")
+        page = " ".join((TEXTS.parents[2] / "docs/patient_openfoam.md").read_text(encoding="utf-8").split())
         for name in ("--heart-rate", "`endTime` and `period`"):
             self.assertIn(name, page)
 

@@ -283,7 +283,7 @@ void failing_programs(random_source &random, const std::string &folder) {
   expect_refused({"gmsh fails: a signal ended it"}, mesh);
   stand_for_gmsh(folder,
                  words + "printf '$MeshFormat\\n2.2 0 8\\n$EndMeshFormat\\n$Nodes\\n2\\n1 0 0 0\\n2 1' > \"$mesh\"");
-  expect_refused({folder + "/gmsh/surface.msh: ", "the file is not whole"}, mesh);
+  expect_refused({folder + "/gmsh/surface.msh: ", "the file is incomplete"}, mesh);
   // A wall goes through itself, because a point near the first end was moved through the wall behind it.
   PatientWall crossed = wall;
   const Vector3 axis = unit_vector(vessels.axes[0]), other = cross(axis, Vector3{axis[1], axis[2], axis[0]});

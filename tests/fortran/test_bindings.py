@@ -22,7 +22,7 @@ HEADER, TABLE, SUBROUTINES = generate.HEADER, generate.TABLE, generate.SUBROUTIN
 HEADERS = [os.path.relpath(path, SOURCES) for path in with_included(os.path.join(SOURCES, HEADER))]
 MODULE, FIXED, EXTERNAL, INTERFACES, PUBLISHED = generate.WIDTHS
 BEFORE_FUNCTION = "/* Destroys the valve. Surfaces"  # a comment of a header; functions are planted before it
-IN_LAST_HEADER = "/* The phases of a switch. */"
+IN_LAST_HEADER = "/* The phases of a valve that riis_opening_switch opens and closes. */"
 FUNCTION = "RIIS_API riis_status riis_valve_planted(const riis_valve *valve, {});\n"
 
 
@@ -130,7 +130,7 @@ class Fields(Planted):
                       "    integer(c_int32_t) :: last\n  end type riis_mark_options\n", self.text(MODULE))
 
     def test_the_order_is_that_of_the_header(self):
-        self.plant(HEADER, "  int64_t n_curves;          /* 1 to", "  int64_t planted;\n  int64_t n_curves;          /* 1 to")
+        self.plant(HEADER, "  int64_t n_curves;          /* the number", "  int64_t planted;\n  int64_t n_curves;          /* the number")
         self.writes()
         self.assertIn(":: struct_size\n    integer(c_int64_t) :: planted\n    integer(c_int64_t) :: n_curves\n",
                       self.text(MODULE))
@@ -478,7 +478,7 @@ class Subroutines(Planted):
         self.assertRegex(self.text(EXTERNAL), r"intent\(in\) :: reach +!< Planted here\. RIIS_AUTO")
 
     def test_a_function_without_a_comment(self):
-        self.plant(HEADER, "/* Gives the number of the surface's leaflets. */\n", "")
+        self.plant(HEADER, "/* Gives the number of leaflets of the surface. */\n", "")
         self.refuses("riisf_surface_n_leaflets: riis_surface_get_n_leaflets has no comment")
 
     def test_a_function_that_is_gone(self):

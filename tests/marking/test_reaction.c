@@ -549,7 +549,7 @@ TEST(refusals_leave_the_sums) {
   riis_marks *bare = new_result();
   CHECK_OK(riis_mark_nodes(f.surface, mesh_from(&f.nodes), NULL, bare));
   bad = good;
-  REFUSED_BY(bare, RIIS_INVALID_ARGUMENT, "in reaction needs RIIS_FIELD_POINT|options.fields = 0");
+  REFUSED_BY(bare, RIIS_INVALID_ARGUMENT, "needs RIIS_FIELD_POINT|options.fields = 0");
   bad.edge_force = bad.edge_moment = bad.moment = NULL;
   REFUSED_BY(bare, RIIS_INVALID_ARGUMENT, "needs RIIS_FIELD_POINT");
   bad.leaflet_moment = NULL, bad.moment = got.moment;

@@ -104,7 +104,7 @@ class GmshReader {
   void find(const char *section) {
     const std::size_t at = text_.find(std::string("\n") + section, static_cast<std::size_t>(next_ - text_.data()));
     if (at == std::string::npos)
-      refuse_file(path_, std::string("the file lacks ") + section + ", so the file is not whole");
+      refuse_file(path_, std::string("the file lacks ") + section + ", so the file is incomplete");
     next_ = text_.data() + text_.find('\n', at + 1);
     if (at + 1 + std::string(section).size() >= text_.size()) next_ = text_.data() + text_.size();
   }
