@@ -41,9 +41,9 @@ struct FoundNode {
 };
 static_assert(sizeof(FoundNode) == 16);
 
-// Each thread's list gets room for twice the length of the longest list, because a thread finds more nodes in one step than in
-// another. The room is rounded up to a power of two. A step that finds slightly more nodes than all previous steps thus allocates
-// no memory.
+// Each thread's list gets room for twice the length of the longest list, because the number of nodes that a thread finds changes
+// from step to step. The room is rounded up to a power of two. A step that finds slightly more nodes than all previous steps thus
+// allocates no memory.
 template <class Threads, class ListOf>
 void make_room(Threads &threads, const ListOf &list_of) {
   std::size_t largest = 0, room = 1;
@@ -100,7 +100,7 @@ struct FoundNodes {
   }
 };
 
-// The request of a search that does not depend on how the nodes are stored.
+// The part of a search's request that does not depend on how the nodes are stored.
 struct NodeSearch {
   const Surface &surface;
   double distance_limit;
@@ -122,7 +122,7 @@ struct SearchReport {
   std::int64_t n_queries;
   int n_threads;
   bool complete;
-  std::int64_t n_unreached;  // the nodes that the neighbour search found only by its proof
+  std::int64_t n_unreached;  // the number of nodes that only the proof of the neighbour search found
 };
 
 // Every search fills FoundNodes, in no particular order. A search that reads an unusable coordinate fails with RIIS_INVALID_MESH.
@@ -141,7 +141,7 @@ struct TriangleDistances {
   InstructionSet instructions;
 
   bool may_be_within(Vec3 p, double limit) const { return scene.may_be_within(p, limit); }
-  // Returns the triangle closest to p. If `ties` is not null, its candidates are replaced by those of p.
+  // Returns the triangle closest to p. If `ties` is not null, the function replaces the candidates in it by those for p.
   ClosestTriangle closest(Vec3 p, double limit, Ties *ties = nullptr) const {
     return scene.closest(p, limit, instructions, ties);
   }
@@ -182,7 +182,7 @@ struct OtherDistances {
   double rounding() const { return scene.rounding(); }
 };
 
-// Calls visit(distances) with the method by which the surface measures distances.
+// Calls visit(distances). `distances` is a TriangleDistances or an OtherDistances, as the surface requires.
 template <class Visit>
 auto with_distances(const Surface &surface, InstructionSet instructions, const Visit &visit) {
   if (const PatchDistance *method = surface.other_distance())

@@ -31,7 +31,7 @@ double rows_for(double offset, double max_error);
 // Makes one grid for each patch, in the order of the patches, before any image is placed. The error of each curve stays within
 // the curve's share of max_error. Fails with RIIS_LIMIT_EXCEEDED if the surface would take more than max_triangles triangles.
 Vector<QuadGrid> make_grids(const PatchSet &set, double max_error);
-// Makes the same grids as make_grids, but keeps each grid's lines, and gives each quad its level. The share of a curve is
+// Makes the same grids as make_grids, but keeps each grid's lines, and gives each quad its level. The allowed error of a curve is
 // multiplied by the curve's tightness. An empty `tightness` means 1 for all curves.
 Vector<LevelledGrid> make_levelled_grids(const PatchSet &set, double max_error, const Vector<double> &tightness,
                                          int n_threads);

@@ -101,7 +101,8 @@ class QuadGroups {
   Vector<std::int32_t> ends_;
 };
 
-// Joins the groups of all tiles, after the triangles of all tiles were moved together. `ends` has the ends of each tile's groups.
+// Joins the groups of all tiles into one list. The gaps between the tiles' triangles are already closed. `ends` has the ends of
+// each tile's groups.
 void join(const Vector<Tile> &tiles, const Vector<Vector<std::int32_t>> &ends, Grouping &joined) {
   std::int32_t n = 0;
   joined.end.clear();

@@ -17,8 +17,8 @@
 namespace riis {
 namespace {
 
-// Returns true if all these triangles surely have an area (has_zero_area), and keep it when their corners move by up to an eighth
-// of `shift`.
+// Returns true if all these triangles surely have an area (has_zero_area), even after their corners move by up to an eighth of
+// `shift`.
 bool have_area(const double *vertices, const std::vector<std::int64_t> &vertex_id, const Range &triangles,
                double shift) {
   const Kernels &simd = kernels(best_instruction_set());
@@ -68,7 +68,7 @@ Vector<std::size_t> make_triangles(Tiles &tiles) {
 // Gives a set the triangles of a plan if the set lacks them.
 void take_connectivity(const Connectivity &from, bool flip_normals, TriangleSet &set) {
   const std::uint64_t number = 2 * from.number + (flip_normals ? 1 : 0);
-  // The plan's number alone is not enough: a set whose triangles were given away still has its number.
+  // The plan's number alone is not enough: a set whose triangles were given away still has the plan's number.
   if (set.connectivity == number && set.triangle_id.size() == from.triangle_id.size()) return;
   set.connectivity = 0;
   set.vertex_id = from.vertex_id;
@@ -82,8 +82,8 @@ void take_connectivity(const Connectivity &from, bool flip_normals, TriangleSet 
   set.connectivity = number;
 }
 
-// Places the vertices of these grids, and gives them the triangles of a plan. Returns false if triangles are missing, or if other
-// triangles have an area than in the plan.
+// Places the vertices of these grids, and gives them the triangles of a plan. Returns false if triangles are missing, or if the
+// triangles with an area are not the same as in the plan.
 bool take_planned_triangles(const PatchSet &set, const Triangulation &how, const Vector<LevelledGrid> &grids,
                             const Connectivity &planned, TriangleSet &triangles) {
   Tiles tiles(set, how, grids, triangles);
@@ -114,7 +114,8 @@ TriangleSet triangulate_fixed(const PatchSet &set, const Triangulation &asked, c
                               TriangleSet memory) {
   const Triangulation how = checked(set, asked);
   check_precision(set, how.max_error);
-  // A state may share curves that are separate in other states. The curves of such a state are renumbered as in the plan.
+  // In one state, patches may share curves that are separate in other states. The curves of such a state are renumbered as in the
+  // plan.
   std::optional<PatchSet> renumbered;
   if (!plan.curves.is_of(set)) renumbered = plan.curves.renumbered(set);
   const PatchSet &patches = renumbered ? *renumbered : set;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Half a semilunar cusp: its curves, the shape to which it opens, and its two patches (docs/theory/aortic.md). The lengths,
-// angles and exponents of a cusp give Bézier curves in the cusp's frame. The curves give patches in a set.
+// angles and exponents of a cusp give Bézier curves in the cusp's frame. From these curves, this file makes patches.
 #pragma once
 
 #include <array>
@@ -52,7 +52,7 @@ HalfCusp rate(const HalfCusp &closed, const HalfCusp &open, double apart = 1);
 // parameters in the message.
 void check_reach(const HalfCusp &half, const CuspShape &shape, const char *state, const char *cusp, const char *also);
 
-// The position of a cusp. The cusp is turned and then shifted. The id of its leaflet also numbers its patches.
+// The position of a cusp. The cusp is turned and then shifted. The id of its leaflet also determines the ids of its patches.
 struct CuspPlace {
   Rotation turn;
   Vec3 shift;

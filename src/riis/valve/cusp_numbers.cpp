@@ -14,9 +14,10 @@
 namespace riis {
 namespace {
 
-// An edge that is too short for open_radius_ratio opens until an edge without sag would use up `used_of_edge` of its length.
+// An edge that is too short for open_radius_ratio opens less. It opens as far as an edge without sag that has `used_of_edge`
+// times its length.
 constexpr double used_of_edge = 0.97;
-// An open edge that reaches `round_from` of the height of a circle's arc leaves the commissure like this arc.
+// An open edge whose height is at least `round_from` times the height of a circle's arc leaves the commissure like this arc.
 constexpr double round_from = 0.7;
 // The edges of three equal cusps are always round. Their half sectors are 60 degrees. The edge of another cusp becomes straighter
 // as the cosine of its half sector moves away from the cosine of 60 degrees. If the cosines differ by `not_of_three` or more, the
@@ -68,13 +69,14 @@ void mix_places(const HalfNumbers &closed, const HalfNumbers &open, const std::a
   made.commissure = riis::blend(closed.commissure, open.commissure, shares.back());
 }
 
-// Returns the distance of the inner control points from the ends of a cubic that approximates an arc, in radii.
+// A cubic approximates an arc. Returns the distance, in radii, of the cubic's inner control points from its ends.
 double arc_reach(double degrees) {
   const auto [sine, cosine] = sine_cosine_degrees(degrees / 4);
   return 4.0 / 3.0 * sine / cosine;
 }
 
-// The start tangent, in radii, with which the middle of a single-cubic attachment lies on the cylinder.
+// The length of the start tangent, in radii, of an attachment that is a single cubic. With this length, the cubic's middle lies
+// on the cylinder.
 double tangent_on_cylinder(double sine, double cosine) {
   const double middle = (1 + cosine) / 2;
   return 8.0 / 3 * (std::sqrt(1 - middle * middle) - sine / 2);
@@ -198,7 +200,7 @@ CuspNumbers closed_cusp(const CuspSizes &sizes) {
   return made;
 }
 
-// The symmetry curve is straight. The coaptation zone has the same share of the curve's length as in the closed state.
+// The symmetry curve is straight. The coaptation zone takes up the same share of the curve's length as in the closed state.
 CuspNumbers open_cusp(const CuspSizes &sizes) {
   const CuspNumbers closed = closed_cusp(sizes);
   const double ratio = reached_ratio(sizes, closed);

@@ -37,7 +37,7 @@ struct HalfSector {
   double sine, cosine;
   // A cubic approximates an arc of theta. This is the distance, in radii, of its inner control points from its ends.
   double arc_reach;
-  double attachment_factor;  // factor of the attachment's start tangent, which keeps its middle on the cylinder
+  double attachment_factor;  // factor of the attachment's start tangent, to keep the curve's middle on the cylinder
   std::optional<AttachmentArc> arc;
 };
 HalfSector half_sector(double sector_degrees);
@@ -68,11 +68,11 @@ struct CuspSizes {
 struct FusedPart {
   Bezier edge, line;
   Vec3 commissure;  // the commissure of the closed valve
-  double share;     // the share of the free part in the length of the closed edge
+  double share;     // the length of the free part, as a share of the closed edge's length
 };
 
-// The numbers of half a cusp, y >= 0. The numbers are blended, and the curves follow from the numbers. Shares have the range 0 to
-// 1. Control points are counted from the symmetry plane, or from the root.
+// The numbers of half a cusp, y >= 0. During the motion these numbers are blended, and the curves are computed from them. Shares
+// have the range 0 to 1. Control points are counted from the symmetry plane, or from the root.
 struct HalfNumbers {
   double root_radius;
   Vec3 commissure;
@@ -117,8 +117,8 @@ class EdgeLength {
   double chord_;
 };
 
-// Returns how far the middle of the free edge hangs below the end of the first half. At this depth, all halves together have the
-// length that they are given. The halves must be at least as long as at depth 0.
+// Returns how far the middle of the free edge hangs below the end of the first half. At this depth, all halves together have
+// their given length. The halves must be at least as long as at depth 0.
 double edge_depth(const CuspNumbers &cusp);
 // Returns the length of the free edge whose middle is as high as its lower end.
 double least_edge_length(const CuspNumbers &cusp);

@@ -17,7 +17,7 @@ constexpr double share_on_curve = 0.01;
 // A landmark makes no cut nearer than `least_part`, in the span's parameter, to an end of the span or to another cut. At ends and
 // cuts, the warped curve has the right point and direction, so it is also right beside them.
 constexpr double least_part = 1.0 / 256;
-// The nearest point of a span is searched beside the best of `n_search_steps` even steps.
+// The search for the nearest point of a span continues beside the best of `n_search_steps` evenly spaced points.
 constexpr int n_search_steps = 16;
 
 double polygon_length(const Bezier &span) {
@@ -74,7 +74,7 @@ void add_cut(Vector<PointOnSpan> &cuts, const PointOnSpan &cut) {
   cuts.insert(at, cut);
 }
 
-// Returns the place at which a landmark cuts the curve, or nothing if it does not.
+// Returns the place at which a landmark cuts the curve, or nothing if the landmark makes no cut.
 std::optional<PointOnSpan> cut_by(const Vector<Bezier> &spans, Vec3 landmark, double reach) {
   PointOnSpan nearest{0, 0};
   double least = reach;

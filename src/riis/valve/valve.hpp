@@ -28,15 +28,15 @@ inline Vec3 vector_of(const std::array<double, 3> &values) { return {values[0], 
 struct ParameterRule {
   const char *text = nullptr;  // such as "0.5 leaflet_height", or null without a rule
   std::array<double, 3> (*value)(const ParameterValues &values) = nullptr;
-  std::size_t same_as = 0;  // without the function, the value is that of the parameter at this position
+  std::size_t same_as = 0;  // without a function, the value is that of the parameter at this position
 
   std::array<double, 3> value_from(const ParameterValues &values) const {
     return value ? value(values) : values[same_as];
   }
 };
 
-// A second name for a parameter. The value under this name is the parameter's value times a factor, a power of 2, so that nothing
-// is rounded.
+// A second name for a parameter. The value under this name is the parameter's value times a factor. The factor is a power of 2,
+// so that nothing is rounded.
 struct OtherName {
   const char *name;
   double factor;
@@ -49,12 +49,12 @@ struct ParameterSpec {
   int n_values;  // 1 or 3
   std::array<double, 3> default_values;
   double minimum, maximum;
-  ParameterRule rule = {};         // for default values, the rule gives the default to the last bit
+  ParameterRule rule = {};         // from default values, the rule computes exactly the default, to the last bit
   OtherName other = {nullptr, 0};  // the other name without the leaflet's name
 };
 
-// A name that a user may expect, and why the kind has no parameter of this name. A name without a leaflet also stands for the
-// name with any leaflet.
+// A name that a user may expect, and why the kind has no parameter of this name. A name without a leaflet's name also stands for
+// this name with any leaflet's name before it.
 struct AbsentName {
   const char *name, *reason;
 };
@@ -100,8 +100,9 @@ struct ValveKind {
 // Adds the parameter "skirt_length" to a kind.
 ValveKind with_skirt(ValveKind kind, SkirtAxis axis);
 
-// The kinds of valves that are defined by parameters. Most kinds are in files with their names. The kinds with two to four
-// coapting cusps are in valve/coapting.cpp. The kinds with coapting leaflets on an annulus are in valve/atrioventricular.cpp.
+// The kinds of valves that are defined by parameters. Most kinds are in a file with the name of the kind. The kinds with two to
+// four coapting cusps are in valve/coapting.cpp. The kinds with coapting leaflets on an annulus are in
+// valve/atrioventricular.cpp.
 const ValveKind &aortic_valve_kind();
 const ValveKind &bicuspid_valve_kind();
 const ValveKind &bileaflet_valve_kind();
@@ -129,15 +130,16 @@ class Valve {
   void get(std::string_view name, std::int64_t n_values, double *out) const;
   // Returns the least and the largest value of a parameter. The name must mean only one parameter.
   std::array<double, 2> range_of(std::string_view name) const;
-  // Returns a parameter to its default or to its rule.
+  // Removes the value that the caller set. The parameter has its default again, or the value from its rule.
   void unset(std::string_view name);
   bool is_set(std::string_view name) const;
 
   // Uses the other valve's own state as the open state. The other valve must be of the same kind.
   void set_open_state(const Valve &open);
 
-  // Lets a map move the valve's curves at every opening: `closed` at opening 0, `open` at opening 1, and a blend of both between
-  // them. The maps are copied. If `open` is null, `closed` serves for all openings. If both are null, the valve has no warp.
+  // Lets a map move the valve's curves at every opening: the map `closed` at opening 0, the map `open` at opening 1, and a blend
+  // of both maps at openings between 0 and 1. The maps are copied. If `open` is null, the map `closed` is used at all openings.
+  // If both are null, the valve has no warp.
   void set_warp(const WarpMap *closed, const WarpMap *open);
   bool is_warped() const { return warp_.has_value(); }
 
@@ -176,7 +178,8 @@ class Valve {
   // Returns a number that every change of the valve changes. Copies have the same number. Valves with the same number have the
   // same patches, to the last bit. The number is not 0.
   std::uint64_t revision() const { return revision_; }
-  // Fails if this valve cannot be a state of another valve, which is of the given kind and has a warp if `is_warped`.
+  // Fails if this valve cannot be a state of another valve. The other valve is of the given kind, and has a warp if `is_warped`
+  // is true.
   void check_is_state_of(const ValveKind &kind, bool is_warped, const StateNames &names) const;
   // Makes the patches without a search for folds. A message of failure begins with the state's name.
   PatchSet make_patches_unsearched(const char *name) const;
@@ -203,7 +206,7 @@ class Valve {
     WarpMap closed;
     std::optional<WarpMap> open;
     mutable std::shared_ptr<const KnownCuts> known =
-        {};  // changes atomically, because several threads may read a valve
+        {};  // changes atomically, because several threads may read a valve at the same time
   };
 
   // The digest of the last shape whose values were checked, or 0. It changes atomically, because several threads may read a

@@ -71,7 +71,7 @@ bool read_number(std::string_view text, Number &number) {
 // Functions that visit an XML file element by element (xml_elements.cpp). No tree of elements is built. A hostile file could nest
 // its elements so deeply that the destruction of a tree would overflow the stack.
 
-// In the list, names and values alternate, and NULL ends the list.
+// The attributes of an element, as a list in which names and values alternate. NULL ends the list.
 using XmlAttributes = const char **;
 std::optional<std::string> value_of(XmlAttributes attributes, const char *name);
 

@@ -29,8 +29,8 @@
 
 namespace riis::vtk {
 
-// Removes the reader's note from the grid and returns it. For a file of VTK, the note may say that the points have single
-// precision.
+// Removes the reader's note from the grid and returns it. For a file in a format of VTK, the note may say that the points have
+// single precision.
 std::string take_note(vtkUnstructuredGrid *grid) {
   std::string note;
   if (auto *const array = vtkStringArray::SafeDownCast(grid->GetFieldData()->GetAbstractArray(note_array))) {
@@ -72,8 +72,8 @@ void check_adjacency(riis_status status, const std::string &structure) {
   fail(status, text.rfind(structure, 0) == 0 ? text.substr(structure.size()) : text);
 }
 
-// Makes an adjacency of nodes from edges. The core makes the adjacency of cells from the faces between cells. Here the nodes are
-// passed as cells, and the edges as faces.
+// Makes an adjacency of nodes from edges. The core has a function that makes the adjacency of cells from the faces between cells.
+// Here this function gets the nodes as if they were cells, and the edges as if they were faces.
 riis_adjacency *adjacency_of_edges(std::int64_t n_nodes, const std::vector<std::int64_t> &edges,
                                    std::int32_t n_threads) {
   riis_mesh_faces faces;
