@@ -23,7 +23,7 @@ Vector3 draw_direction(random_source &random) {
   }
 }
 
-// Returns the new vertices on edges, and remembers them for later cubes.
+// Makes the new vertices on edges, and stores them for later cubes.
 class CutPoints {
  public:
   CutPoints(std::vector<Vector3> &points, const std::function<Vector3(std::int64_t, std::int64_t)> &place)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Volume meshes of riis_vtk.h. Reads a file into a grid with points in double precision, and makes an adjacency from the grid's
-// cells. Stores marks in the grid's point arrays, and writes the grid to a .vtu file.
+// The functions of riis_vtk.h for volume meshes. Reads a file into a grid with points in double precision, and makes an adjacency
+// from the grid's cells. Stores marks in the grid's point arrays, and writes the grid to a .vtu file.
 #include <riis/riis_vtk.h>
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parts of volume meshes of riis_vtk.h. A part is itself a mesh. It consists of the cells around certain nodes of the whole mesh.
+// The functions of riis_vtk.h for parts of volume meshes. A part is itself a mesh. It consists of the cells around certain nodes
+// of the whole mesh.
 #include <algorithm>
 #include <memory>
 

@@ -58,7 +58,7 @@ enum class LegacyKinds { grid, grid_or_polydata };
 struct LegacyContent {
   LegacyKind kind;
   std::int64_t n_cells;
-  // The file's bytes with VTK's names of types. The text is empty unless meshio has written other names.
+  // The file's bytes, with meshio's names of types replaced by VTK's names. The text is empty if the file has no names of meshio.
   std::string rewritten;
 };
 LegacyContent check_legacy(const std::string &path, LegacyKinds allowed);
@@ -108,7 +108,7 @@ class XmlSizes {
   const std::string &path_;
   MappedFile file_;
   std::string_view bytes_;
-  // The size of an element that was checked: its number of bytes, or the number of numbers in its text.
+  // The size of an element that was checked: how many bytes it has, or how many numbers its text has.
   struct Held {
     std::uint64_t n = 0;
     bool is_text = false;
