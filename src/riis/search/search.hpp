@@ -24,7 +24,7 @@ namespace riis {
 // The nodes that a search finds, in one list for each thread. The lists' memory is reused, so the library allocates nothing in a
 // steady run of time steps.
 
-// A limit on the number of nodes. No machine has memory for the coordinates of this many nodes.
+// A limit on the number of a mesh's nodes. No machine has memory for the coordinates of so many nodes.
 inline constexpr std::int64_t max_nodes = std::int64_t{1} << 40;
 
 // A node within the distance limit. `triangle` is a position in the surface's set of triangles. If another method measures the
@@ -55,9 +55,9 @@ void make_room(Threads &threads, const ListOf &list_of) {
 
 // One list for each thread. The order within a list has no meaning.
 struct FoundNodes {
-  Range numbers{0, 0};  // the range of the nodes' numbers; lists count from its beginning
+  Range numbers{0, 0};  // the range of the nodes' numbers; the lists count nodes from the beginning of this range
   std::vector<UnfilledVector<FoundNode>> by_thread;
-  std::vector<Ties> ties_by_thread;  // stay empty unless the rule requests ties
+  std::vector<Ties> ties_by_thread;  // the lists stay empty unless the rule requests ties
 
   // Empties the lists, and makes room for the next search.
   void prepare(int n_threads, const TieRule &ties = {}) {
@@ -125,7 +125,8 @@ struct SearchReport {
   std::int64_t n_unreached;  // the number of nodes that only the proof of the neighbour search found
 };
 
-// Every search fills FoundNodes, in no particular order. A search that reads an unusable coordinate fails with RIIS_INVALID_MESH.
+// Every search fills FoundNodes. The nodes are in no particular order. A search that reads an unusable coordinate fails with
+// RIIS_INVALID_MESH.
 
 // Queries every node (paper, 4.2.1 "Exhaustive node iteration").
 SearchReport search_exhaustively(const SearchRequest &request, FoundNodes &found);

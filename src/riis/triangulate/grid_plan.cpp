@@ -17,7 +17,8 @@
 namespace riis {
 namespace {
 
-// A curve may be halved at most `max_rounds` times. With more halvings, there would be more triangles than the library can hold.
+// The parts of a curve may be halved at most `max_rounds` times. With more halvings, there would be more triangles than the
+// library accepts.
 constexpr int max_rounds = 24;
 
 // To bound the offset O (geometry/bulge.hpp), the space between two lines is divided into at most this many parts.
@@ -335,7 +336,7 @@ class Planner {
       std::size_t n_steps = least_steps;
       for (const std::size_t curve : family.curves)
         n_steps = std::max(n_steps, steps_per_segment * rough_number_of_segments(curve));
-      if (n_steps > most_steps) continue;  // for so small a tolerance, all parts of the curves are halved instead
+      if (n_steps > most_steps) continue;  // for such a small tolerance, all parts of the curves are halved instead
       while ((n_steps & (n_steps - 1)) != 0) n_steps += n_steps & -n_steps;
       for (std::size_t k = 0; k < family.curves.size(); ++k)
         needs.push_back(needs_of(family.curves[k], family.runs_against[k], n_steps));
@@ -468,7 +469,7 @@ class Planner {
     plan_.n_rows = std::max(plan_.n_rows, static_cast<std::size_t>(rows_for(offset, max_error_)));
   }
 
-  // Returns a first choice of few lines, which usually suffices. The choice includes lines at the joints.
+  // Returns a first choice of few lines, which usually suffices. Among these lines are lines at the joints.
   Vector<double> first_arc_lines(std::size_t patch, const Vector<double> &joints) const {
     const Patch &first = set_.patches[patch];
     Vector<double> ends{0};
@@ -510,8 +511,8 @@ class Planner {
     return (arc_curve_share + merge_share) * max_error_ * std::min(tightness(patch.v0), tightness(patch.v1));
   }
 
-  // For every pair of neighbouring lines, returns the least number of parts that suffices at all openings. If no number suffices,
-  // the result is above most_parts.
+  // For every pair of neighbouring lines, returns the least number of parts that suffices at all openings. If no number up to
+  // most_parts suffices, the result is larger than most_parts.
   Vector<int> parts_wanted(std::size_t patch, PatchPlan &plan) const {
     const Patch &first = set_.patches[patch];
     const double of_curves = of_arc_curves(first);

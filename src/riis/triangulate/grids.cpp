@@ -46,8 +46,8 @@ class GridMaker {
     for (std::size_t i = 0; i < tightness.size(); ++i) errors_[i] *= tightness[i];
   }
 
-  // Makes the grids, and passes each grid to `finish` on the thread that made it. Counts the triangles after each step, before
-  // anything large is allocated.
+  // Makes the grids, and passes each grid to `finish` on the thread that made it. After each step, counts the triangles before
+  // large arrays are allocated.
   template <class Made, class Finish>
   Vector<Made> make(const Finish &finish) {
     const std::size_t n_patches = set_.patches.size();

@@ -172,7 +172,7 @@ class TileTriangles {
   std::int64_t next_id_ = tile_.first_id;
 };
 
-// Returns the patches with missing triangles (is_missed).
+// Returns the patches of which a triangle is missed (is_missed).
 Vector<std::size_t> vanished_patches(const Vector<Tile> &tiles) {
   Vector<std::size_t> vanished;
   for (const Tile &tile : tiles)
@@ -188,7 +188,7 @@ void resize_triangles(std::int64_t n, TriangleSet &triangles) {
   resize(triangles.triangle_id, n);
 }
 
-// Moves the triangles of all tiles together, because tiles may have fewer triangles than the room reserved for them.
+// Moves the triangles of all tiles so that no gaps remain. A tile may have fewer triangles than the room reserved for it.
 void close_gaps(const Vector<Tile> &tiles, TriangleSet &triangles) {
   std::int64_t n = 0;
   for (const Tile &tile : tiles) {

@@ -102,7 +102,7 @@ void finish(const PatchSet &set, Vector<LevelledGrid> grids, TriangleSet &triang
 [[noreturn]] void fail_for_vanished(const PatchSet &set, std::size_t patch, const char *where);
 
 // Calls attempt(tightness) until it returns no patch with missing triangles. A patch thinner than the tolerance loses its area if
-// both its sides become the same chords. Each attempt therefore has finer curves for the patches that the previous attempt
+// two opposite sides become the same chords. Each attempt therefore has finer curves for the patches that the previous attempt
 // returned.
 template <class Attempt>
 void with_finer_curves(const PatchSet &set, const char *where, const Attempt &attempt) {

@@ -19,7 +19,7 @@ namespace riis {
 
 // Grids whose lines stay the same while a valve opens (docs/theory/triangles.md, "Fixed triangulation"). A plan is made from the
 // patches of a valve at many openings. The plan's lines keep the allowed error at all these openings. At any opening, grids can
-// be made on these lines, with bounds of their errors.
+// be made on these lines, and the errors of these grids are bounded.
 struct PatchPlan {
   bool has_arcs = false;  // whether the patch is a patch of arcs at some opening
 

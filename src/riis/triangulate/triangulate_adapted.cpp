@@ -76,7 +76,7 @@ class QuadGroups {
     const bool along_u = j1 - j0 == 1 || (i1 - i0 > 1 && distance(grid_.point(i0, j), grid_.point(i1, j)) >
                                                              distance(grid_.point(i, j0), grid_.point(i, j1)));
     const auto before = [&](std::size_t cut) { return along_u ? Quads{i0, cut, j0, j1} : Quads{i0, i1, j0, cut}; };
-    // A cut near the middle makes both parts compact. Of the places near the middle, the cut takes the one that gives the fewest
+    // A cut near the middle makes both parts compact. The cut is made at that place near the middle which gives the fewest
     // groups.
     constexpr std::size_t farthest = 4;
     const std::size_t middle = along_u ? i : j, size = along_u ? i1 - i0 : j1 - j0;

@@ -43,7 +43,7 @@ bool have_area(const TriangleSet &set) {
   return true;
 }
 
-// Images of a patch are congruent except for rounding. Bounds how far rounding moves a corner.
+// Bounds how far rounding moves a corner of an image. Except for rounding, the images of a patch are congruent.
 double rounding_of_corners(const QuadGrid &grid, const Patch &patch, const Placement &placement) {
   double largest = 0, farthest = 0;
   for (const Vec3 &p : grid.points) largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
@@ -133,7 +133,7 @@ TriangleSet triangulate_fixed(const PatchSet &set, const Triangulation &asked, c
     if (!vanished.empty()) fail_for_vanished(set, vanished.front(), " in the fixed triangulation at this opening");
     group_all_by_place(memory, memory.grouping);
   }
-  finish(set, std::move(grids), memory);  // takes `set`, not `patches`, because curves that `set` shares are not rims
+  finish(set, std::move(grids), memory);  // `set`, not `patches`: a curve that two patches of `set` share is no rim
   return memory;
 }
 
@@ -239,7 +239,7 @@ Connectivity make_connectivity(const PatchSet &state, const Triangulation &how, 
 TriangulationPlan plan_triangulation(const Vector<PatchSet> &given, double asked_error, int n_threads) {
   double max_error = asked_error;
   for (const PatchSet &state : given) max_error = std::min(max_error, error_left(state, asked_error));
-  // The plan uses less than the whole error, because the remainder is for openings between the given openings.
+  // The plan uses less than the whole allowed error. The rest is kept for openings between the given openings.
   constexpr double share = 0.95;
   const double planned_error = share * max_error;
   // A curve that patches share at only one opening is two curves at other openings. The state with the most curves therefore

@@ -210,7 +210,7 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
     const HalfCusp open_half = !has_own_open_state ? half_cusp(shape_of(open.values, cusp))
                                : opening != 0      ? own_open_half(closed.values, cusp)
                                                    : open_half_of(closed.values, cusp);
-    // A cusp's position has no control points to blend, so its angles and its shift are blended.
+    // The position of a cusp is given by angles and a shift, so these are blended instead of control points.
     const auto vector_of = [&](OfCusp parameter) {
       const std::size_t i = position_of(cusp, parameter);
       return riis::blend(riis::vector_of(closed.values[i]), riis::vector_of(open.values[i]), opening);

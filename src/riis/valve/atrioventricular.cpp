@@ -22,9 +22,9 @@
 namespace riis {
 namespace {
 
-// A leaflet has `n_places` evenly spaced places along the annulus, from one commissure to the next. From each place hangs a
-// meridian. A free edge consists of two cubics, and so does a coaptation line. Two joined cubics have seven control points, one
-// for each place.
+// A leaflet has `n_places` evenly spaced places along the annulus, from one commissure to the next. A meridian, a curve down the
+// leaflet, begins at each place. A free edge consists of two cubics, and so does a coaptation line. Two joined cubics have seven
+// control points, one for each place.
 constexpr std::size_t n_places = 7, middle = 3, n_cells = n_places - 1;
 template <class Value>
 struct AtPlaces {
@@ -193,7 +193,8 @@ AtPlaces<Vec3> on_parts(const std::array<Bezier, n_cells> &parts) {
   return points;
 }
 
-// A moving meridian arrives at the coaptation line in the direction in which the zone continues.
+// Returns the meridian of a moving leaflet. At the coaptation line, the meridian has the direction in which the coaptation zone
+// continues.
 Bezier meridian(Vec3 hinge, Vec3 start, double turn, Vec3 on_line, Vec3 on_edge) {
   return Bezier::cubic(hinge, hinge + start, on_line + turn * unit(on_line - on_edge), on_line);
 }
@@ -228,7 +229,7 @@ Annulus annulus_of(const Sizes &sizes) {
   return annulus;
 }
 
-// A closed free edge ends at this point of a commissure, and the coaptation line ends above the point.
+// Returns the point of a commissure at which a closed free edge ends. The coaptation line ends above this point.
 Vec3 end_of_edge(const Sizes &sizes, const Hinge &hinge) {
   return hinge.hang(sizes.of(commissure_length), sine_cosine_degrees(sizes.of(commissure_angle)));
 }
@@ -337,9 +338,10 @@ double middle_length(const Leaflet &leaflet) {
          arc_length(meridian({0, 0, 0}, leaflet.start[middle], leaflet.turn[middle], on_line, on_edge));
 }
 
-// Returns the leaflet after every place has moved by a share of its way. Each control point swings about its hinge. After the
-// swing, the leaflet is stretched until its middle has the right length. The stretch becomes smaller towards the commissures.
-// Finally, bumps lift the leaflet. This lift is along z, so it does not change how far apart the leaflets are seen along z.
+// Returns the leaflet after every place has moved by its share of the way from closed to open. Each control point swings about
+// its hinge. After the swing, the leaflet is stretched until its middle has the right length. The stretch becomes smaller towards
+// the commissures. Finally, bumps lift the leaflet. This lift is along z, so it does not change how far apart the leaflets are
+// seen along z.
 Leaflet moved(const Leaflet &closed, const Leaflet &open, const AtPlaces<double> &shares) {
   Leaflet made = closed;
   for (std::size_t i = 0; i < n_places; ++i) {
@@ -544,7 +546,7 @@ void check_values(const ParameterValues &values, const ValveKind &kind, std::siz
   }
 }
 
-// The sizes in which the kinds differ. Lengths are in centimetres. The sources of the values are in
+// The sizes that differ between the kinds of valves. Lengths are in centimetres. The sources of the values are in
 // docs/theory/atrioventricular.md.
 struct KindSizes {
   Vector<ParameterSpec> of_leaflets;

@@ -19,8 +19,8 @@ enum class BumpLift : bool { no, yes };
 // "lift".
 std::size_t add_bump_specs(Vector<ParameterSpec> &specs, std::size_t n_leaflets, BumpLift lift);
 
-// The closed and the open position of a place of a free edge. Both are shares of the way on which a healthy place moves, from 0
-// at its closed position to 1 at its open position. `lift` raises the closed position towards +z.
+// The closed and the open position of a place of a free edge. Both are shares of the way of a healthy place: 0 is its closed
+// position, and 1 is its open position. `lift` raises the closed position towards +z.
 struct LocalOpening {
   double closed = 0, open = 1, lift = 0;
 };

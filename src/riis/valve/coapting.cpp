@@ -37,15 +37,15 @@ enum OfCusp { sector, own_effective_height, own_coaptation_height, own_open_radi
 constexpr double most_of_edge = 0.998;
 // While the valve opens, the height of the free edge above the root must stay at least `least_height` times root_radius.
 constexpr double least_height = 0.05;
-// Every set of values is checked for folds of the cusps at these openings. Folds arise only in the second half of the motion.
+// Every set of values is checked for folds of the cusps at these openings. Folds occur only in the second half of the motion.
 constexpr std::array<double, 4> openings_of_folds{0.6, 0.75, 0.9, 1};
 // At the root, the leaflet must rise by at least `least_rise` times the rise of a leaflet without sag.
 constexpr double least_rise = 0.05;
 // If a cusp's rise, in the same unit, is less than `usual_rise`, its open edge leaves the commissures at a smaller slope. If the
 // rise is at most usual_rise - rise_until_level, the edge leaves the commissures horizontally.
 constexpr double usual_rise = 0.1, rise_until_level = 0.15;
-// The edge of a cusp that would fold gets a smaller slope at the commissures. The height of its edge above the root must then
-// stay at least `least_height_of_flat` times root_radius. In a lower leaflet, triangles would cross near the attachment.
+// If a cusp would fold, its edge gets a smaller slope at the commissures. The height of this edge above the root must then stay
+// at least `least_height_of_flat` times root_radius. In a lower leaflet, triangles would cross near the attachment.
 constexpr double least_height_of_flat = 0.08;
 // Fused commissures must leave an open orifice of at least `least_orifice` of the area inside the commissures.
 constexpr double least_orifice = 0.06;
@@ -262,7 +262,8 @@ double least_rise_of(const Vector<Vector<HalfCusp>> &halves) {
   return least;
 }
 
-// The least rise at the root over the openings at which cusps may fold. Openings at which the edge hangs too low are left out.
+// The least of a cusp's rises at the root, over all openings at which cusps may fold. Openings at which the edge hangs too low
+// are left out.
 struct RiseOnWay {
   double least = std::numeric_limits<double>::infinity();
   bool hangs_too_low = false;  // at one of these openings
@@ -338,7 +339,7 @@ void check_cusp(const ValveValues &values, std::size_t k) {
          "commissure_expansion");
   if (sizes.keeps_ratio && is_half) {
     // The middle of the edge is at least as far from a commissure as the symmetry plane is. The middle is therefore never lower
-    // than this value.
+    // than `low`.
     const double away = sizes.sector.sine * sizes.commissure_radius;
     const double low = values.of_commissure(k, height) - std::sqrt(edge_length * edge_length - away * away);
     if (!(low >= least_height * sizes.root_radius))

@@ -13,8 +13,8 @@ namespace riis {
 namespace {
 
 // The coaptation line is turned in `n_crease_steps` steps until no crease is left. Each step computes the crease at the ends of
-// `n_crease_spans` parts of the line. The stiffness says how much the line's displacement weighs in comparison with the crease.
-// With these values the largest crease of random valves is below one degree.
+// `n_crease_spans` parts of the line. The stiffness is the weight of the line's displacement in comparison with the crease. With
+// these values the largest crease of random valves is below one degree.
 constexpr int n_crease_steps = 2;
 constexpr std::size_t n_crease_spans = 8;
 constexpr double crease_stiffness = 0.03;

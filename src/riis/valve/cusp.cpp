@@ -59,7 +59,7 @@ Side add_sinus_below(PatchSet &set, const HalfCusp &part, const HalfCusp &rate) 
   return set.add(Curve({*part.sinus_start, part.sinus_below}));
 }
 
-// The sides at which both halves of a cusp meet.
+// The sides at which the two halves of a cusp meet.
 struct SymmetrySides {
   Side root, below, above;
 };
@@ -91,7 +91,7 @@ void add_parts(PatchSet &set, const MovingHalf &half, const SymmetrySides &middl
   }
 }
 
-// Returns the half after it is mirrored, turned and moved like an image.
+// Returns the half after it is mirrored, turned and moved as the image is.
 MovingHalf turned(const MovingHalf &half, const PatchImage &image) {
   const auto turn = [&](Bezier curve) {
     for (int i = 0; i <= curve.degree; ++i) view(curve.control)[i] = place(image, view(curve.control)[i]);

@@ -92,8 +92,8 @@ double parameter_at_y(const Bezier &curve, double y) {
   return low;
 }
 
-// Splits the closed half into a part that opens and a fused part. The middle of the half's edge is at the height `low`. The free
-// and the fused part meet in a vertical line of the zone.
+// Splits the closed half into a free part, which opens, and a fused part. The middle of the half's edge is at the height `low`.
+// The free and the fused part meet in a vertical line of the zone.
 void fuse(HalfNumbers &half, double fusion, double low) {
   const HalfCusp whole = coapting_half(half, half.edge_top - low, low).front();
   const auto [free, fused] = split(whole.leaflet, 1 - fusion);
@@ -116,7 +116,8 @@ HalfNumbers closed_half(const CuspSizes &sizes, const CuspSizes::Side &side) {
   // is half the gap.
   const double sine_of_plane = sizes.meeting == 0 ? sizes.sector.sine : C.y / hypotenuse(C.x - sizes.meeting, C.y);
   const double x_in = sizes.meeting + 0.5 * sizes.gap / sine_of_plane;
-  // The tangent is limited. Its end must not lie above half the height of the coaptation line, and not beyond the zone.
+  // The length of the tangent is limited, so that its end lies neither above half the height of the coaptation line nor beyond
+  // the zone.
   const auto [sine, cosine] = sine_cosine_degrees(sizes.bottom_angle);
   double tangent = std::min(sizes.belly * R, sine > 0 ? 0.5 * z_k / sine : sizes.belly * R);
   if (sizes.meeting != 0) tangent = std::min(tangent, 0.9 * (R - x_in));
@@ -271,9 +272,9 @@ EdgeLength::Value EdgeLength::at(double depth) const {
   return value;
 }
 
-// The length of the free edge is a growing and convex function of its depth. Newton's method starts at a depth that is too large,
-// so it descends to the solution and never passes it. At the starting depth, the straight line between the ends of one half alone
-// is as long as the whole edge should be. A half is at least as long as its line, so this depth is large enough.
+// The length of the free edge is a convex function of its depth, and grows with the depth. Newton's method starts at a depth that
+// is too large, so it descends to the solution and never passes it. At the starting depth, the straight line between the ends of
+// one half alone is as long as the whole edge should be. A half is at least as long as its line, so this depth is large enough.
 double edge_depth(const CuspNumbers &cusp) {
   Vector<EdgeLength> halves(cusp.begin(), cusp.end());
   const double wanted = total_length(cusp), first_top = cusp.front().edge_top;

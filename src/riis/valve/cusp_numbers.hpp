@@ -59,7 +59,8 @@ struct CuspSizes {
     std::array<LocalOpening, 4> local;  // at the control points of the free edge, from the middle
   };
   Vector<Side> sides;  // the sides y >= 0 and y < 0, or one side for both
-  // How deep the inner control points of the open free edge hang beside the commissures, as a share of the depth of the middle.
+  // The depth at which the inner control points of the open free edge beside the commissures hang, as a share of the depth of the
+  // middle.
   double open_sag = usual_open_sag;
 };
 
@@ -85,12 +86,12 @@ struct HalfNumbers {
   double band_lean;   // in the middle, how much farther from the axis the coaptation line is than the free edge
   double belly_x;     // x of the first inner control point of the symmetry curve
   double belly_rise;  // height of that point, as a share of the height of the coaptation line's middle
-  double band_start;  // height of the coaptation line above the second inner control point, as the same share
+  double band_start;  // height of the coaptation line above the second inner control point, as such a share
   std::optional<AttachmentArc> attachment_arc = {};
   std::optional<FusedPart> fused = {};
 };
 
-// The halves of a cusp in the order of its sides. All halves share one middle.
+// The halves of a cusp, in the order of its sides. They meet at the cusp's middle.
 using CuspNumbers = Vector<HalfNumbers>;
 
 // Blends the numbers of two states.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The patches of a valve, in the form in which the valve passes them to the surface. Patches refer to curves by position, so
-// several patches can share a curve.
+// The patches of a valve, in the form in which the valve passes them to the surface. Patches refer to curves by their positions
+// in a list, so several patches can share a curve.
 #pragma once
 
 #include <array>
@@ -20,9 +20,8 @@ enum class Mirror { none, in_x, in_y };
 
 inline constexpr std::size_t no_patch = static_cast<std::size_t>(-1);
 
-// The placement of a patch. The patch may first be mirrored. After mirroring, the patch is turned and moved. All images of a
-// patch come from the same operations on the same points. To the last bit, a patch and its mirror image therefore meet in the
-// mirror's plane.
+// The placement of a patch. The patch may first be mirrored, and is then turned and moved. All images of a patch come from the
+// same operations on the same points. To the last bit, a patch and its mirror image therefore meet in the mirror's plane.
 struct PatchImage {
   Mirror mirror;
   Rotation rotation;
@@ -159,7 +158,7 @@ struct PatchSet {
   // The list ends before the curves of a skirt, which come last and have no derivatives.
   Vector<Vector<Bezier>> rates = {};
   // Only warped patches have this list. Each curve has an entry, except the lines between the sides of a skirt. On these lines,
-  // the points at equal shares of the length are the same material anyway.
+  // the points at equal shares of the length always are the same material.
   Vector<std::optional<MaterialPoints>> material = {};
   // Only warped patches have this list. Its entries say to which places the map takes points inside each patch.
   Vector<MappedInside> mapped_inside = {};
@@ -180,7 +179,8 @@ inline Curve along(const PatchSet &set, const Side &side) {
   return side.reversed ? set.curve_of(side).reversed() : set.curve_of(side);
 }
 
-// Returns the offset O (geometry/bulge.hpp) on a side that is itself an arc. Both patches at such a side thus get the same bits.
+// Returns the offset O (geometry/bulge.hpp) on a side that is itself an arc. The two patches at such a side thus get the same
+// bits.
 inline Vec3 arc_offset(const PatchSet &set, const Side &side) { return arc_offset(set.curve_of(side).spans().front()); }
 
 }  // namespace riis

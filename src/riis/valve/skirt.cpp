@@ -15,8 +15,8 @@
 namespace riis {
 namespace {
 
-// A skirt of one length has `n_even_parts` parts on each side of a patch. The outer edge then has an error of at most a
-// thousandth of the length (tests/surface/test_skirt.c).
+// If a skirt has the same length everywhere, it has `n_even_parts` parts on each side of a patch. The outer edge then has an
+// error of at most a thousandth of the length (tests/surface/test_skirt.c).
 constexpr std::size_t n_even_parts = 8;
 // Two ends of cusps that are not joined count as neighbours if their distance is at most `most_between_ends` times the longest
 // side.
@@ -32,8 +32,8 @@ constexpr double least_sine_to_axis = 0.2;
 // the side's tangent does. Beside a flatter side the skirt leans less, and beside a side in the plane it does not lean.
 constexpr double least_rise = 0.5;
 // In some valves the skirt is not turned at rest, although the rule for neighbouring ends would turn it. If a warp hardly changes
-// this turn, the skirt is turned only by the change. After a change of `most_turn_as_at_rest` or more, the skirt is turned by the
-// whole new turn. Between these cases, the turn changes gradually.
+// the turn by this rule, the skirt is turned only by the change. If the change is `most_turn_as_at_rest` or more, the skirt is
+// turned by the whole new turn. Between these cases, there is a gradual transition.
 constexpr double most_turn_as_at_rest = pi / 4;
 // To warp an axis, a disc about the axis is warped. The disc has `n_corners` corners.
 constexpr int n_corners = 24;
@@ -378,7 +378,7 @@ Vec3 direction_between(const AxisLine &axis, const SideEnd &before, const SideEn
   const Vec3 out = outwards(axis, 0.5 * (before.point + after.point)), onwards = cross(axis.direction, out);
   const double apart = length(across);
   if (!(apart > 0)) return out;
-  // The skirts of both neighbours are turned towards the end that lies farther outwards.
+  // The skirts at both ends are turned towards that end which lies farther outwards.
   const double along_out = dot(across, out), past = -dot(across, onwards) / apart;
   double sine = past;
   if (past > most_past_in_line) sine = most_past_in_line * (1 - past) / (1 - most_past_in_line);

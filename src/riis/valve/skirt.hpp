@@ -14,7 +14,7 @@
 
 namespace riis {
 
-// The line from which a skirt leads away. The direction of a skirt is perpendicular to its line.
+// The line from which a skirt leads away. The skirt leads away at a right angle to this line.
 enum class SkirtAxis : std::uint8_t {
   none,      // the kind of valve has no skirt
   of_cusp,   // the root's axis, which is the z axis before a patch's image is placed
@@ -29,7 +29,7 @@ void aim_skirt(PatchSet &set, SkirtAxis axis);
 // a placement does.
 void aim_warped_skirt(PatchSet &set, const PatchSet &at_rest, const BlendedWarp &warp);
 
-// A side at which a patch is attached. No other patch has the attached side.
+// A side at which a patch is attached, and which no other patch has.
 struct HeldSide {
   std::size_t patch;
   Side side;

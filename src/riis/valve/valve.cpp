@@ -77,7 +77,7 @@ Naming naming(const ParameterSpec &spec, std::string_view name) {
   return by_own.names_it || !spec.other.name ? by_own : names(spec.other.name, spec.other.factor);
 }
 
-// Calls action(position, naming) for all parameters that a name means. A whole name, such as "right.leaflet_angle", means only one
+// Calls action(position, naming) for all parameters that a name means. A whole name, such as "right.leaflet_angle", means one
 // parameter. A name without the leaflet's name means this parameter of every leaflet. The function allocates nothing, because a
 // solver sets the opening in each time step.
 template <class Action>
@@ -107,8 +107,8 @@ void check_range(const ParameterSpec &spec, std::string_view name, double factor
          factor * spec.minimum, " to ", factor * spec.maximum);
 }
 
-// Checks values that follow from rules. Such a value may be out of range if the sizes in its rule are near the ends of their own
-// ranges.
+// Checks values that follow from rules. Such a value may be out of its range if the rule uses sizes that are near the ends of
+// their ranges.
 void check_derived(const ValveKind &kind, const ValveState &state) {
   for (std::size_t i = 0; i < kind.parameters.size(); ++i) {
     const ParameterSpec &spec = kind.parameters[i];
@@ -247,7 +247,7 @@ void Valve::set_open_state(const Valve &open) {
     fail(RIIS_INVALID_PARAMETER, "the open state is of the kind ", open.kind_->name, ", the valve of the kind ",
          kind_->name, ": both must be of one kind");
   if (kind_->check_states) kind_->check_states(state_, open.state_, "the open state");
-  open_ = ValveState(open.state_);  // copied first, because member-by-member assignment could fail half way
+  open_ = ValveState(open.state_);  // copied first, because assigning one member after another could fail half way
 }
 
 void Valve::set_warp(const WarpMap *closed, const WarpMap *open) {

@@ -167,7 +167,7 @@ class Valve {
   // Returns whether all parameters except the opening have the kind's defaults.
   bool has_default_shape() const;
   // Returns a digest of the shape and of a warp's landmarks, but not of the opening or the landmarks' targets. The digest is
-  // never 0. Two different shapes practically never have the same digest.
+  // never 0. It is very improbable that two different shapes have the same digest.
   std::uint64_t shape_digest() const;
 
   // Makes the patches at the current opening.
@@ -196,8 +196,8 @@ class Valve {
   void check_open_values() const;
   static std::uint64_t next_revision();
 
-  // The cuts of a shape at its landmarks. The cuts are kept, because they do not change while the valve opens or the targets
-  // move.
+  // The cuts of a shape at its landmarks. The cuts are stored, because they do not change when the valve opens or the landmarks'
+  // targets move.
   struct KnownCuts {
     std::uint64_t shape_digest;
     LandmarkCuts cuts;

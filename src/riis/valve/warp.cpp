@@ -20,7 +20,7 @@ constexpr double thinnest_share = 0.05;
 // Sources also count as planar in another case: noise would change the stretch across the plane by more than
 // `largest_stretch_error`.
 constexpr double largest_stretch_error = 0.1;
-// The residuals should be the share `residual_share` of the noise. The share is below 1, because the map follows a part of the
+// The residuals should be the share `residual_share` of the noise. The share is below 1, because the map fits a part of the
 // noise. The attachments of random patients were met best with shares from 0.5 to 0.7 (docs/theory/warp.md, "Equations").
 constexpr double residual_share = 0.6;
 constexpr double line_share = 1e-6, same_place_share = 1e-6;
@@ -137,7 +137,7 @@ WarpLandmarks::WarpLandmarks(const Vector<Vec3> &sources, double noise, const ch
   const double root_n = std::sqrt(static_cast<double>(n));
   const double widest = std::sqrt(values[0]) / root_n, middle = std::sqrt(values[1]) / root_n,
                thinnest = std::sqrt(values[2]) / root_n;
-  // The nearest pair is checked first: landmarks in one place also lie on a line, but need another message.
+  // The nearest pair is checked first, because landmarks in one place also lie on a line, but get another message.
   Vector<std::size_t> nearest_to;
   for (std::size_t i = 0; i < n; ++i) {
     double least = std::numeric_limits<double>::infinity();

@@ -83,8 +83,8 @@ class WarpLandmarks {
 
   std::size_t size() const { return sources_.size(); }
   const Vector<Vec3> &sources() const { return sources_; }
-  // True if the landmarks are too near to a plane to determine an affine map. The map then stretches the direction across the
-  // plane as the landmarks stretch the plane.
+  // True if the landmarks are too near to a plane to determine an affine map. The map then stretches space across the plane as
+  // much as the landmarks stretch it within the plane.
   bool is_planar() const { return is_planar_; }
 
   // Returns an (n, n) matrix. Its product with the displacements gives the weights of a map that meets its targets. The product
@@ -110,7 +110,7 @@ class WarpLandmarks {
   std::size_t n_free_ = 0;            // the number of landmarks minus n_terms_
   Vector<Vec3> scaled_;               // (source - centre) / size
   Vector<double> basis_;              // (n_free_, n): U, columns orthogonal to the polynomials
-  Vector<double> least_squares_;      // (n_terms_, n): gives the polynomial nearest to values at landmarks
+  Vector<double> least_squares_;      // (n_terms_, n): gives the polynomial that fits values at the landmarks best
   Vector<double> of_kernel_;          // (n_terms_, n): the same for a sum of |r|^3, from the sum's weights
   Vector<double> diagonal_, beside_;  // diagonals of the tridiagonal matrix U^T |r|^3 U
   // The places half way from each landmark to the nearest other landmark. A map that folds between landmarks changes most at

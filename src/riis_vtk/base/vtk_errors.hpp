@@ -81,7 +81,7 @@ T *require(T *pointer, const char *argument) {
   return pointer;
 }
 
-// Runs the body of a destroy function.
+// Does the work of a public function that destroys an object.
 template <class Object>
 void destroy(Object **object) {
   if (!object) return;
@@ -138,7 +138,7 @@ class NumericLocale {
 // Stores the message of the current exception, and returns its status.
 riis_status record_current_exception() noexcept;
 
-// Runs the body of a public function, and passes the caught output to the body.
+// Runs the body of a public function, and passes VTK's caught output to this body.
 template <class Body>
 riis_status guarded(Body &&body) noexcept {
   const FloatEnvironment environment;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The inputs are the faces of a wall. The results are the flat ends of this wall, such as an inlet.
+// The inputs are the faces of a wall. The results are the wall's flat ends, for example at an inlet.
 #pragma once
 
 #include <cstdint>

@@ -76,7 +76,7 @@ riis_adjacency *adjacency_of(const GridAxes &axes, std::int32_t n_threads);
 // Sets is_outside to 0 for each point within the given distance of the axes' box.
 void find_outside(const GridAxes &axes, std::int64_t n_points, const double *xyz, double distance,
                   std::uint8_t *is_outside);
-// Writes the arrays to a .vtr file with axes. For an image, writes them to a .vti file.
+// Writes the arrays to a .vtr file with axes. If the axes are those of an image, writes a .vti file instead.
 void write_axes(const std::string &path, const riis_vtk_mesh &mesh, const CaughtOutput &caught);
 
 // Converts the points of the grid to double precision. If the grid has no list of points, it gets an empty list.
@@ -120,7 +120,8 @@ struct VolumeEdges {
 };
 VolumeEdges volume_edges_of(vtkUnstructuredGrid *grid);
 
-// Chooses the edges that are longer than a given length, and whose bounding box meets the box from lower to upper.
+// Chooses edges. An edge is chosen if it is longer than a given length, and if its bounding box meets the box from lower to
+// upper.
 struct LongEdges {
   LongEdges(double longer_than, const double *box_lower, const double *box_upper)
       : least_square(longer_than * (1 - 1e-9) * (longer_than * (1 - 1e-9))), lower(box_lower), upper(box_upper) {}

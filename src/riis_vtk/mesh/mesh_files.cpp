@@ -173,7 +173,7 @@ struct Within {
   const std::int64_t *node_id = nullptr;
 };
 
-// Adds an array with `values` at the nodes within the limit. At all other nodes, the value is `elsewhere`.
+// Adds an array. At the nodes within the limit, it has the given values. At all other nodes, the value is `elsewhere`.
 template <class Array, class Value>
 void add_field(riis_vtk_mesh *mesh, const std::string &name, const Within &within, int n_components,
                const Value *values, Value elsewhere) {

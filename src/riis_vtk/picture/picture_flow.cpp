@@ -234,7 +234,7 @@ Axes axes_through_two_leaflets(vtkPolyData *surface, const Axes &valve) {
   const std::map<int, AreaMoment> leaflets = moments_of_leaflets(surface);
   const Vector middle = middle_of(leaflets);
   std::vector<Axes> tried;
-  std::vector<double> distances;  // for each plane, the distance from the second nearest centre, or from the only centre
+  std::vector<double> distances;  // for each plane, from the second nearest centre or from the only centre
   for (int degrees = 0; degrees < 180; degrees += 15) {
     tried.push_back(turned_about_z(valve, degrees));
     const View view(RIIS_VTK_VIEW_VALVE_LONG, tried.back());
