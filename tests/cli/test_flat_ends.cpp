@@ -169,8 +169,8 @@ void random_vessels(random_source &random) {
          "open ends, turned triangles and five ends were met");
 }
 
-// A tube of radius 1 along z, from 0 to `length`, with triangles outwards. The ends lean by an angle whose tangent is `lean`. The
-// caps are fans around the last two vertices.
+// A tube of radius 1 along z, from 0 to `length`. Its triangles face outwards. The ends lean by an angle whose tangent is `lean`.
+// The caps are fans around the last two vertices.
 Triangles tube(int n_around, int n_rings, double length, double lean = 0) {
   Triangles made;
   for (int j = 0; j <= n_rings; ++j)

@@ -153,7 +153,7 @@ void expect_files(const std::string &folder, const PatientMesh &mesh, double uni
       expect(false, "each face of a boundary is a face of one cell");
       break;
     }
-    found->second.first = 0;  // taken
+    found->second.first = 0;  // a second boundary must not have this face
     const Vector3 &a = view(read.points)[corner[0]], &b = view(read.points)[corner[1]],
                   &c = view(read.points)[corner[2]];
     areas[group] += 0.5 * norm(cross(b - a, c - a));

@@ -67,8 +67,8 @@ struct MovingHalf {
 
 // Adds the lower and the upper patch of each part. At each place of a cusp, every patch gets two images, for the half y >= 0 and
 // then for the other half. The upper patch of the last part becomes the last patch of the set. The side v1 of this last patch is
-// the free edge, which ends at the commissure (u = 1). If halves have a second part, the ids of its patches come after the ids of
-// all patches of first parts.
+// the free edge, which ends at the commissure (u = 1). If the halves have second parts, the ids of the patches of second parts
+// come after the ids of all patches of first parts.
 void add_cusps(PatchSet &set, const MovingHalf &half, const Vector<CuspPlace> &places);
 inline std::size_t top_patch(const PatchSet &set) { return set.patches.size() - 1; }
 

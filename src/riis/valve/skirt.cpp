@@ -25,8 +25,8 @@ constexpr double most_between_ends = 0.5;
 // of the angle is between these two numbers. The sine is positive if the ends have passed each other. Outside of this range, the
 // skirts use a sine that decreases to 0.
 constexpr double most_apart_in_line = -0.5, most_past_in_line = 0.98;
-// The used sine also falls to 0 where the line is nearly parallel to the axis. There the sine of the angle between line and axis
-// is below `least_sine_to_axis`.
+// The sine that the skirts use also falls to 0 where the line is nearly parallel to the axis. There the sine of the angle between
+// line and axis is below `least_sine_to_axis`.
 constexpr double least_sine_to_axis = 0.2;
 // A side makes an angle with the plane across the axis. If the sine of this angle is at least `least_rise`, the skirt leans as
 // the side's tangent does. Beside a flatter side the skirt leans less, and beside a side in the plane it does not lean.
@@ -270,8 +270,8 @@ class SkirtMaker {
   std::map<std::array<std::size_t, 2>, std::array<std::size_t, 2>> places_;  // key: a patch and its image
 };
 
-// An end of a held side of an image. On a way around the axis, each side has a first and a last end. `is_before` is true for the
-// last end.
+// An end of a held side of an image. On the way around the axis, each side has a first and a last end. `is_before` is true for
+// the last end.
 struct PlacedEnd {
   AttachedEnd end;
   Vec3 point;

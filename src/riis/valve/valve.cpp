@@ -56,8 +56,7 @@ bool is_of_bump(std::string_view name) { return name.substr(0, 5) == "bump_"; }
 
 bool is_of_a_leaflet(const ParameterSpec &spec) { return spec.name.find('.') != std::string::npos; }
 
-// Says whether a name means a parameter. If so, it also says by which factor the value under this name differs from the
-// parameter's value.
+// Says whether a name means a parameter. If so, `factor` times the parameter's value is the value under this name.
 struct Naming {
   bool names_it = false;
   bool is_whole = false;  // the name means no other parameter

@@ -140,7 +140,7 @@ class MapAtEnds {
   std::size_t next_ = 0;
 };
 
-// The material points of a curve before any image is placed. The weights belong to the points of a mapped span. They give the
+// The material points of a curve before any image is placed. The weights belong to the points of a mapped span, and give the
 // polynomial through these points.
 struct MaterialOfCurve {
   explicit MaterialOfCurve(const Curve &curve) {

@@ -20,8 +20,8 @@ namespace riis::vtk {
 
 using Corners = std::vector<vtkIdType>;
 
-// The faces of a grid's cells as polygons of corners. If cells of one type can have different faces, such as polyhedra, this
-// class reads each cell's faces from VTK.
+// The faces of a grid's cells as polygons of corners. If cells of one type can have different faces, as polyhedra can, this class
+// reads each cell's faces from VTK.
 class CellPolygons {
  public:
   explicit CellPolygons(vtkUnstructuredGrid *grid) : grid_(grid) {}

@@ -98,8 +98,8 @@ const CellShape &shape_of(int type);
 
 struct VolumeCounts {
   std::int64_t n_volumes = 0;
-  std::int64_t n_linear = 0;   // the volume cells that volume_cells_of returns
-  std::int64_t n_unknown = 0;  // the volume cells whose edges are not known
+  std::int64_t n_linear = 0;   // the number of volume cells that volume_cells_of returns
+  std::int64_t n_unknown = 0;  // the number of volume cells whose edges are not known
 };
 // `ghosts` has a value for each cell, and may be NULL. A cell that `ghosts` marks is a copy of another piece's cell, and does not
 // count.
@@ -132,7 +132,7 @@ struct LongEdges {
   double least_square;
   const double *lower, *upper;
 };
-// An array xyz(3, n) has the grid's points.
+// Returns the chosen edges of the grid. xyz(3, n) has the grid's points.
 VolumeEdges long_edges_of(vtkUnstructuredGrid *grid, const double *xyz, const LongEdges &wanted);
 
 // Returns the median of the lengths, or 0 if there are no lengths.

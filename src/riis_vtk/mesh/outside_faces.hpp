@@ -28,8 +28,8 @@ struct Outside {
 
 // Returns the faces that belong to exactly one of the wanted volumes. In a grid without volumes, each flat cell is a face. The
 // faces of cells of higher order become straight between their corners.
-//   wanted for each cell, whether it is wanted; NULL if all cells are wanted
-//   face_wanted for each cell, whether its faces are kept; NULL if all faces are kept
+//   wanted       for each cell, whether it is wanted; NULL if all cells are wanted
+//   face_wanted  for each cell, whether its faces are kept; NULL if all faces are kept
 Outside outside_of(vtkUnstructuredGrid *grid, const std::vector<std::uint8_t> *wanted,
                    const std::vector<std::uint8_t> *face_wanted);
 

@@ -531,7 +531,7 @@ vtkSmartPointer<vtkImageData> Scene::three_views(std::int32_t first, const std::
   const auto whole = vtkSmartPointer<vtkImageData>::New();
   whole->SetDimensions(width, height, 1);
   whole->AllocateScalars(VTK_UNSIGNED_CHAR, style_.is_transparent ? 4 : 3);
-  for (int k = 0; k < 3; ++k)  // fills columns that no view covers if n_views does not divide the width
+  for (int k = 0; k < 3; ++k)  // fills pixels beside the views if the width is no multiple of n_views
     whole->GetPointData()->GetScalars()->FillComponent(
         k, style_.is_transparent ? 0 : std::round(255 * style_.background[k]));
   if (style_.is_transparent) whole->GetPointData()->GetScalars()->FillComponent(3, 0);

@@ -135,8 +135,8 @@ void check_polyhedra(const std::string &path, vtkUnstructuredGrid *grid) {
   }
 }
 
-// Also reads the faces of polyhedra in the layout of VTK 9.4 and later. Older releases of VTK ignore the new layout. In the new
-// layout, each polyhedron refers to faces in a common list, and each face refers to its corners.
+// A reader that also reads the faces of polyhedra in the layout of VTK 9.4 and later. Older releases of VTK ignore the new
+// layout. In the new layout, each polyhedron refers to faces in a common list, and each face refers to its corners.
 class GridReader : public WatchedReader<vtkXMLUnstructuredGridReader> {
  public:
   static GridReader *New() { VTK_STANDARD_NEW_BODY(GridReader); }

@@ -36,7 +36,7 @@ int size_of_type(std::string_view type) {
   return is_in({"string", "utf8_string"}) ? 0 : -1;
 }
 
-// Maps names of types that meshio writes, but VTK does not know, to VTK's names.
+// Returns VTK's names for the types whose names in files of meshio are unknown to VTK.
 const std::map<std::string, std::string> &vtk_names() {
   static const std::map<std::string, std::string> names = {
       {"vtktypeint8", "signed_char"},    {"vtktypeint16", "short"},           {"vtktypeint32", "int"},
@@ -604,7 +604,7 @@ class Scan {
 
   const std::string &path_;
   std::string_view bytes_, rest_;
-  std::vector<std::string_view> meshio_types_;  // the places in the file where such names stand
+  std::vector<std::string_view> meshio_types_;  // names of types that meshio wrote, at their places in the file
   std::int64_t version_ = 0;                    // major version
   bool binary_ = false;
   LegacyKind kind_ = LegacyKind::unstructured_grid;

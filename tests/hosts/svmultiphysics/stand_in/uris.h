@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Takes the place of svMultiPhysics's uris.h and of the classes that it uses. This header only has the members that
+// Takes the place of svMultiPhysics's uris.h and of the classes that it uses. This header has only the members that
 // examples/svmultiphysics uses, with the solver's names. model.cpp defines the functions.
 #pragma once
 
