@@ -69,9 +69,9 @@ struct Slope {
 };
 
 // Bounds the distance of a continuous function from the straight line between its ends. Bounds of the function's slope on
-// successive ranges are given. At x, a slope before x is weighted with the share of the whole width that follows x. A slope after
-// x is weighted with the share that precedes x. If one slope holds everywhere, the bound is half the width times the slope. A
-// steep slope on a narrow range adds little.
+// successive ranges are given. For the bound at x, each slope has a weight. Before x, the weight is the share of the whole width
+// that lies after x. After x, the weight is the share that lies before x. If one slope holds everywhere, the bound is half the
+// width times the slope. A steep slope on a narrow range adds little.
 double off_line(const Vector<Slope> &slopes) {
   double width = 0, rise = 0;
   for (const Slope &on : slopes) width += on.width, rise += on.width * on.most;

@@ -51,7 +51,7 @@ class Tiles {
   // Bounds the distance between the triangles and the smooth surface, in mesh units.
   double error_bound() const;
 
-  // Places the vertices of all tiles, and then calls work(i) for each tile i. Several threads call work at once.
+  // Places the vertices of all tiles, and then calls work(i) for each tile i. Several threads call work at the same time.
   template <class Work>
   void place_vertices(const Work &work) {
     make_patch_vertices();

@@ -51,7 +51,8 @@ class QuadGroups {
     return n;
   }
 
-  // Cuts a block of quads across its longer side until its n triangles fit in a group.
+  // Groups a block of quads with n triangles. The block and then its parts are cut across their longer sides, until the triangles
+  // of each part fit in a group.
   void group(const Quads &quads, std::int64_t n) {
     const std::size_t i0 = quads.i0, i1 = quads.i1, j0 = quads.j0, j1 = quads.j1;
     if (n == 0) return;
@@ -134,7 +135,7 @@ Vector<std::size_t> make_triangles(const PatchSet &set, const Triangulation &how
   });
   if (!vanished.empty()) return vanished;
   join(tiles.all(), ends, triangles.grouping);
-  // Closing the gaps has moved triangles together with their ids, so the ids are numbered again.
+  // Closing the gaps has moved triangles together with their ids, so the triangles get new ids.
   if (triangles.n_triangles() < tiles.room())
     std::iota(triangles.triangle_id.begin(), triangles.triangle_id.end(), std::int64_t{0});
   return vanished;

@@ -36,8 +36,8 @@ constexpr CuspOpening default_opening{0.75, 0.05};
 
 std::size_t position_of(std::size_t cusp, OfCusp parameter) { return n_general + cusp * n_of_cusp + parameter; }
 
-// The rules for rotations that the caller did not set. If the sum of the leaflet angles is 180 degrees, all neighbours meet at
-// their commissures. With any other sum, the three gaps or overlaps between neighbours are equal.
+// The rules for rotations that the caller did not set. If the sum of the leaflet angles is 180 degrees, neighbouring cusps meet
+// at their commissures. With any other sum, the three gaps or overlaps between neighbouring cusps are equal.
 double leaflet_angle_of(const ParameterValues &values, std::size_t cusp) {
   return values[position_of(cusp, leaflet_angle)][0];
 }

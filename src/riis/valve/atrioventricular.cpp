@@ -38,10 +38,11 @@ constexpr double u_of(std::size_t place) { return static_cast<double>(place) / n
 // The coaptation zone takes up at least the share `least_coaptation` of a leaflet's length. A leaflet that is too short for this
 // zone does not reach its neighbours.
 constexpr double least_coaptation = 0.05;
-// A closed meridian's first inner control point lies below the annulus by `first_drop` times the drop to the coaptation line.
+// A closed meridian's first inner control point lies below the annulus by `first_drop` times the drop from the annulus to the
+// coaptation line.
 constexpr double first_drop = 0.2;
-// The heights of a closed free edge's control points, from the middle to a commissure. The unit is the height of the edge's end
-// over its middle.
+// The heights of a closed free edge's control points, from the middle to a commissure. 0 is the height of the edge's middle, and
+// 1 is the height of its end.
 constexpr std::array<double, 4> edge_rise{0, 0, 0.6, 1};
 // A bump lifts a meridian's first inner control point by only `lift_of_start` times the bump's lift.
 constexpr double lift_of_start = 0.3;
@@ -55,8 +56,8 @@ constexpr double rounding = 1e-12, rounding_of_zone = 1e-6;
 // A leaflet takes up at least the share `least_ratio` of the annulus. The way from the middle of a leaflet's part of the annulus
 // to the meeting point is at least `least_way` times the annulus' depth.
 constexpr double least_ratio = 0.05, least_way = 0.12;
-// A commissure takes up at most the share `most_of_way` of the way to the meeting point. The coaptation zone takes up at most the
-// share `most_coaptation` of a leaflet's length.
+// A commissure takes up at most the share `most_of_way` of the way from the annulus to the meeting point. The coaptation zone
+// takes up at most the share `most_coaptation` of a leaflet's length.
 constexpr double most_of_way = 0.8, most_coaptation = 0.7;
 // The rates of the control points are computed as differences over the step `rate_step` of the opening. The rates only determine
 // where vertices are dense.

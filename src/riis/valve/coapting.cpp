@@ -288,8 +288,8 @@ struct CuspMotion {
 
 // Returns the states between which a cusp moves. A long open edge hangs deep. If such an edge leaves the commissures steeply, the
 // leaflet folds beside its attachment. The slope at the commissures therefore becomes smaller as the cusp comes nearer to a fold.
-// Three equal cusps keep their usual edge, so that this rule does not change a bit of their triangles. Fused cusps also keep
-// their usual edge, because the patches beside the fused part would become too narrow.
+// Three equal cusps keep their usual edge, so that this rule leaves their triangles unchanged to the last bit. Fused cusps also
+// keep their usual edge, because the patches beside the fused part would become too narrow.
 CuspMotion motion_of(const CuspSizes &closed, CuspSizes open) {
   EndStates usual = end_states(closed, open);
   const bool is_fused =

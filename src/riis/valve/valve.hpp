@@ -74,18 +74,18 @@ struct ValveKind {
   bool opens_by_itself;  // one set of parameters defines both the closed and the open state
   // Refuses values that do not fit together. NULL if the kind has nothing to check.
   void (*check_values)(const ParameterValues &values);
-  // Makes the patches at an opening from 0, the closed state, to 1, the open state. Both states have been checked. The two states
-  // are the same object if the valve was given no open state.
+  // Makes the patches at an opening from 0, the closed state, to 1, the open state. Both states have been checked. If the valve
+  // has no separate open state, both arguments are the same object.
   PatchSet (*make_patches)(const ValveState &closed, const ValveState &open, double opening);
-  // Refuses another state whose curves or patches are not built like the valve's. The message calls this state `name`, such as
+  // Refuses another state if its curves or patches are not built like the valve's. The message calls this state `name`, such as
   // "the open state". NULL if all states of the kind are built alike.
   void (*check_states)(const ValveState &valve, const ValveState &other, const char *name);
   // True if leaflets meet only where their triangles have common vertices, for example at commissures. Otherwise leaflets may
   // touch anywhere, and their triangles may penetrate each other by as much as the triangles' error.
   bool has_exact_contacts = false;
   // True if the orifice is seen along the valve's z axis. Otherwise the orifice is seen along the vector area of the edges that
-  // are farthest from its middle. This vector area would be oblique in valves whose cusps differ and whose open edges reach
-  // beyond the attachment.
+  // are farthest from the orifice's middle. This vector area would be oblique in valves whose cusps differ and whose open edges
+  // reach beyond the attachment.
   bool is_seen_along_z = false;
   // The leaflet_id of a wall that hinges reach into, or -1.
   std::int32_t housing = -1;
@@ -175,8 +175,8 @@ class Valve {
   // Makes the patches of `before`, an earlier state of this valve. `before` must be of the same kind and build. `known` has the
   // patches of that state, or is null if they have not been made yet.
   PatchSet make_patches_before(const Valve &before, const PatchSet *known) const;
-  // Returns a number that every change of the valve changes. Copies have the same number. Valves with the same number have the
-  // same patches, to the last bit. The number is not 0.
+  // Returns a number that is different after every change of the valve. Copies have the same number. Valves with the same number
+  // have the same patches, to the last bit. The number is not 0.
   std::uint64_t revision() const { return revision_; }
   // Fails if this valve cannot be a state of another valve. The other valve is of the given kind, and has a warp if `is_warped`
   // is true.

@@ -14,8 +14,8 @@
 namespace riis {
 namespace {
 
-// Sources count as planar if they are nearly in a plane: the rms distance from it is below `thinnest_share` of their largest rms
-// extent.
+// Sources count as planar if they are nearly in a plane: their rms distance from the plane is below `thinnest_share` times their
+// largest rms extent.
 constexpr double thinnest_share = 0.05;
 // Sources also count as planar in another case: noise would change the stretch across the plane by more than
 // `largest_stretch_error`.
@@ -150,7 +150,7 @@ WarpLandmarks::WarpLandmarks(const Vector<Vec3> &sources, double noise, const ch
       fail(RIIS_INVALID_ARGUMENT, name, ": landmarks ", std::min(i, nearest), " and ", std::max(i, nearest),
            " are in one place, (", sources_[i].x, ", ", sources_[i].y, ", ", sources_[i].z, ")");
     nearest_to.push_back(nearest);
-    // If each of two landmarks is the other's nearest, the place between them is taken only once.
+    // If two landmarks are each other's nearest landmarks, the place between them is taken only once.
     if (nearest > i || nearest_to[nearest] != i)
       probes_.push_back({0.5 * (sources_[i] + sources_[nearest]), static_cast<std::int64_t>(i)});
   }
