@@ -23,7 +23,7 @@ Vector3 draw_direction(random_source &random) {
   }
 }
 
-// Returns the new vertices on edges, and remembers them for later cubes.
+// Makes the new vertices on edges, and stores them for later cubes.
 class CutPoints {
  public:
   CutPoints(std::vector<Vector3> &points, const std::function<Vector3(std::int64_t, std::int64_t)> &place)
@@ -111,7 +111,7 @@ CutEnd cut(Triangles &triangles, const Vector3 &point, const Vector3 &outward, d
     return p + height(a) / (height(a) - height(b)) * (q - p);
   });
   std::vector<Corners> kept;
-  std::map<std::int64_t, std::int64_t> next;  // along the rim, with the wall on the left
+  std::map<std::int64_t, std::int64_t> next;  // for each point of the rim, the next point; the wall is on the left
   for (const Corners &corner : triangles.corners) {
     std::vector<std::int64_t> polygon;
     std::int64_t from = -1, to = -1;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes random vessels and cuts their ends by planes, which is an oracle for flat ends. A function adds up tubes, and the wall is
-// the surface on which this function is 0. Marching through tetrahedra makes the wall's triangles. Planes cut the wall, and caps
-// close the cuts.
+// Makes random vessels and cuts their ends by planes. The known cuts are an oracle for flat ends. A function adds up tubes, and
+// the wall is the surface on which this function is 0. Marching through tetrahedra makes the wall's triangles. Planes cut the
+// wall, and caps close the cuts.
 #pragma once
 
 #include <array>
@@ -29,7 +29,7 @@ struct CutEnd {
 };
 
 struct CutVessels {
-  Triangles triangles;  // closed, outwards, the caps last. An open end has no cap
+  Triangles triangles;  // facing outwards, the caps' triangles last; closed, except at an open end, which has no cap
   std::vector<CutEnd> ends;
   std::vector<Vector3> axes;  // points in the blood, half way from the middle to each end
   Vector3 middle{};

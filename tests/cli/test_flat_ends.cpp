@@ -169,8 +169,8 @@ void random_vessels(random_source &random) {
          "open ends, turned triangles and five ends were met");
 }
 
-// A tube of radius 1 along z, from 0 to `length`, with triangles outwards. The ends lean by an angle with the tangent `lean`. The
-// caps are fans around the last two vertices.
+// A tube of radius 1 along z, from 0 to `length`. Its triangles face outwards. The ends lean by an angle whose tangent is `lean`.
+// The caps are fans around the last two vertices.
 Triangles tube(int n_around, int n_rings, double length, double lean = 0) {
   Triangles made;
   for (int j = 0; j <= n_rings; ++j)
@@ -361,7 +361,7 @@ void unclear_ends(random_source &random) {
   expect_refused({"--outlet=0.000,1.000,3.000: no flat part of " + file() + " is there; flat parts are "},
                  {Vector3{0, 0, 0}, {Vector3{0, 1, 3}}});
 
-  // A vessel's wall with its thickness has two faces, which flat rings join.
+  // A vessel's wall with a thickness has an inner and an outer surface. Flat rings join the two surfaces.
   Triangles thick = tube(40, 30, 6), inner = tube(40, 30, 6);
   thick.corners.resize(thick.corners.size() - 80);
   inner.corners.resize(inner.corners.size() - 80);

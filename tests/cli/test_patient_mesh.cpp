@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // gmsh makes meshes with named boundaries in random vessels whose cut ends are known. The test reads the files itself. If a face
-// has only one tetrahedron, it must be in exactly one boundary. Programs that stand for gmsh fail in several ways.
+// has only one tetrahedron, it must be in exactly one boundary. In some tests, scripts take the place of gmsh and fail in several
+// ways.
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -128,7 +129,7 @@ void expect_files(const std::string &folder, const PatientMesh &mesh, double uni
   expect(static_cast<std::int64_t>(read.points.size()) == mesh.n_nodes, "number of nodes");
   expect(static_cast<std::int64_t>(read.cells.size()) == mesh.n_cells, "number of cells");
   expect(read.names.size() == mesh.boundaries.size() + 1, "number of groups");
-  std::map<Corners, std::pair<int, std::int64_t>> outer;  // sorted corners: number of cells, and the last of them
+  std::map<Corners, std::pair<int, std::int64_t>> outer;  // by sorted corners: the number of cells, and the last cell
   double volume = 0;
   for (std::size_t i = 0; i < read.cells.size(); ++i) {
     const auto &cell = read.cells[i];
@@ -152,7 +153,7 @@ void expect_files(const std::string &folder, const PatientMesh &mesh, double uni
       expect(false, "each face of a boundary is a face of one cell");
       break;
     }
-    found->second.first = 0;  // taken
+    found->second.first = 0;  // a second boundary must not have this face
     const Vector3 &a = view(read.points)[corner[0]], &b = view(read.points)[corner[1]],
                   &c = view(read.points)[corner[2]];
     areas[group] += 0.5 * norm(cross(b - a, c - a));
@@ -296,7 +297,7 @@ void failing_programs(random_source &random, const std::string &folder) {
     stand_for_gmsh(folder, "exit 0");
     mesh_patient(crossed, options);
   });
-  // This surface has a hole, as gmsh's surfaces of overlapping triangles have.
+  // This surface has a hole, as a surface from gmsh has if triangles overlap.
   stand_for_gmsh(folder,
                  words +
                      "printf '$MeshFormat\\n2.2 0 8\\n$EndMeshFormat\\n$Nodes\\n3\\n1 0 0 0\\n2 1 0 0\\n3 0 1 0\\n"

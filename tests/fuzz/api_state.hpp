@@ -213,7 +213,8 @@ void measure_valve(Input &in, State &state);
 void advance_laws(Input &in, State &state);
 void move_by_keyframes(Input &in, State &state);
 
-// A loop over all triangles finds the closest triangle and its distance. The position is -1 if no triangle is within the limit.
+// The closest triangle and its distance, as found by a loop over all triangles. The position is -1 if no triangle is within the
+// limit.
 struct Closest {
   double distance;
   std::int64_t triangle;

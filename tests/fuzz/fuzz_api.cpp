@@ -47,7 +47,7 @@ void call_status_functions(Input &in) {
 
 namespace {
 
-// Checks that an init function fills either exactly the caller's room or nothing.
+// Checks that an init function fills exactly the caller's struct, or writes nothing.
 template <class Struct>
 void init(Input &in, riis_status (*init_function)(Struct *, int64_t)) {
   static const int64_t sizes[] = {sizeof(Struct),     0,         8,        -8, sizeof(Struct) - 8, sizeof(Struct) + 8,

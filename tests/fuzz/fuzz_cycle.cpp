@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fuzzes the program's tables of times and openings. An input is refused with an exit status and a message, or its keys make a
-// law. The opening of this law is from 0 to 1 at every time.
+// Fuzzes the program's tables of times and openings. An input is refused with an exit status and a message, or its times and
+// openings make a law. The opening of this law is from 0 to 1 at every time.
 #include <cstddef>
 #include <cstdint>
 

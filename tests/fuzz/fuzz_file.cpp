@@ -12,7 +12,7 @@
 #include "input.hpp"
 #include "read_mesh.hpp"
 
-extern const char *const fuzz_ending;  // each harness has its own, which CMakeLists.txt writes
+extern const char *const fuzz_ending;  // each harness has its own ending, which CMakeLists.txt defines
 
 namespace {
 
@@ -56,7 +56,7 @@ void read_surface() {
   riis_vtk_surface_destroy(&read);
 }
 
-// Makes keyframes of a motion. A collection may name any file, so a refusal must only contain `part`.
+// Makes keyframes of a motion. A collection may name any file, so the message of a refusal need only contain `part`.
 void use_motion(riis_status status, riis_vtk_motion *read, const char *part) {
   if (status != RIIS_OK) {
     const char *text = riis_last_error();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fuzzes meshes that are the axes of a grid. A grid is made, or refused with a reason. The grid and its nodes as points give the
-// same marks, leaks and open regions. Some numbers of a grid belong to no node, and no result contains them.
+// Fuzzes meshes that are given by the axes of a grid. A grid is made, or refused with a reason. A mesh from the grid and a mesh
+// from the grid's points give the same marks, leaks and open regions. Some numbers of a grid belong to no node, and no result
+// contains them.
 #include <riis/riis.h>
 
 #include <array>
@@ -95,7 +96,7 @@ bool is_made(riis_status status) {
   return false;
 }
 
-// Gives the nodes of the grid as points. Each point has its number.
+// The nodes of the grid as points. Each point has the number of its node.
 struct Points {
   std::vector<double> xyz;
   std::vector<std::int64_t> number;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Turns the fuzzer's bytes into choices, numbers and files. When all bytes are used, every choice is 0, which is always harmless.
+// Turns the fuzzer's bytes into choices, numbers and files. When all bytes are used up, every choice is 0, which is always
+// harmless.
 #pragma once
 
 #include <fcntl.h>

@@ -33,5 +33,5 @@ extern "C" const char *__asan_default_options() {
   return "print_suppressions=0:allocator_may_return_null=1:max_allocation_size_mb=512:detect_stack_use_after_return=0";
 }
 
-// VTK's readers leak memory on files that they refuse. Such leaks are not ours.
+// VTK's readers leak memory on files that they refuse. Such leaks are not faults of riis.
 extern "C" const char *__lsan_default_suppressions() { return "leak:libvtk\n"; }

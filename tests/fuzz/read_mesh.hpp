@@ -34,8 +34,8 @@ inline void use_rows(riis_mesh *mesh, const riis_vtk_mesh *read, std::int64_t n_
   riis_adjacency_destroy(&adjacency);
 }
 
-// A mesh of axes is marked without points. Returns whether the mesh is too large for the later steps, which make points and
-// cells.
+// Marks a mesh that is given by axes, without making its points. Returns whether the mesh is too large for the later steps, which
+// make points and cells.
 inline bool use_axes(const riis_vtk_mesh *read) {
   constexpr std::int64_t most_nodes = 100'000;
   riis_grid axes;

@@ -190,14 +190,14 @@ int64_t time_alone_after(int n_loops, const int64_t *lost, const int64_t *ended,
 
 int caller_begins_alone() {
   LoopChoice choice;
-  choice.record_team(std::int64_t{16} * 3600 * 1'000'000'000, nanoseconds());  // an hour alone
+  choice.record_team(std::int64_t{16} * 3600 * 1'000'000'000, nanoseconds());  // the caller works alone for an hour
   const Seen seen = run_loop(1000, 4, &choice);
   return seen.is_right && seen.n_ran == 4 && seen.n_of_caller == 1000;
 }
 
 int caller_calls_a_team_later() {
   LoopChoice choice;
-  choice.record_team(std::int64_t{16} * 20'000'000, nanoseconds());  // 20 ms alone
+  choice.record_team(std::int64_t{16} * 20'000'000, nanoseconds());  // the caller works alone for 20 ms
   std::atomic<int> n_come{0}, n_alone{0};
   team_for(
       1'000'000, 2,

@@ -69,9 +69,9 @@ struct Slope {
 };
 
 // Bounds the distance of a continuous function from the straight line between its ends. Bounds of the function's slope on
-// successive ranges are given. At x, a slope before x is weighted with the share of the whole width that follows x. A slope after
-// x is weighted with the share that precedes x. If one slope holds everywhere, the bound is half the width times the slope. A
-// steep slope on a narrow range adds little.
+// successive ranges are given. For the bound at x, each slope has a weight. Before x, the weight is the share of the whole width
+// that lies after x. After x, the weight is the share that lies before x. If one slope holds everywhere, the bound is half the
+// width times the slope. A steep slope on a narrow range adds little.
 double off_line(const Vector<Slope> &slopes) {
   double width = 0, rise = 0;
   for (const Slope &on : slopes) width += on.width, rise += on.width * on.most;
@@ -94,10 +94,11 @@ struct CurvePart {
   double length;  // the length of the whole curve
 };
 
-// Bounds for a curve on a range of u: its length, its unit tangent, and the tangent's first and second derivative by u.
+// Bounds for a curve on a range of u: its length, its unit tangent, and the tangent's first and second derivative with respect to
+// u.
 struct AlongCurve {
   Both length, value, first, second;
-  double size_now, size_before;  // bounds of the curve's second derivative by u in each of the states
+  double size_now, size_before;  // bounds of the curve's second derivative with respect to u, in each state
   bool is_tight;                 // false if a narrower range would have much better bounds
   Both second_of_point() const { return length * first; }
 };
@@ -206,7 +207,7 @@ class SideInBoth {
 
   // Returns whether the states are compared on the range after share i. There is no comparison if a joint has passed through the
   // range, or if the range is narrow and has no tight bounds. Narrow ranges without tight bounds lie on a short span at a curve's
-  // end. When a joint approaches the end, the length of this span changes many times over.
+  // end. When a joint approaches the end, the length of this span changes by a large factor.
   bool is_compared(std::size_t i) const { return are_on_one_span(i) && (width(i) > narrow || compared(i).is_tight); }
 
   // Returns whether a span begins at share i in one of the states.
@@ -384,7 +385,7 @@ double off_line(double width, const Sizes &of) {
 // C is the side's curve in the earlier state.
 class AddedByMaterial {
  public:
-  // `third` bounds the third derivative of C by the share. `third` may be infinite.
+  // `third` bounds the third derivative of C with respect to the share. `third` may be infinite.
   AddedByMaterial(const SideMaterial &material, const Curve &before, double third) {
     if (!material.is_warped()) return;
     const Sizes slide = sizes_of_slide(material);
@@ -411,8 +412,8 @@ class AddedByMaterial {
   double of_joints_ = 0;
 };
 
-// For every two neighbouring lines, bounds how far a side's displacement deviates from linear. The bound includes the difference
-// between a line's share on the side and the line's `middle`.
+// For every pair of neighbouring lines, bounds how far a side's displacement deviates from linear. The bound includes the
+// difference between a line's share on the side and the line's `middle`.
 Vector<double> off_linear(const TwoCurves &curves, const SideMaterial &material, const Vector<GridLine> &lines,
                           double GridLine::*t) {
   const Vector<double> at_lines = shares_of(lines, t);
@@ -454,12 +455,12 @@ Vector<double> off_linear(const TwoCurves &curves, const SideMaterial &material,
   return made;
 }
 
-// Bounds, on a range, of the offset O of a patch of arcs and of O's derivatives by u. The bounds do not contain the factor, which
-// is the patch's bulge.
+// The bounds of the offset O of a patch of arcs, and of O's derivatives with respect to u, on a range. The bounds leave out O's
+// factor, the patch's bulge.
 struct ArcRangeInBoth {
   Both first, second;
   double largest;  // bounds |O| in both states
-  double m_least;  // of |W x T|; not above 0 if it may vanish
+  double m_least;  // the least |W x T|; 0 or less if W x T may vanish
   bool is_tight;
 };
 
@@ -517,7 +518,7 @@ ArcRangeInBoth offset_on(const SideInBoth &base, const SideInBoth &edge, std::si
           b.is_tight && e.is_tight && w_least >= tight_share * w0.size && m_least >= tight_share * m_size};
 }
 
-// Bounds how much O changes, without its factor, if points of the base and the edge slide as SideMaterial says.
+// Bounds how much O without its factor changes if points of the base and the edge slide as SideMaterial says.
 class SlidOffset {
  public:
   SlidOffset(const SideMaterial &on_base, const SideMaterial &on_edge, const Curve &base, const Curve &edge) {
@@ -538,7 +539,7 @@ class SlidOffset {
   double width_ = 0, turn_ = 0;  // bound the changes of W and of T
 };
 
-// For every two neighbouring lines, bounds how far O's displacement deviates from linear.
+// For every pair of neighbouring lines, bounds how far O's displacement deviates from linear.
 Vector<double> offset_off_linear(const TwoStates &states, std::size_t patch, const TwoCurves &base,
                                  const TwoCurves &edge, const Vector<GridLine> &lines) {
   const MovedPatch moved{states.now, states.before, patch};

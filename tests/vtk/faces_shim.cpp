@@ -38,7 +38,7 @@ Polygon polygon_of(vtkPolyData *faces, vtkIdType face) {
   return polygon;
 }
 
-// Sorts corners and polygons, so that riis and VTK give one order.
+// Sorts corners and polygons, so that the results of riis and of VTK have the same order.
 std::vector<Polygon> sorted(std::vector<Polygon> polygons) {
   for (Polygon &polygon : polygons) std::sort(polygon.begin(), polygon.end());
   std::sort(polygons.begin(), polygons.end());

@@ -49,7 +49,7 @@ vtkSmartPointer<vtkDataArray> axis_of(const shim_grid &grid, int axis) {
   return array_of<vtkDoubleArray>("axis", grid.x[axis], grid.n[axis]);
 }
 
-// In VTK 9.1, a matrix of an image turns its points. A legacy file has no matrix.
+// In VTK 9.1, an image may have a matrix that turns its points. A legacy file stores no matrix.
 vtkSmartPointer<vtkImageData> image_of(const shim_grid &grid, bool is_legacy) {
   const auto made = is_legacy ? vtkSmartPointer<vtkImageData>(vtkSmartPointer<vtkStructuredPoints>::New())
                               : vtkSmartPointer<vtkImageData>::New();

@@ -56,15 +56,16 @@ int shim_write_zoo(const char *path);
  * may be NULL. */
 int64_t shim_read_edges(const char *path, int cell_type, int64_t *edges);
 
-/* Gives VTK's shape functions of a type of cells at a point of its unit cell, and their derivatives. The derivatives of all nodes
- * by the first coordinate precede those by the second and the third coordinate. Returns the number of nodes. */
+/* Gives VTK's shape functions of a type of cells at a point of its unit cell, and their derivatives. First come the
+ * derivatives of all nodes with respect to the first coordinate, then those for the second and for the third. Returns the number
+ * of nodes. */
 int shim_shape_functions(int cell_type, const double point[3], double *values, double *derivatives);
 
 /* Writes a .vtu of random cells of all types of higher order. The cells use n_nodes nodes, which must be 64 or more. Returns 1 on
  * success. */
 int shim_write_curved(const char *path, int n_nodes, uint32_t seed);
-/* Reads the edges of cells of higher order from a .vtu file, as pairs of nodes. The edges follow from the nodes' positions in
- * unit cells. Returns the number of edges. `edges` may be NULL. */
+/* Reads the edges of cells of higher order from a .vtu file, as pairs of nodes. The edges are found from the nodes' positions
+ * in unit cells. Returns the number of edges. `edges` may be NULL. */
 int64_t shim_read_curved_edges(const char *path, int64_t *edges);
 
 /* Writes a .vtu of the tetrahedra that vtkDelaunay3D makes between the points xyz (3, n). The file has all points, in their order
@@ -88,7 +89,7 @@ unsigned char *shim_read_pixels(const char *path, int *width, int *height);
 unsigned char *shim_read_clear_pixels(const char *path, int *width, int *height);
 
 /* Finds the flat ends of a wall of triangles, corners (3, n_triangles), as pictures do. is_end (n_triangles) gets 1 for each
- * triangle of an end. Returns whether the wall consists nearly only of ends. */
+ * triangle of an end. Returns whether nearly all of the wall is ends. */
 int shim_flat_ends(int64_t n_points, const double *xyz, int64_t n_triangles, const int64_t *corners,
                    unsigned char *is_end);
 
@@ -105,7 +106,7 @@ void shim_distances(int method, int64_t n_vertices, const double *vertices, int6
 /* Replaces VTK's output window by a counter. shim_n_messages returns the number of messages since this call. */
 void shim_watch_window(void);
 int shim_n_messages(void);
-/* Sends an error to the current output window, as a caller's code with VTK might do. */
+/* Sends an error to the current output window, as a caller that uses VTK might do. */
 void shim_say_error(void);
 
 #ifdef __cplusplus

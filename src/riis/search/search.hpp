@@ -24,7 +24,7 @@ namespace riis {
 // The nodes that a search finds, in one list for each thread. The lists' memory is reused, so the library allocates nothing in a
 // steady run of time steps.
 
-// A limit on the number of nodes. No machine has memory for the coordinates of this many nodes.
+// A limit on the number of a mesh's nodes. No machine has memory for the coordinates of so many nodes.
 inline constexpr std::int64_t max_nodes = std::int64_t{1} << 40;
 
 // A node within the distance limit. `triangle` is a position in the surface's set of triangles. If another method measures the
@@ -41,9 +41,9 @@ struct FoundNode {
 };
 static_assert(sizeof(FoundNode) == 16);
 
-// Each thread's list gets room for twice the length of the longest list, because a thread finds more nodes in one step than in
-// another. The room is rounded up to a power of two. A step that finds slightly more nodes than all previous steps thus allocates
-// no memory.
+// Each thread's list gets room for twice the length of the longest list, because the number of nodes that a thread finds changes
+// from step to step. The room is rounded up to a power of two. A step that finds slightly more nodes than all previous steps thus
+// allocates no memory.
 template <class Threads, class ListOf>
 void make_room(Threads &threads, const ListOf &list_of) {
   std::size_t largest = 0, room = 1;
@@ -55,9 +55,9 @@ void make_room(Threads &threads, const ListOf &list_of) {
 
 // One list for each thread. The order within a list has no meaning.
 struct FoundNodes {
-  Range numbers{0, 0};  // the range of the nodes' numbers; lists count from its beginning
+  Range numbers{0, 0};  // the range of the nodes' numbers; the lists count nodes from the beginning of this range
   std::vector<UnfilledVector<FoundNode>> by_thread;
-  std::vector<Ties> ties_by_thread;  // stay empty unless the rule requests ties
+  std::vector<Ties> ties_by_thread;  // the lists stay empty unless the rule requests ties
 
   // Empties the lists, and makes room for the next search.
   void prepare(int n_threads, const TieRule &ties = {}) {
@@ -100,7 +100,7 @@ struct FoundNodes {
   }
 };
 
-// The request of a search that does not depend on how the nodes are stored.
+// The part of a search's request that does not depend on how the nodes are stored.
 struct NodeSearch {
   const Surface &surface;
   double distance_limit;
@@ -122,10 +122,11 @@ struct SearchReport {
   std::int64_t n_queries;
   int n_threads;
   bool complete;
-  std::int64_t n_unreached;  // the nodes that the neighbour search found only by its proof
+  std::int64_t n_unreached;  // the number of nodes that only the proof of the neighbour search found
 };
 
-// Every search fills FoundNodes, in no particular order. A search that reads an unusable coordinate fails with RIIS_INVALID_MESH.
+// Every search fills FoundNodes. The nodes are in no particular order. A search that reads an unusable coordinate fails with
+// RIIS_INVALID_MESH.
 
 // Queries every node (paper, 4.2.1 "Exhaustive node iteration").
 SearchReport search_exhaustively(const SearchRequest &request, FoundNodes &found);
@@ -141,7 +142,7 @@ struct TriangleDistances {
   InstructionSet instructions;
 
   bool may_be_within(Vec3 p, double limit) const { return scene.may_be_within(p, limit); }
-  // Returns the triangle closest to p. If `ties` is not null, its candidates are replaced by those of p.
+  // Returns the triangle closest to p. If `ties` is not null, the function replaces the candidates in it by those for p.
   ClosestTriangle closest(Vec3 p, double limit, Ties *ties = nullptr) const {
     return scene.closest(p, limit, instructions, ties);
   }
@@ -182,7 +183,7 @@ struct OtherDistances {
   double rounding() const { return scene.rounding(); }
 };
 
-// Calls visit(distances) with the method by which the surface measures distances.
+// Calls visit(distances). `distances` is a TriangleDistances or an OtherDistances, as the surface requires.
 template <class Visit>
 auto with_distances(const Surface &surface, InstructionSet instructions, const Visit &visit) {
   if (const PatchDistance *method = surface.other_distance())

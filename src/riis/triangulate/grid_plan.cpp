@@ -17,7 +17,8 @@
 namespace riis {
 namespace {
 
-// A curve may be halved at most `max_rounds` times. With more halvings, there would be more triangles than the library can hold.
+// The parts of a curve may be halved at most `max_rounds` times. With more halvings, there would be more triangles than the
+// library accepts.
 constexpr int max_rounds = 24;
 
 // To bound the offset O (geometry/bulge.hpp), the space between two lines is divided into at most this many parts.
@@ -26,7 +27,7 @@ constexpr int most_parts = 8;
 // The errors of a patch of arcs between two lines of its grid.
 struct ColumnErrors {
   double base, edge;  // errors of the chords of both curves
-  double off_line;    // the largest deviation of O from linear, at the points between
+  double off_line;    // the largest deviation of O from a linear function, at the points between the lines
   double second;      // a bound on |O''|
   double largest, width;
   // Bounds the deviation of O from a linear function. O is evaluated at the ends of n parts.
@@ -158,8 +159,8 @@ Polyline polyline_at(const Curve &curve, const Vector<double> &shares, double en
   return made;
 }
 
-// Ascending positions, and a number `need` for each step between two neighbouring positions. `need` times the square of a
-// segment's width bounds the error of a segment inside the step, as a share of the allowed error.
+// Ascending positions, and a number `need` for each step between two neighbouring positions. For a segment inside the step, the
+// square of its width times `need` bounds its error, as a share of the allowed error.
 struct Needs {
   Vector<double> at, need;
 };
@@ -196,7 +197,7 @@ Vector<double> balanced_segments(const Needs &needs, double most) {
 }
 
 // The needs are computed on narrow steps. The bound for a wide segment is slightly larger than these needs predict. The lines are
-// therefore chosen for only `most_of_allowed` of the allowed error.
+// therefore chosen for only the share `most_of_allowed` of the allowed error.
 constexpr double most_of_allowed = 0.9;
 // The number of steps for the needs is `steps_per_segment` times the largest number of segments of a curve, but is kept between
 // `least_steps` and `most_steps`.
@@ -206,7 +207,7 @@ constexpr std::size_t least_steps = 64, most_steps = 4096;
 // opening.
 constexpr std::size_t states_per_need = 4;
 
-// Halves those steps of a list that are too large. `is_too_large` has an entry for each step.
+// Halves the steps between neighbouring values that are too large. `is_too_large` has an entry for each step.
 Vector<double> halved(const Vector<double> &values, const Vector<bool> &is_too_large) {
   Vector<double> made;
   for (std::size_t i = 0; i + 1 < values.size(); ++i) {
@@ -327,7 +328,7 @@ class Planner {
     return shares;
   }
 
-  // Each curve first gets the lines that its family needs. Later, the function `vertices` adds lines where they are too few.
+  // Each curve first gets the lines that its family needs. Later, the function `vertices` adds lines where a curve has too few.
   void plan_families() {
     first_shares_.assign(set_.curves.size(), {0, 1});
     for (const Family &family : families()) {
@@ -335,7 +336,7 @@ class Planner {
       std::size_t n_steps = least_steps;
       for (const std::size_t curve : family.curves)
         n_steps = std::max(n_steps, steps_per_segment * rough_number_of_segments(curve));
-      if (n_steps > most_steps) continue;  // for so small a tolerance, all parts of the curves are halved instead
+      if (n_steps > most_steps) continue;  // for such a small tolerance, all parts of the curves are halved instead
       while ((n_steps & (n_steps - 1)) != 0) n_steps += n_steps & -n_steps;
       for (std::size_t k = 0; k < family.curves.size(); ++k)
         needs.push_back(needs_of(family.curves[k], family.runs_against[k], n_steps));
@@ -429,8 +430,8 @@ class Planner {
     return made;
   }
 
-  // Returns the joints at the first opening, with which the lines move. Returns nothing if the number of joints of the base
-  // changes with the opening, or if a joint is near an end.
+  // Returns the joints at the first opening. The lines move with these joints. The result is empty if the number of joints of the
+  // base changes with the opening, or if a joint is near an end.
   Vector<double> joints(std::size_t patch) const {
     constexpr double near_end = 0.01;
     const Vector<double> first = joints_of(set_, set_.patches[patch].v0);
@@ -468,7 +469,7 @@ class Planner {
     plan_.n_rows = std::max(plan_.n_rows, static_cast<std::size_t>(rows_for(offset, max_error_)));
   }
 
-  // Returns a first choice of few lines, which usually suffices. The choice includes lines at the joints.
+  // Returns a first choice of few lines, which usually suffices. Among these lines are lines at the joints.
   Vector<double> first_arc_lines(std::size_t patch, const Vector<double> &joints) const {
     const Patch &first = set_.patches[patch];
     Vector<double> ends{0};
@@ -510,8 +511,8 @@ class Planner {
     return (arc_curve_share + merge_share) * max_error_ * std::min(tightness(patch.v0), tightness(patch.v1));
   }
 
-  // For each two neighbouring lines, returns the least number of parts that suffices at every opening. If no number suffices,
-  // the result is above most_parts.
+  // For every pair of neighbouring lines, returns the least number of parts that suffices at all openings. If no number up to
+  // most_parts suffices, the result is larger than most_parts.
   Vector<int> parts_wanted(std::size_t patch, PatchPlan &plan) const {
     const Patch &first = set_.patches[patch];
     const double of_curves = of_arc_curves(first);

@@ -14,8 +14,8 @@
 namespace riis {
 namespace {
 
-// Returns the largest speed, per unit of opening, at five points of each span. Five points are enough to notice any motion,
-// because a cubic that is 0 at all five points is 0 everywhere.
+// Returns the largest speed of any curve. A speed is a motion per unit of opening, at one of five points of each span. Five
+// points are enough to notice any motion, because a cubic that is 0 at all five points is 0 everywhere.
 double largest_rate(const PatchSet &set) {
   double largest = 0;
   for (const Vector<Bezier> &rates : set.rates)
@@ -46,8 +46,8 @@ class GridMaker {
     for (std::size_t i = 0; i < tightness.size(); ++i) errors_[i] *= tightness[i];
   }
 
-  // Makes the grids, and passes each grid to `finish` on the thread that made it. Counts the triangles after each step, before
-  // anything large is allocated.
+  // Makes the grids, and passes each grid to `finish` on the thread that made it. After each step, counts the triangles before
+  // large arrays are allocated.
   template <class Made, class Finish>
   Vector<Made> make(const Finish &finish) {
     const std::size_t n_patches = set_.patches.size();
@@ -65,8 +65,8 @@ class GridMaker {
         });
       for (std::size_t i = first; i < end; ++i) check_count(n_at_least += n_triangles(i, 1), max_error_);
     }
-    // Two patches of arcs may share an arc, which both divide into their rows. All patches of arcs therefore have the same number
-    // of rows.
+    // Two patches of arcs may share an arc, and each patch divides this arc into its rows. All patches of arcs therefore have the
+    // same number of rows.
     double offset = 0;
     for (const ArcLines &lines : lines_) offset = std::max(offset, lines.largest_offset());
     const double n_rows = rows_for(offset, max_error_);
@@ -80,8 +80,8 @@ class GridMaker {
 
  private:
   static constexpr double infinity = std::numeric_limits<double>::infinity();
-  // A curve may have a million points, and a valve a million patches. The points are therefore counted each time that the
-  // polylines of `patches_at_once` patches have been made. `patches_at_once` is fixed, so that the count in an error message does
+  // A curve may have a million points, and a valve a million patches. The polylines are therefore made for `patches_at_once`
+  // patches at a time, and then their points are counted. `patches_at_once` is fixed, so that the count in an error message does
   // not depend on the number of threads.
   static constexpr std::size_t patches_at_once = 16;
 

@@ -130,7 +130,7 @@ class TileTriangles {
  private:
   std::int64_t next_triangle() const { return tile_.first_triangle + tile_.n_triangles; }
 
-  // Adds the quads into which a quad is subdivided at a level. Their vertices begin with `first`.
+  // Adds the smaller quads of a quad whose sides are halved `level` times. The vertices of the smaller quads begin with `first`.
   void add_quads(std::int64_t first, int level) {
     const int n = 1 << level;
     const auto vertex = [&](int column, int row) { return first + row * (n + 1) + column; };
@@ -172,7 +172,7 @@ class TileTriangles {
   std::int64_t next_id_ = tile_.first_id;
 };
 
-// Returns the patches with missing triangles (is_missed).
+// Returns the patches of which a triangle is missed (is_missed).
 Vector<std::size_t> vanished_patches(const Vector<Tile> &tiles) {
   Vector<std::size_t> vanished;
   for (const Tile &tile : tiles)
@@ -188,7 +188,7 @@ void resize_triangles(std::int64_t n, TriangleSet &triangles) {
   resize(triangles.triangle_id, n);
 }
 
-// Moves the triangles of all tiles together, because tiles may have fewer triangles than the room reserved for them.
+// Moves the triangles of all tiles so that no gaps remain. A tile may have fewer triangles than the room reserved for it.
 void close_gaps(const Vector<Tile> &tiles, TriangleSet &triangles) {
   std::int64_t n = 0;
   for (const Tile &tile : tiles) {
@@ -210,8 +210,9 @@ void close_gaps(const Vector<Tile> &tiles, TriangleSet &triangles) {
 }  // namespace
 
 bool is_missed(const TriangleSet &set, const LeftOut &triangle) {
-  // A triangle without area is either a point or a segment, its longest edge. A triangle that is a point can be dropped without
-  // loss. A triangle that is a segment can be dropped if it only repeats the diagonal of a quad whose other half was kept.
+  // A triangle without area is either a point or a segment, namely its longest edge. A triangle that is a point can be dropped
+  // without loss. A triangle that is a segment can be dropped if it only repeats the diagonal of a quad whose other half was
+  // kept.
   const Vec3 corner = set.vertex(triangle.corner), a = set.vertex(triangle.a), b = set.vertex(triangle.b);
   const double diagonal = distance(a, b), other = std::max(distance(corner, a), distance(corner, b));
   const bool is_on_diagonal = triangle.other_was_kept && other <= (1 + 1e-9) * diagonal;

@@ -22,7 +22,7 @@ struct Tile {
   const PatchImage *twin;  // the image on the other side of the seam; null without a seam
   const Seam *seam;
   std::int64_t first_vertex, first_triangle;
-  std::int64_t first_id;         // the first triangle_id, which also counts triangles without area
+  std::int64_t first_id;         // the triangle_id of the first triangle; ids also count triangles without area
   std::int64_t n_triangles = 0;  // the triangles that have an area; the range may have room for more
   Vector<LeftOut> left_out{};    // the triangles without area
   bool is_whole = true;          // false if one of the triangles left out is missed (is_missed)
@@ -35,24 +35,23 @@ struct PatchVertices {
   Vector<Vec3> displacements;  // displacements since an earlier state of the same build; empty without such a state
 };
 
-// The two states of a moving valve whose states are built differently. Here each tile has a patch of its own, with the tile's
-// number.
+// Two states of a moving valve that are built differently. Here each tile has its own patch, whose number is the tile's number.
 struct OwnPatches {
   PatchSet now, before;
 };
 
 class Tiles {
  public:
-  // Borrows its arguments. Fails with RIIS_LIMIT_EXCEEDED for more than max_triangles.
+  // Keeps references to its arguments. Fails with RIIS_LIMIT_EXCEEDED for more than max_triangles.
   Tiles(const PatchSet &set, const Triangulation &how, const Vector<LevelledGrid> &grids, TriangleSet &triangles);
 
   const Vector<Tile> &all() const { return tiles_; }
-  // The number of triangles for which all tiles have room.
+  // The number of triangles for which all tiles together have room.
   std::int64_t room() const { return room_; }
   // Bounds the distance between the triangles and the smooth surface, in mesh units.
   double error_bound() const;
 
-  // Places the vertices of all tiles, and then calls work(i) for each tile i. Several threads call work at once.
+  // Places the vertices of all tiles, and then calls work(i) for each tile i. Several threads call work at the same time.
   template <class Work>
   void place_vertices(const Work &work) {
     make_patch_vertices();
@@ -89,20 +88,22 @@ class Tiles {
   std::int64_t n_vertices_ = 0, room_ = 0;
 };
 
-// Returns true if the set has nothing in place of this triangle, which was left out.
+// Returns true if nothing in the set takes the place of a triangle that was left out.
 bool is_missed(const TriangleSet &set, const LeftOut &triangle);
 
-// Returns the triangulation's request, with the allowed error reduced by the patches' own deviation. Fails if the remaining error
-// is too small, or if the earlier state is built differently.
+// Returns the request `asked`, with the allowed error reduced by the patches' own deviation. Fails if the remaining error is too
+// small, or if the earlier state is built differently.
 Triangulation checked(const PatchSet &set, const Triangulation &asked);
 
-// Adds the rims of the patches. Also keeps the grids, from which the rates in a direction are computed.
+// Adds the rims of the patches to the set. Also stores the grids in the set, because the rates in a direction are computed from
+// them.
 void finish(const PatchSet &set, Vector<LevelledGrid> grids, TriangleSet &triangles);
 
 [[noreturn]] void fail_for_vanished(const PatchSet &set, std::size_t patch, const char *where);
 
 // Calls attempt(tightness) until it returns no patch with missing triangles. A patch thinner than the tolerance loses its area if
-// both its sides become the same chords. Each attempt therefore has finer curves for the patches that the last one returned.
+// two opposite sides become the same chords. Each attempt therefore has finer curves for the patches that the previous attempt
+// returned.
 template <class Attempt>
 void with_finer_curves(const PatchSet &set, const char *where, const Attempt &attempt) {
   constexpr int max_attempts = 12;

@@ -29,7 +29,8 @@ struct VerticesOfPatch {
   AxisLine axis;  // placed
 };
 
-// An edge of the attachment of triangles from arrays. The edge has the direction around its triangle.
+// An edge of the attachment, for triangles from arrays. The vertices `from` and `to` follow each other in this order in the
+// edge's triangle.
 struct AttachedEdge {
   std::int64_t from, to;
   std::int32_t leaflet_id;
@@ -90,8 +91,8 @@ struct TriangleSet {
 // Returns triangles from arrays without their skirt, for measures of the leaflets.
 TriangleSet without_skirt(const TriangleSet &set);
 
-// Finds the position of a triangle in the set from its id. Positions equal ids if the set has left out none of the caller's
-// triangles.
+// Finds the position of a triangle in the set from its id. A triangle's position equals its id if the set has left out none of
+// the caller's triangles.
 class TrianglePositions {
  public:
   explicit TrianglePositions(const TriangleSet &set)
@@ -107,16 +108,17 @@ class TrianglePositions {
   bool are_ids_;
 };
 
-// Groups the triangles from begin to end - 1 of a set by position, and adds the groups to `grouping`.
+// Groups the triangles from begin to end - 1 of a set by their place in space, and adds the groups to `grouping`.
 void group_by_place(const TriangleSet &set, std::int32_t begin, std::int32_t end, Grouping &grouping);
-// Replaces `grouping` by groups of all triangles of a set, by position. Reuses its memory.
+// Groups all triangles of a set by their place in space. The groups replace the contents of `grouping`, whose memory is reused.
 void group_all_by_place(const TriangleSet &set, Grouping &grouping);
 
-// The most triangles that the library accepts. Ids of four bytes could count more triangles, but each triangle takes a few
+// The library accepts at most this many triangles. Ids of four bytes could count more triangles, but each triangle takes a few
 // hundred bytes of memory.
 inline constexpr std::int64_t max_triangles = 16'777'216;
 
-// Returns true if all edges are shorter than min_edge, or if the height over the longest edge is at most 1e-12 of this edge.
+// Returns true if all edges are shorter than min_edge, or if the height over the longest edge is at most 1e-12 times the length
+// of this edge.
 inline bool has_zero_area(Vec3 a, Vec3 b, Vec3 c) {
   const Vec3 ab = b - a, ac = c - a, bc = c - b;
   const double longest_sq = std::max({dot(ab, ab), dot(ac, ac), dot(bc, bc)});

@@ -19,27 +19,27 @@ namespace riis {
 
 // Grids whose lines stay the same while a valve opens (docs/theory/triangles.md, "Fixed triangulation"). A plan is made from the
 // patches of a valve at many openings. The plan's lines keep the allowed error at all these openings. At any opening, grids can
-// be made on these lines, with bounds of their errors.
+// be made on these lines, and the errors of these grids are bounded.
 struct PatchPlan {
   bool has_arcs = false;  // whether the patch is a patch of arcs at some opening
 
   GridLines lines;  // the lines of a Coons patch
 
   // A patch of arcs has lines in u, which move with the joints of its base. Stored are the lines and joints at one opening. At
-  // any opening, a line keeps its relative position between two joints. Without joints the lines do not move.
+  // every other opening, a line keeps its relative position between two joints. Without joints the lines do not move.
   Vector<double> u, joints;
   Vector<int> n_parts;  // the number of parts between two lines; O is evaluated at their ends
 };
 
-// The numbering of curves that the sides of patches use. The patches of another opening may number their curves differently. For
+// The numbers by which the sides of patches refer to curves. At another opening, the curves may be numbered differently. For
 // example, closed mitral leaflets share curves that open leaflets have separately.
 class CurveNumbering {
  public:
   explicit CurveNumbering(const PatchSet &set);
   // Returns whether the patches already use this numbering.
   bool is_of(const PatchSet &set) const;
-  // Returns the patches with this numbering of curves. Lists with an entry for each curve then have the same meaning at all
-  // openings. Apart from shared curves, the patches must be built alike (check_same_build).
+  // Returns the same patches with their curves numbered in this way. Lists with an entry for each curve then have the same
+  // meaning at all openings. Apart from shared curves, the patches must be built alike (check_same_build).
   PatchSet renumbered(const PatchSet &set) const;
 
  private:
@@ -53,15 +53,15 @@ struct GridPlan {
   std::size_t n_rows = 1;  // the number of rows of all patches of arcs
 };
 
-// Makes the plan from the patches at each of the openings. The patches of all openings must use one numbering of curves. A curve
-// of a Coons patch has an error of at most max_error * of_curves, times the curve's tightness. The curves of other patches stay
-// within a share of their own. Fails with RIIS_LIMIT_EXCEEDED for more than max_triangles, and with RIIS_INVALID_PARAMETER if no
-// number of lines is enough.
+// Makes the plan. `states` has the patches at each of the openings. The patches of all openings must use one numbering of curves.
+// A curve of a Coons patch has an error of at most max_error * of_curves, times the curve's tightness. The curves of other
+// patches stay within a share of their own. Fails with RIIS_LIMIT_EXCEEDED for more than max_triangles, and with
+// RIIS_INVALID_PARAMETER if no number of lines is enough.
 GridPlan plan_grids(const Vector<PatchSet> &states, double max_error, double of_curves,
                     const Vector<double> &tightness);
 
-// Makes one grid for each patch on the plan's lines. (The other make_grids chooses its own lines.) The function refines the
-// bounds of errors only as far as max_error requires.
+// Makes one grid for each patch on the plan's lines. (The make_grids of triangulate/grids.hpp chooses its own lines.) The
+// function refines the bounds of errors only as far as max_error requires.
 Vector<QuadGrid> make_grids(const PatchSet &set, const GridPlan &plan, double max_error, int n_threads,
                             bool keeps_lines);
 
@@ -72,14 +72,14 @@ struct LeftOut {
   bool other_was_kept;
 };
 
-// The triangles of a plan at one of the openings, as ids of the plan's vertices. They serve all openings at which the same
-// triangles have an area.
+// The triangles of a plan at one of the openings, as ids of the plan's vertices. These triangles serve all openings at which the
+// same triangles have an area.
 struct Connectivity {
   std::vector<std::int64_t> vertex_id, triangle_id;
   std::vector<std::int32_t> leaflet_id, patch_id;
   Grouping grouping;
   Vector<LeftOut> left_out;
-  // For each image of each patch: the position after its last triangle, and whether the previous image has the same triangles.
+  // An image of a patch: the position after its last triangle, and whether the previous image has the same triangles.
   struct OfImage {
     std::int64_t end;
     bool is_as_before;
@@ -101,7 +101,7 @@ struct TriangulationPlan {
 // little less than this error, and thus also serves openings between the given openings. Fails as triangulate_fixed does.
 TriangulationPlan plan_triangulation(const Vector<PatchSet> &given, double asked_error, int n_threads);
 
-// Returns whether the plan's triangles are within asked_error of the smooth surface in a state.
+// Returns whether, in a state, the plan's triangles are within asked_error of the smooth surface.
 bool is_within(const PatchSet &state, const TriangulationPlan &plan, double asked_error);
 
 struct Triangulation {
@@ -110,7 +110,7 @@ struct Triangulation {
   const Placement &placement;
   bool flip_normals;
   int n_threads;
-  const EarlierState *earlier = nullptr;  // null without velocities; it never changes the bits of the triangles
+  const EarlierState *earlier = nullptr;  // null without velocities; the bits of the triangles do not depend on it
 };
 
 // Makes triangles on grids as coarse as the state allows. `memory` is a set whose memory the function reuses. Fails with

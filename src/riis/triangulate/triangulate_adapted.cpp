@@ -51,7 +51,8 @@ class QuadGroups {
     return n;
   }
 
-  // Cuts a block of quads across its longer side until its n triangles fit in a group.
+  // Groups a block of quads with n triangles. The block and then its parts are cut across their longer sides, until the triangles
+  // of each part fit in a group.
   void group(const Quads &quads, std::int64_t n) {
     const std::size_t i0 = quads.i0, i1 = quads.i1, j0 = quads.j0, j1 = quads.j1;
     if (n == 0) return;
@@ -76,7 +77,7 @@ class QuadGroups {
     const bool along_u = j1 - j0 == 1 || (i1 - i0 > 1 && distance(grid_.point(i0, j), grid_.point(i1, j)) >
                                                              distance(grid_.point(i, j0), grid_.point(i, j1)));
     const auto before = [&](std::size_t cut) { return along_u ? Quads{i0, cut, j0, j1} : Quads{i0, i1, j0, cut}; };
-    // A cut near the middle makes both parts compact. Of the places near the middle, the cut takes the one that gives the fewest
+    // A cut near the middle makes both parts compact. The cut is made at that place near the middle which gives the fewest
     // groups.
     constexpr std::size_t farthest = 4;
     const std::size_t middle = along_u ? i : j, size = along_u ? i1 - i0 : j1 - j0;
@@ -101,7 +102,8 @@ class QuadGroups {
   Vector<std::int32_t> ends_;
 };
 
-// Joins the groups of all tiles, after the triangles of all tiles were moved together. `ends` has the ends of each tile's groups.
+// Joins the groups of all tiles into one list. The gaps between the tiles' triangles are already closed. `ends` has the ends of
+// each tile's groups.
 void join(const Vector<Tile> &tiles, const Vector<Vector<std::int32_t>> &ends, Grouping &joined) {
   std::int32_t n = 0;
   joined.end.clear();
@@ -133,7 +135,7 @@ Vector<std::size_t> make_triangles(const PatchSet &set, const Triangulation &how
   });
   if (!vanished.empty()) return vanished;
   join(tiles.all(), ends, triangles.grouping);
-  // Closing the gaps has moved triangles together with their ids, so the ids are numbered again.
+  // Closing the gaps has moved triangles together with their ids, so the triangles get new ids.
   if (triangles.n_triangles() < tiles.room())
     std::iota(triangles.triangle_id.begin(), triangles.triangle_id.end(), std::int64_t{0});
   return vanished;

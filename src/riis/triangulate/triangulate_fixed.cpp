@@ -17,8 +17,8 @@
 namespace riis {
 namespace {
 
-// Returns true if all these triangles surely have an area (has_zero_area), and keep it when their corners move by up to an eighth
-// of `shift`.
+// Returns true if all these triangles surely have an area (has_zero_area), even after their corners move by up to an eighth of
+// `shift`.
 bool have_area(const double *vertices, const std::vector<std::int64_t> &vertex_id, const Range &triangles,
                double shift) {
   const Kernels &simd = kernels(best_instruction_set());
@@ -43,7 +43,7 @@ bool have_area(const TriangleSet &set) {
   return true;
 }
 
-// Images of a patch are congruent except for rounding. Bounds how far rounding moves a corner.
+// Bounds how far rounding moves a corner of an image. Except for rounding, the images of a patch are congruent.
 double rounding_of_corners(const QuadGrid &grid, const Patch &patch, const Placement &placement) {
   double largest = 0, farthest = 0;
   for (const Vec3 &p : grid.points) largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
@@ -68,7 +68,7 @@ Vector<std::size_t> make_triangles(Tiles &tiles) {
 // Gives a set the triangles of a plan if the set lacks them.
 void take_connectivity(const Connectivity &from, bool flip_normals, TriangleSet &set) {
   const std::uint64_t number = 2 * from.number + (flip_normals ? 1 : 0);
-  // The plan's number alone is not enough: a set whose triangles were given away still has its number.
+  // The plan's number alone is not enough: a set whose triangles were given away still has the plan's number.
   if (set.connectivity == number && set.triangle_id.size() == from.triangle_id.size()) return;
   set.connectivity = 0;
   set.vertex_id = from.vertex_id;
@@ -82,8 +82,8 @@ void take_connectivity(const Connectivity &from, bool flip_normals, TriangleSet 
   set.connectivity = number;
 }
 
-// Places the vertices of these grids, and gives them the triangles of a plan. Returns false if triangles are missing, or if other
-// triangles have an area than in the plan.
+// Places the vertices of these grids, and gives them the triangles of a plan. Returns false if triangles are missing, or if the
+// triangles with an area are not the same as in the plan.
 bool take_planned_triangles(const PatchSet &set, const Triangulation &how, const Vector<LevelledGrid> &grids,
                             const Connectivity &planned, TriangleSet &triangles) {
   Tiles tiles(set, how, grids, triangles);
@@ -114,7 +114,8 @@ TriangleSet triangulate_fixed(const PatchSet &set, const Triangulation &asked, c
                               TriangleSet memory) {
   const Triangulation how = checked(set, asked);
   check_precision(set, how.max_error);
-  // A state may share curves that are separate in other states. The curves of such a state are renumbered as in the plan.
+  // In one state, patches may share curves that are separate in other states. The curves of such a state are renumbered as in the
+  // plan.
   std::optional<PatchSet> renumbered;
   if (!plan.curves.is_of(set)) renumbered = plan.curves.renumbered(set);
   const PatchSet &patches = renumbered ? *renumbered : set;
@@ -132,7 +133,7 @@ TriangleSet triangulate_fixed(const PatchSet &set, const Triangulation &asked, c
     if (!vanished.empty()) fail_for_vanished(set, vanished.front(), " in the fixed triangulation at this opening");
     group_all_by_place(memory, memory.grouping);
   }
-  finish(set, std::move(grids), memory);  // takes `set`, not `patches`, because curves that `set` shares are not rims
+  finish(set, std::move(grids), memory);  // `set`, not `patches`: a curve that two patches of `set` share is no rim
   return memory;
 }
 
@@ -238,7 +239,7 @@ Connectivity make_connectivity(const PatchSet &state, const Triangulation &how, 
 TriangulationPlan plan_triangulation(const Vector<PatchSet> &given, double asked_error, int n_threads) {
   double max_error = asked_error;
   for (const PatchSet &state : given) max_error = std::min(max_error, error_left(state, asked_error));
-  // The plan uses less than the whole error, because the remainder is for openings between the given openings.
+  // The plan uses less than the whole allowed error. The rest is kept for openings between the given openings.
   constexpr double share = 0.95;
   const double planned_error = share * max_error;
   // A curve that patches share at only one opening is two curves at other openings. The state with the most curves therefore

@@ -12,8 +12,8 @@
 namespace riis {
 namespace {
 
-// The positions in the list of specs below. First come parameters of the whole valve, then of each cusp, and last of the open
-// state.
+// The positions in the list of specs below. First come the parameters of the whole valve, then those of each cusp, and last those
+// of the open state.
 // clang-format off
 enum General {
   root_height, root_radius, leaflet_height, bending_height, t3_leaflet, t3_bending, t0_leaflet, t0_bending, xq, zq, opening,
@@ -36,8 +36,8 @@ constexpr CuspOpening default_opening{0.75, 0.05};
 
 std::size_t position_of(std::size_t cusp, OfCusp parameter) { return n_general + cusp * n_of_cusp + parameter; }
 
-// The rules for rotations that the caller did not set. If the sum of the leaflet angles is 180 degrees, all neighbours meet at
-// their commissures. With any other sum, the three gaps or overlaps between neighbours are equal.
+// The rules for rotations that the caller did not set. If the sum of the leaflet angles is 180 degrees, neighbouring cusps meet
+// at their commissures. With any other sum, the three gaps or overlaps between neighbouring cusps are equal.
 double leaflet_angle_of(const ParameterValues &values, std::size_t cusp) {
   return values[position_of(cusp, leaflet_angle)][0];
 }
@@ -61,9 +61,9 @@ constexpr double table[n_cusps][n_of_cusp] = {{0.24, 1.365, 61.0, 1.58, 0.40, 1.
                                               {0.49, 1.495, 58.5, 2.77, 0.74, 1.355, 43.00, 4.12, 119.5, -1},
                                               {0.20, 1.380, 60.5, 1.19, 0.67, 1.435, 42.75, 2.54, -121.5, -1}};
 
-// The rules of exponents that were not set. An exponent above the bound lets the free edge reach into the next cusp, beyond the
-// plane through the axis and the commissure. The paper's right and left exponents are above the bound. Their rules keep the ratio
-// of each to its bound.
+// The rules for exponents that the caller did not set. With an exponent above its bound, the free edge reaches into the next
+// cusp, beyond the plane through the axis and the commissure. The paper's right and left exponents are above their bounds. The
+// rules for these two exponents keep the paper's ratio of exponent to bound.
 double power_bound(double radius_in, double radius_out, double angle) {
   const double x = radius_out * sine_cosine_degrees(angle).cosine;
   return x > radius_in ? x / (x - radius_in) : std::numeric_limits<double>::infinity();
@@ -178,8 +178,8 @@ void check_together(const ParameterValues &values) {
   }
 }
 
-// Checks every curve of one state. The curves at other openings need no check, because they lie between those of the two checked
-// states.
+// Checks every curve of one state. The curves at other openings need no check, because they lie between the curves of the closed
+// and the open state, which are both checked.
 void check_values(const ParameterValues &values) {
   check_together(values);
   for (std::size_t cusp = 0; cusp < n_cusps; ++cusp) {
@@ -210,7 +210,7 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
     const HalfCusp open_half = !has_own_open_state ? half_cusp(shape_of(open.values, cusp))
                                : opening != 0      ? own_open_half(closed.values, cusp)
                                                    : open_half_of(closed.values, cusp);
-    // A cusp's position has no control points to blend, so its angles and its shift are blended.
+    // The position of a cusp is given by angles and a shift, so these are blended instead of control points.
     const auto vector_of = [&](OfCusp parameter) {
       const std::size_t i = position_of(cusp, parameter);
       return riis::blend(riis::vector_of(closed.values[i]), riis::vector_of(open.values[i]), opening);

@@ -22,9 +22,9 @@
 namespace riis {
 namespace {
 
-// A leaflet has `n_places` evenly spaced places along the annulus, from one commissure to the next. From each place hangs a
-// meridian. A free edge consists of two cubics, and so does a coaptation line. Each of these lines thus has one control point for
-// each place.
+// A leaflet has `n_places` evenly spaced places along the annulus, from one commissure to the next. A meridian, a curve down the
+// leaflet, begins at each place. A free edge consists of two cubics, and so does a coaptation line. Two joined cubics have seven
+// control points, one for each place.
 constexpr std::size_t n_places = 7, middle = 3, n_cells = n_places - 1;
 template <class Value>
 struct AtPlaces {
@@ -35,34 +35,35 @@ struct AtPlaces {
 };
 constexpr double u_of(std::size_t place) { return static_cast<double>(place) / n_cells; }
 
-// The coaptation zone takes at least `least_coaptation` of a leaflet's length. A leaflet that is too short for this zone does not
-// reach its neighbours.
+// The coaptation zone takes up at least the share `least_coaptation` of a leaflet's length. A leaflet that is too short for this
+// zone does not reach its neighbours.
 constexpr double least_coaptation = 0.05;
-// A closed meridian's first inner control point lies below the annulus by `first_drop` times the drop to the coaptation line.
+// A closed meridian's first inner control point lies below the annulus by `first_drop` times the drop from the annulus to the
+// coaptation line.
 constexpr double first_drop = 0.2;
-// The heights of a closed free edge's control points, from the middle to a commissure. The unit is the height of the edge's end
-// over its middle.
+// The heights of a closed free edge's control points, from the middle to a commissure. 0 is the height of the edge's middle, and
+// 1 is the height of its end.
 constexpr std::array<double, 4> edge_rise{0, 0, 0.6, 1};
 // A bump lifts a meridian's first inner control point by only `lift_of_start` times the bump's lift.
 constexpr double lift_of_start = 0.3;
-// Next to a commissure, bumps lift a leaflet at most `most_lift_by_commissure` * commissure_length farther than the commissure. A
-// leaflet that rises more steeply would go through its neighbour, because leaflets lie close together there.
+// Next to a commissure, bumps lift a leaflet at most `most_lift_by_commissure` * commissure_length higher than they lift the
+// commissure. A leaflet that rises more steeply would go through its neighbour, because leaflets lie close together there.
 constexpr double most_lift_by_commissure = 0.5;
 // If a leaflet is too short for its end, the end moves back in at most `most_steps` steps. The leaflet may then still be too
 // short by `rounding` times its length.
 constexpr int most_steps = 60;
 constexpr double rounding = 1e-12, rounding_of_zone = 1e-6;
-// A leaflet has at least the share `least_ratio` of the annulus. The way from the middle of a leaflet's part of the annulus to
-// the meeting point is at least `least_way` times the annulus' depth.
+// A leaflet takes up at least the share `least_ratio` of the annulus. The way from the middle of a leaflet's part of the annulus
+// to the meeting point is at least `least_way` times the annulus' depth.
 constexpr double least_ratio = 0.05, least_way = 0.12;
-// A commissure takes up at most the share `most_of_way` of the way to the meeting point. The coaptation zone takes up at most the
-// share `most_coaptation` of a leaflet's length.
+// A commissure takes up at most the share `most_of_way` of the way from the annulus to the meeting point. The coaptation zone
+// takes up at most the share `most_coaptation` of a leaflet's length.
 constexpr double most_of_way = 0.8, most_coaptation = 0.7;
-// The rates of the control points are differences over the step `rate_step` of the opening. The rates only determine where
-// vertices are dense.
+// The rates of the control points are computed as differences over the step `rate_step` of the opening. The rates only determine
+// where vertices are dense.
 constexpr double rate_step = 1e-4;
 
-// Positions in the list of specs behind the leaflets' own sizes.
+// The parameters that follow the leaflets' own sizes in the list of specs.
 // clang-format off
 enum Parameter : std::size_t {
   width, depth, flatness, saddle_height, flat_ratio, commissure_length, commissure_angle, commissure_coaptation, tenting_height,
@@ -89,7 +90,7 @@ class Sizes {
     return saddle_annulus({of(width), of(depth), of(flatness), of(saddle_height),
                            n_leaflets_ == 2 ? FlatSide::at_positive_y : FlatSide::at_negative_y});
   }
-  // Returns where the leaflets start, and where the last leaflet ends, in laps from the middle of the flat side.
+  // Returns where along the annulus each leaflet starts and the last leaflet ends, in laps from the middle of the flat side.
   Vector<double> commissures() const {
     const double half = 0.5 * of(flat_ratio);
     if (n_leaflets_ == 2) return {-half, half, 1 - half};
@@ -109,7 +110,8 @@ Vec3 unit(Vec3 p) { return (1 / length(p)) * p; }
 struct Hinge {
   Vec3 point, inwards;
 
-  // Returns the point at a distance from the hinge. The direction is inwards, and below the horizontal by an angle.
+  // Returns the point at a distance from the hinge. The direction points inwards and down, at the given angle below the
+  // horizontal.
   Vec3 hang(double distance, SineCosine angle) const {
     return point + distance * (angle.cosine * inwards - Vec3{0, 0, angle.sine});
   }
@@ -134,8 +136,8 @@ class Annulus {
     leaflets_.back()[n_cells].hinge = leaflets_.front()[0].hinge;
   }
 
-  // Sets the point where all leaflets meet, seen along z. All commissures lead towards this point, which keeps neighbours on
-  // opposite sides of a plane.
+  // Sets the point where all leaflets meet, seen along z. All commissures lead towards this point, which keeps neighbouring
+  // leaflets on opposite sides of a plane.
   void set_meeting(Vec3 at) {
     meeting_ = at;
     for (AtPlaces<Place> &leaflet : leaflets_)
@@ -176,7 +178,8 @@ struct Leaflet {
   AtPlaces<double> lift;      // how far bumps lift the closed leaflet
 };
 
-// The control points are those of two cubics, which meet at the middle place. Returns the parts of the cubics between the places.
+// `q` has the control points of two cubics, which meet at the middle place. Returns the part of the cubics from each place to the
+// next.
 std::array<Bezier, n_cells> parts(const AtPlaces<Vec3> &q) {
   const auto [first, rest] = split(Bezier::cubic(q[0], q[1], q[2], q[3]), 1.0 / 3);
   const auto [fourth, rest_behind] = split(Bezier::cubic(q[3], q[4], q[5], q[6]), 1.0 / 3);
@@ -191,7 +194,8 @@ AtPlaces<Vec3> on_parts(const std::array<Bezier, n_cells> &parts) {
   return points;
 }
 
-// A moving meridian arrives at the coaptation line in the direction in which the zone continues.
+// Returns the meridian of a moving leaflet. At the coaptation line, the meridian has the direction in which the coaptation zone
+// continues.
 Bezier meridian(Vec3 hinge, Vec3 start, double turn, Vec3 on_line, Vec3 on_edge) {
   return Bezier::cubic(hinge, hinge + start, on_line + turn * unit(on_line - on_edge), on_line);
 }
@@ -201,8 +205,8 @@ Vec3 meeting_point(const Sizes &sizes, const Annulus &annulus) {
   const auto hinge = [&](std::size_t leaflet) { return level(annulus.hinge(leaflet, middle).point); };
   const double apart = distance(hinge(0), hinge(1));
   if (sizes.n_leaflets() == 2) return mix(hinge(0), hinge(1), 0.5 * (1 + (sizes.length(0) - sizes.length(1)) / apart));
-  // Newton's method solves |H - M| + overlap = length for all three leaflets. Subtracting one equation from another removes the
-  // overlap.
+  // Newton's method solves |H - M| + overlap = length for all three leaflets. H is a leaflet's middle hinge, and M is the meeting
+  // point. Subtracting one equation from another removes the overlap.
   Vec3 at = 1.0 / 3 * (hinge(0) + hinge(1) + hinge(2));
   for (int step = 0; step < 30; ++step) {
     std::array<Vec3, 3> row{};
@@ -226,7 +230,7 @@ Annulus annulus_of(const Sizes &sizes) {
   return annulus;
 }
 
-// A closed free edge ends at this point of a commissure, and the coaptation line ends above the point.
+// Returns the point of a commissure at which a closed free edge ends. The coaptation line ends above this point.
 Vec3 end_of_edge(const Sizes &sizes, const Hinge &hinge) {
   return hinge.hang(sizes.of(commissure_length), sine_cosine_degrees(sizes.of(commissure_angle)));
 }
@@ -335,9 +339,10 @@ double middle_length(const Leaflet &leaflet) {
          arc_length(meridian({0, 0, 0}, leaflet.start[middle], leaflet.turn[middle], on_line, on_edge));
 }
 
-// Returns the leaflet after every place has moved by a share of its way. Each control point swings about its hinge. After the
-// swing, the leaflet is stretched until its middle has the right length. The stretch becomes smaller towards the commissures.
-// Finally, bumps lift the leaflet. They lift it along z, so that lifted leaflets seen along z are as far apart as healthy ones.
+// Returns the leaflet after every place has moved by its share of the way from closed to open. Each control point swings about
+// its hinge. After the swing, the leaflet is stretched until its middle has the right length. The stretch becomes smaller towards
+// the commissures. Finally, bumps lift the leaflet. This lift is along z, so it does not change how far apart the leaflets are
+// seen along z.
 Leaflet moved(const Leaflet &closed, const Leaflet &open, const AtPlaces<double> &shares) {
   Leaflet made = closed;
   for (std::size_t i = 0; i < n_places; ++i) {
@@ -382,7 +387,7 @@ LeafletCurves curves_of(const Leaflet &leaflet, const Annulus &annulus, std::siz
   return made;
 }
 
-// A valve between its closed state and its open state, which may have other sizes.
+// A valve between its closed state and its open state. The two states may have different sizes.
 class Motion {
  public:
   Motion(const ValveState &closed, const ValveState &open, std::size_t n_leaflets)
@@ -542,7 +547,7 @@ void check_values(const ParameterValues &values, const ValveKind &kind, std::siz
   }
 }
 
-// The sizes in which the kinds differ. Lengths are in centimetres. The sources of the values are in
+// The sizes that differ between the kinds of valves. Lengths are in centimetres. The sources of the values are in
 // docs/theory/atrioventricular.md.
 struct KindSizes {
   Vector<ParameterSpec> of_leaflets;
@@ -605,7 +610,7 @@ ParameterSpec ratio_spec(const char *name, const char *description, double value
 // Seen along z, the outline is an ellipse with a flat side. A larger `flatness` makes the flat side flatter, and moves it nearer
 // to the middle.
 std::array<Bezier, 4> saddle_annulus(const SaddleAnnulus &annulus) {
-  constexpr double circle = 0.5523;  // the reach of a cubic for a quarter of a circle, in radii
+  constexpr double circle = 0.5523;  // length of the end tangents of a quarter of a circle, in radii
   const double sign = annulus.flat_side == FlatSide::at_positive_y ? 1 : -1, high = 0.5 * annulus.saddle_height;
   const double half = 0.5 * annulus.width, near = (0.5 - 0.12 * annulus.flatness) * annulus.depth,
                far = annulus.depth - near, reach = circle * half, flat_reach = (circle + 0.3 * annulus.flatness) * half;

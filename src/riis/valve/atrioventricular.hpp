@@ -19,7 +19,7 @@ struct SaddleAnnulus {
   FlatSide flat_side;
 };
 
-// Returns the annulus counter-clockwise seen from +z, from the middle of the flat side.
+// Returns the annulus. It starts at the middle of the flat side and runs counter-clockwise, seen from +z.
 std::array<Bezier, 4> saddle_annulus(const SaddleAnnulus &annulus);
 
 }  // namespace riis

@@ -83,7 +83,7 @@ struct Shape {
 };
 
 Shape blended(const ValveState &closed, const ValveState &open, double at) {
-  // A value that both states have is not blended, so that a housing that does not move keeps its bits.
+  // A value that is equal in both states is not blended, so that a housing that does not move keeps its bits.
   const auto both = [&](Parameter parameter) {
     const double from = closed.values[parameter][0], to = open.values[parameter][0];
     return from == to ? from : blend(from, to, at);
@@ -136,7 +136,7 @@ double arc_deviation(double whole_angle) {
 }
 
 // Returns the arc of a circle about the axis, from (radius, 0) to the point (last_x, last_y) of the circle, where last_y > 0.
-// `placed` takes points of the plane, such as control points, to space.
+// `placed` turns a point of the plane, such as a control point, into a point in space.
 template <class ToSpace>
 Curve make_arc(double circle_radius, double whole_angle, double last_x, double last_y, const ToSpace &placed) {
   const double step = whole_angle / n_spans;

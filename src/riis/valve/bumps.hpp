@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bumps: disease at one place of a free edge (docs/theory/bumps.md). A bump changes only how far its place opens. The parameters
-// of the bumps determine how far each place of the edge closes and opens.
+// Bumps: disease at one place of a free edge (docs/theory/bumps.md). A bump changes how far the edge closes and opens at its
+// place. This file computes both for each place of the edge, from the parameters of the bumps.
 #pragma once
 
 #include <array>
@@ -19,22 +19,22 @@ enum class BumpLift : bool { no, yes };
 // "lift".
 std::size_t add_bump_specs(Vector<ParameterSpec> &specs, std::size_t n_leaflets, BumpLift lift);
 
-// The closed and the open position of a place of a free edge. Both are shares of the way on which a healthy place moves, from 0
-// at its closed position to 1 at its open position. `lift` raises the closed position towards +z.
+// The closed and the open position of a place of a free edge. Both are shares of the way of a healthy place: 0 is its closed
+// position, and 1 is its open position. `lift` raises the closed position towards +z.
 struct LocalOpening {
   double closed = 0, open = 1, lift = 0;
 };
 
 class Bumps {
  public:
-  // `first` is the position of the first parameter. Fails with RIIS_INVALID_PARAMETER for a number of a leaflet or commissure
-  // that is not whole, and for a bump that has both numbers.
+  // `first` is the position of the first parameter. Fails with RIIS_INVALID_PARAMETER if the number of a leaflet or of a
+  // commissure is not whole, or if a bump has both numbers.
   Bumps(const ParameterValues &values, std::size_t first, std::size_t n_leaflets, BumpLift lift);
 
   // Returns whether some bump has a place.
   bool any() const;
-  // u is the share of the leaflet's free edge, counter-clockwise seen from +z. Leaflet k runs from commissure k - 1, u = 0, to
-  // commissure k, u = 1. At a commissure itself, only bumps of commissures act, and they act equally on both neighbours.
+  // u is the position along the leaflet's free edge, counter-clockwise seen from +z. Leaflet k runs from commissure k - 1 (u = 0)
+  // to commissure k (u = 1). At a commissure itself, only bumps of commissures act, and they act equally on both neighbours.
   LocalOpening at(std::size_t leaflet, double u) const;
 
  private:

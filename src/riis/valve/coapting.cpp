@@ -21,8 +21,8 @@
 namespace riis {
 namespace {
 
-// The positions in the lists of specs below. Behind them, the lists have the parameters of all commissures, then of all cusps,
-// then of bumps.
+// The positions in the lists of specs below. After these parameters, the lists have those of all commissures, then of all cusps,
+// then of the bumps.
 // clang-format off
 enum Parameter {
   root_radius, commissure_radius, commissure_height, effective_height, coaptation_height, gap, bottom_angle, belly, edge_rise,
@@ -37,20 +37,20 @@ enum OfCusp { sector, own_effective_height, own_coaptation_height, own_open_radi
 constexpr double most_of_edge = 0.998;
 // While the valve opens, the height of the free edge above the root must stay at least `least_height` times root_radius.
 constexpr double least_height = 0.05;
-// Every set of values is checked for folds of the cusps at these openings. Folds arise only in the second half of the motion.
+// Every set of values is checked for folds of the cusps at these openings. Folds occur only in the second half of the motion.
 constexpr std::array<double, 4> openings_of_folds{0.6, 0.75, 0.9, 1};
 // At the root, the leaflet must rise by at least `least_rise` times the rise of a leaflet without sag.
 constexpr double least_rise = 0.05;
-// If a cusp rises by less than `usual_rise`, its open edge leaves the commissures at a smaller slope. If the rise is at most
-// usual_rise - rise_until_level, the edge leaves the commissures horizontally.
+// If a cusp's rise, in the same unit, is less than `usual_rise`, its open edge leaves the commissures at a smaller slope. If the
+// rise is at most usual_rise - rise_until_level, the edge leaves the commissures horizontally.
 constexpr double usual_rise = 0.1, rise_until_level = 0.15;
-// The edge of a cusp that would fold gets a smaller slope at the commissures. The height of its edge above the root must then
-// stay at least `least_height_of_flat` times root_radius. In a lower leaflet, triangles would cross near the attachment.
+// If a cusp would fold, its edge gets a smaller slope at the commissures. The height of this edge above the root must then stay
+// at least `least_height_of_flat` times root_radius. In a lower leaflet, triangles would cross near the attachment.
 constexpr double least_height_of_flat = 0.08;
 // Fused commissures must leave an open orifice of at least `least_orifice` of the area inside the commissures.
 constexpr double least_orifice = 0.06;
-// The rates of the control points are differences over the step `rate_step` of the opening. The rates only determine where
-// vertices are dense.
+// The rates of the control points are computed as differences over the step `rate_step` of the opening. The rates only determine
+// where vertices are dense.
 constexpr double rate_step = 1e-4;
 
 // The rules for sizes that the caller did not set.
@@ -73,8 +73,8 @@ void check_values(const ParameterValues &list);
 template <std::size_t n_cusps>
 PatchSet make_patches(const ValveState &closed, const ValveState &open, double opening);
 
-// Appends a parameter of one cusp or commissure. Until the caller sets the parameter, it has the value of the parameter that the
-// whole valve has.
+// Appends a parameter of one cusp or commissure. Until the caller sets the parameter, it has the value of the whole valve's
+// parameter.
 void add_own(Vector<ParameterSpec> &specs, const std::string &owner, const char *name, Parameter of_valve) {
   ParameterSpec own = specs[of_valve];
   own.rule = {of_valve == commissure_height ? "commissure_height" : name, nullptr, of_valve};
@@ -262,7 +262,8 @@ double least_rise_of(const Vector<Vector<HalfCusp>> &halves) {
   return least;
 }
 
-// The least rise at the root over the openings at which cusps may fold. It leaves out openings at which the edge hangs too low.
+// The least of a cusp's rises at the root, over all openings at which cusps may fold. Openings at which the edge hangs too low
+// are left out.
 struct RiseOnWay {
   double least = std::numeric_limits<double>::infinity();
   bool hangs_too_low = false;  // at one of these openings
@@ -287,8 +288,8 @@ struct CuspMotion {
 
 // Returns the states between which a cusp moves. A long open edge hangs deep. If such an edge leaves the commissures steeply, the
 // leaflet folds beside its attachment. The slope at the commissures therefore becomes smaller as the cusp comes nearer to a fold.
-// Three equal cusps keep their usual edge, so that this rule does not change a bit of their triangles. Fused cusps also keep it,
-// because the patches beside the fused part would become too narrow.
+// Three equal cusps keep their usual edge, so that this rule leaves their triangles unchanged to the last bit. Fused cusps also
+// keep their usual edge, because the patches beside the fused part would become too narrow.
 CuspMotion motion_of(const CuspSizes &closed, CuspSizes open) {
   EndStates usual = end_states(closed, open);
   const bool is_fused =
@@ -301,7 +302,8 @@ CuspMotion motion_of(const CuspSizes &closed, CuspSizes open) {
   return {end_states(closed, open), rise >= least_rise ? CuspMotion::Fold::unknown : CuspMotion::Fold::with_usual_edge};
 }
 
-// Returns the halves with the derivatives of their control points by the opening. The derivatives are computed as differences.
+// Returns the halves with the derivatives of their control points with respect to the opening. The derivatives are computed as
+// differences.
 Vector<MovingHalf> moving_halves(const CuspNumbers &closed, const CuspNumbers &open, double at) {
   const double from = std::max(at - rate_step, 0.0), to = std::min(at + rate_step, 1.0);
   const auto here = halves_of(blend(closed, open, at));
@@ -337,7 +339,7 @@ void check_cusp(const ValveValues &values, std::size_t k) {
          "commissure_expansion");
   if (sizes.keeps_ratio && is_half) {
     // The middle of the edge is at least as far from a commissure as the symmetry plane is. The middle is therefore never lower
-    // than this value.
+    // than `low`.
     const double away = sizes.sector.sine * sizes.commissure_radius;
     const double low = values.of_commissure(k, height) - std::sqrt(edge_length * edge_length - away * away);
     if (!(low >= least_height * sizes.root_radius))

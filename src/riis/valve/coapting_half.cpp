@@ -13,18 +13,18 @@ namespace riis {
 namespace {
 
 // The coaptation line is turned in `n_crease_steps` steps until no crease is left. Each step computes the crease at the ends of
-// `n_crease_spans` parts. The stiffness says how much the line's displacement weighs in comparison with the crease. With these
-// values the largest crease of random valves is below one degree.
+// `n_crease_spans` parts of the line. The stiffness is the weight of the line's displacement in comparison with the crease. With
+// these values the largest crease of random valves is below one degree.
 constexpr int n_crease_steps = 2;
 constexpr std::size_t n_crease_spans = 8;
 constexpr double crease_stiffness = 0.03;
 
-// A fused part with at least the share `turned_from` of the edge has room for a parting curve without a crease at the coaptation
-// line.
+// A fused part that takes up at least the share `turned_from` of the edge has room for a parting curve without a crease at the
+// coaptation line.
 constexpr double turned_from = 0.3;
 
-// Along the coaptation line K, the derivative of the lower patch by v is T = K - c + (1 - u) Y + u A, with the chord c of K. Y
-// and A are the end tangents of the symmetry curve and of the attachment, and are as long as these curves.
+// Along the coaptation line K, the derivative of the lower patch with respect to v is T = K - c + (1 - u) Y + u A, with the chord
+// c of K. Y and A are the end tangents of the symmetry curve and of the attachment, and are as long as these curves.
 struct EndTangents {
   Vec3 of_symmetry, of_attachment;
 
@@ -69,8 +69,8 @@ class Displacements {
   std::array<std::array<double, n + 1>, n> matrix_{};  // the last column is the right side
 };
 
-// Returns a first coaptation line below the free edge F. The derivative of the upper patch by v is F - K. At the parameters 1/3
-// and 2/3 of both curves, F - K is T times a factor. The factor decreases from the middle to 0 at the commissure.
+// Returns a first coaptation line below the free edge F. The derivative of the upper patch with respect to v is F - K. At the
+// parameters 1/3 and 2/3 of both curves, F - K is T times a factor. The factor decreases from the middle to 0 at the commissure.
 Bezier first_coaptation_line(const Bezier &free_edge, Vec3 middle, const EndTangents &tangents) {
   const double factor = distance(free_edge.first(), middle) / length(tangents.of_symmetry);
   const auto point = [&](double u) {
@@ -128,9 +128,9 @@ Bezier moved(Bezier curve, Vec3 by) {
 }
 
 // Returns the curve between the free and the fused part below the coaptation line. The curve is a mixture of the symmetry curve
-// and the attachment. So that the leaflet has no crease at the end, the curve arrives there in the direction of the zone's edge
-// S. In a fused part below `turned_from` the curve turns less, because a larger turn would lead it out of this part and across
-// the attachment.
+// and the attachment. At its end, the curve has the direction of the zone's edge S, so that the leaflet has no crease there. In a
+// fused part whose share is below `turned_from`, the curve turns less, because a larger turn would lead it out of this part and
+// across the attachment.
 Bezier parting_curve(const HalfCusp &half, const Bezier &attachment, double share, const Bezier &S) {
   const Vec3 first = half.symmetry_below.first(), last = S.first();
   const Vec3 off = last - mix(half.symmetry_below.last(), attachment.last(), share);

@@ -9,8 +9,8 @@
 
 namespace riis {
 
-// The middle of the free edge hangs `depth` below the edge's end, at the height `low`. `low` is given although it follows from
-// `depth`, because both halves of a cusp must have the same height to the last bit. Returns one part or, if the half is fused,
+// The middle of the free edge hangs `depth` below the edge's end, at the height `low`. `low` could be computed from `depth`. It
+// is an argument so that both halves of a cusp have the same height to the last bit. Returns one part or, if the half is fused,
 // the free and the fused part.
 Vector<HalfCusp> coapting_half(const HalfNumbers &numbers, double depth, double low);
 

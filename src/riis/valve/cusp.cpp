@@ -27,8 +27,8 @@ Bezier profile_curve(const CuspProfile &profile, double height) {
                        last);
 }
 
-// Splits the curve at t. The common end of both parts becomes `point`, which must be on the curve up to rounding. Both parts thus
-// meet other curves there to the last bit.
+// Splits the curve at t. The common end of both parts becomes `point`, which must be on the curve up to rounding. Other curves
+// that end at `point` thus meet both parts to the last bit.
 std::pair<Bezier, Bezier> split_through(const Bezier &curve, double t, Vec3 point) {
   auto [below, above] = split(curve, t);
   view(below.control)[below.degree] = point;
@@ -36,7 +36,7 @@ std::pair<Bezier, Bezier> split_through(const Bezier &curve, double t, Vec3 poin
   return {below, above};
 }
 
-// With the power 2, a cubic whose end tangents are a third of the end's y long equals the profile exactly.
+// For the power 2, a cubic equals the profile exactly if the length of its end tangents is a third of the end's y.
 CuspProfile parabola(double radius_in, double radius_out, double angle) {
   const double third = radius_out * sine_cosine_degrees(angle).sine / 3;
   return {radius_in, radius_out, angle, 2, third, third};
@@ -59,7 +59,7 @@ Side add_sinus_below(PatchSet &set, const HalfCusp &part, const HalfCusp &rate) 
   return set.add(Curve({*part.sinus_start, part.sinus_below}));
 }
 
-// The sides at which both halves of a cusp meet.
+// The sides at which the two halves of a cusp meet.
 struct SymmetrySides {
   Side root, below, above;
 };
@@ -91,7 +91,7 @@ void add_parts(PatchSet &set, const MovingHalf &half, const SymmetrySides &middl
   }
 }
 
-// Returns the half after it is mirrored, turned and moved like an image.
+// Returns the half after it is mirrored, turned and moved as the image is.
 MovingHalf turned(const MovingHalf &half, const PatchImage &image) {
   const auto turn = [&](Bezier curve) {
     for (int i = 0; i <= curve.degree; ++i) view(curve.control)[i] = place(image, view(curve.control)[i]);
@@ -108,7 +108,7 @@ MovingHalf turned(const MovingHalf &half, const PatchImage &image) {
   return {turn_all(half.parts), turn_all(half.rates)};
 }
 
-// Gives a half the middle of the other half. The two middles differ only by rounding.
+// Makes a half begin at the same point as the other half, in the middle of the cusp. The two middles differ only by rounding.
 void begin_at(HalfCusp &half, const HalfCusp &other) {
   half.leaflet.control[0] = other.leaflet.first();
   half.bending.control[0] = other.bending.first();

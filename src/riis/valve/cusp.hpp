@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Half a semilunar cusp: its curves, the shape to which it opens, and its two patches (docs/theory/aortic.md). The lengths,
-// angles and exponents of a cusp give Bézier curves in the cusp's frame. The curves give patches in a set.
+// angles and exponents of a cusp give Bézier curves in the cusp's frame. From these curves, this file makes patches.
 #pragma once
 
 #include <array>
@@ -52,7 +52,7 @@ HalfCusp rate(const HalfCusp &closed, const HalfCusp &open, double apart = 1);
 // parameters in the message.
 void check_reach(const HalfCusp &half, const CuspShape &shape, const char *state, const char *cusp, const char *also);
 
-// The position of a cusp. The cusp is turned and then shifted. The id of its leaflet also numbers its patches.
+// The position of a cusp. The cusp is turned and then shifted. The id of its leaflet also determines the ids of its patches.
 struct CuspPlace {
   Rotation turn;
   Vec3 shift;
@@ -67,8 +67,8 @@ struct MovingHalf {
 
 // Adds the lower and the upper patch of each part. At each place of a cusp, every patch gets two images, for the half y >= 0 and
 // then for the other half. The upper patch of the last part becomes the last patch of the set. The side v1 of this last patch is
-// the free edge, which ends at the commissure (u = 1). If cusps have second parts, the patches of these parts have ids after
-// those of all first parts.
+// the free edge, which ends at the commissure (u = 1). If the halves have second parts, the ids of the patches of second parts
+// come after the ids of all patches of first parts.
 void add_cusps(PatchSet &set, const MovingHalf &half, const Vector<CuspPlace> &places);
 inline std::size_t top_patch(const PatchSet &set) { return set.patches.size() - 1; }
 

@@ -14,9 +14,10 @@
 namespace riis {
 namespace {
 
-// An edge that is too short for open_radius_ratio opens until an edge without sag would use up `used_of_edge` of its length.
+// An edge that is too short for open_radius_ratio opens less. It opens as far as an edge without sag that has `used_of_edge`
+// times its length.
 constexpr double used_of_edge = 0.97;
-// An open edge that reaches `round_from` of the height of a circle's arc leaves the commissure like this arc.
+// An open edge whose height is at least `round_from` times the height of a circle's arc leaves the commissure like this arc.
 constexpr double round_from = 0.7;
 // The edges of three equal cusps are always round. Their half sectors are 60 degrees. The edge of another cusp becomes straighter
 // as the cosine of its half sector moves away from the cosine of 60 degrees. If the cosines differ by `not_of_three` or more, the
@@ -68,13 +69,14 @@ void mix_places(const HalfNumbers &closed, const HalfNumbers &open, const std::a
   made.commissure = riis::blend(closed.commissure, open.commissure, shares.back());
 }
 
-// Returns the distance of the inner control points from the ends of a cubic that approximates an arc, in radii.
+// A cubic approximates an arc. Returns the distance, in radii, of the cubic's inner control points from its ends.
 double arc_reach(double degrees) {
   const auto [sine, cosine] = sine_cosine_degrees(degrees / 4);
   return 4.0 / 3.0 * sine / cosine;
 }
 
-// The start tangent, in radii, with which the middle of a single-cubic attachment lies on the cylinder.
+// The length of the start tangent, in radii, of an attachment that is a single cubic. With this length, the cubic's middle lies
+// on the cylinder.
 double tangent_on_cylinder(double sine, double cosine) {
   const double middle = (1 + cosine) / 2;
   return 8.0 / 3 * (std::sqrt(1 - middle * middle) - sine / 2);
@@ -90,8 +92,8 @@ double parameter_at_y(const Bezier &curve, double y) {
   return low;
 }
 
-// Splits the closed half into a part that opens and a fused part. The middle of the half's edge is at the height `low`. The free
-// and the fused part meet in a vertical line of the zone.
+// Splits the closed half into a free part, which opens, and a fused part. The middle of the half's edge is at the height `low`.
+// The free and the fused part meet in a vertical line of the zone.
 void fuse(HalfNumbers &half, double fusion, double low) {
   const HalfCusp whole = coapting_half(half, half.edge_top - low, low).front();
   const auto [free, fused] = split(whole.leaflet, 1 - fusion);
@@ -114,7 +116,8 @@ HalfNumbers closed_half(const CuspSizes &sizes, const CuspSizes::Side &side) {
   // is half the gap.
   const double sine_of_plane = sizes.meeting == 0 ? sizes.sector.sine : C.y / hypotenuse(C.x - sizes.meeting, C.y);
   const double x_in = sizes.meeting + 0.5 * sizes.gap / sine_of_plane;
-  // The tangent is limited. Its end must not lie above half the height of the coaptation line, and not beyond the zone.
+  // The length of the tangent is limited, so that its end lies neither above half the height of the coaptation line nor beyond
+  // the zone.
   const auto [sine, cosine] = sine_cosine_degrees(sizes.bottom_angle);
   double tangent = std::min(sizes.belly * R, sine > 0 ? 0.5 * z_k / sine : sizes.belly * R);
   if (sizes.meeting != 0) tangent = std::min(tangent, 0.9 * (R - x_in));
@@ -198,7 +201,7 @@ CuspNumbers closed_cusp(const CuspSizes &sizes) {
   return made;
 }
 
-// The symmetry curve is straight. The coaptation zone has the same share of the curve's length as in the closed state.
+// The symmetry curve is straight. The coaptation zone takes up the same share of the curve's length as in the closed state.
 CuspNumbers open_cusp(const CuspSizes &sizes) {
   const CuspNumbers closed = closed_cusp(sizes);
   const double ratio = reached_ratio(sizes, closed);
@@ -269,9 +272,9 @@ EdgeLength::Value EdgeLength::at(double depth) const {
   return value;
 }
 
-// The length of the free edge is a growing and convex function of its depth. Newton's method starts at a depth that is too large,
-// so it descends to the solution and never passes it. At the starting depth, the straight line between the ends of one half alone
-// is as long as the whole edge should be. A half is at least as long as its line, so this depth is large enough.
+// The length of the free edge is a convex function of its depth, and grows with the depth. Newton's method starts at a depth that
+// is too large, so it descends to the solution and never passes it. At the starting depth, the straight line between the ends of
+// one half alone is as long as the whole edge should be. A half is at least as long as its line, so this depth is large enough.
 double edge_depth(const CuspNumbers &cusp) {
   Vector<EdgeLength> halves(cusp.begin(), cusp.end());
   const double wanted = total_length(cusp), first_top = cusp.front().edge_top;

@@ -37,7 +37,7 @@ struct HalfSector {
   double sine, cosine;
   // A cubic approximates an arc of theta. This is the distance, in radii, of its inner control points from its ends.
   double arc_reach;
-  double attachment_factor;  // factor of the attachment's start tangent, which keeps its middle on the cylinder
+  double attachment_factor;  // factor of the attachment's start tangent, to keep the curve's middle on the cylinder
   std::optional<AttachmentArc> arc;
 };
 HalfSector half_sector(double sector_degrees);
@@ -59,7 +59,8 @@ struct CuspSizes {
     std::array<LocalOpening, 4> local;  // at the control points of the free edge, from the middle
   };
   Vector<Side> sides;  // the sides y >= 0 and y < 0, or one side for both
-  // How deep the inner control points of the open free edge hang beside the commissures, as a share of the depth of the middle.
+  // The depth at which the inner control points of the open free edge beside the commissures hang, as a share of the depth of the
+  // middle.
   double open_sag = usual_open_sag;
 };
 
@@ -68,11 +69,11 @@ struct CuspSizes {
 struct FusedPart {
   Bezier edge, line;
   Vec3 commissure;  // the commissure of the closed valve
-  double share;     // the share of the free part in the length of the closed edge
+  double share;     // the length of the free part, as a share of the closed edge's length
 };
 
-// The numbers of half a cusp, y >= 0. The numbers are blended, and the curves follow from the numbers. Shares have the range 0 to
-// 1. Control points are counted from the symmetry plane, or from the root.
+// The numbers of half a cusp, y >= 0. During the motion these numbers are blended, and the curves are computed from them. Shares
+// have the range 0 to 1. Control points are counted from the symmetry plane, or from the root.
 struct HalfNumbers {
   double root_radius;
   Vec3 commissure;
@@ -85,12 +86,12 @@ struct HalfNumbers {
   double band_lean;   // in the middle, how much farther from the axis the coaptation line is than the free edge
   double belly_x;     // x of the first inner control point of the symmetry curve
   double belly_rise;  // height of that point, as a share of the height of the coaptation line's middle
-  double band_start;  // height of the coaptation line above the second inner control point, as the same share
+  double band_start;  // height of the coaptation line above the second inner control point, as such a share
   std::optional<AttachmentArc> attachment_arc = {};
   std::optional<FusedPart> fused = {};
 };
 
-// The halves of a cusp in the order of its sides. All halves share one middle.
+// The halves of a cusp, in the order of its sides. They meet at the cusp's middle.
 using CuspNumbers = Vector<HalfNumbers>;
 
 // Blends the numbers of two states.
@@ -117,8 +118,8 @@ class EdgeLength {
   double chord_;
 };
 
-// Returns how far the middle of the free edge hangs below the end of the first half. At this depth, all halves together have the
-// length that they are given. The halves must be at least as long as at depth 0.
+// Returns how far the middle of the free edge hangs below the end of the first half. At this depth, all halves together have
+// their given length. The halves must be at least as long as at depth 0.
 double edge_depth(const CuspNumbers &cusp);
 // Returns the length of the free edge whose middle is as high as its lower end.
 double least_edge_length(const CuspNumbers &cusp);

@@ -17,7 +17,7 @@ constexpr double share_on_curve = 0.01;
 // A landmark makes no cut nearer than `least_part`, in the span's parameter, to an end of the span or to another cut. At ends and
 // cuts, the warped curve has the right point and direction, so it is also right beside them.
 constexpr double least_part = 1.0 / 256;
-// The nearest point of a span is searched beside the best of `n_search_steps` even steps.
+// The search for the nearest point of a span continues beside the best of `n_search_steps` evenly spaced points.
 constexpr int n_search_steps = 16;
 
 double polygon_length(const Bezier &span) {
@@ -26,7 +26,7 @@ double polygon_length(const Bezier &span) {
   return sum;
 }
 
-// Returns false only if the box of the control points, and thus the span, is out of the point's reach.
+// Returns false only if the box around the control points, and thus the span, is farther than `reach` from the point.
 bool is_near_box(const Bezier &span, Vec3 p, double reach) {
   for (double Vec3::*axis : {&Vec3::x, &Vec3::y, &Vec3::z}) {
     double least = span.first().*axis, most = least;
@@ -74,7 +74,7 @@ void add_cut(Vector<PointOnSpan> &cuts, const PointOnSpan &cut) {
   cuts.insert(at, cut);
 }
 
-// Returns the place at which a landmark cuts the curve, or nothing if it does not.
+// Returns the place at which a landmark cuts the curve, or nothing if the landmark makes no cut.
 std::optional<PointOnSpan> cut_by(const Vector<Bezier> &spans, Vec3 landmark, double reach) {
   PointOnSpan nearest{0, 0};
   double least = reach;
@@ -87,8 +87,8 @@ std::optional<PointOnSpan> cut_by(const Vector<Bezier> &spans, Vec3 landmark, do
   return nearest;
 }
 
-// The number of sides of a patch that may be cut. The sides u0 and u1 of a patch of arcs are not cut, because they are bent anew
-// between v0 and v1.
+// The number of sides of a patch that may be cut. The sides u0 and u1 of a patch of arcs are not cut, because a warp replaces
+// them by new arcs between v0 and v1.
 std::array<const Side *, 4> sides_of(const Patch &patch) { return {&patch.v0, &patch.v1, &patch.u0, &patch.u1}; }
 std::size_t n_sides_to_cut(const PatchSet &set) { return set.rates.empty() ? 2 : 4; }
 

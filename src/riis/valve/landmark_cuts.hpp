@@ -20,7 +20,7 @@ class LandmarkCuts {
   // Adds the landmarks of a map that lie on the curves of this state. All states must be built alike.
   void add(const PatchSet &state, const WarpMap &map);
 
-  // Returns the places on a side of a patch, ascending along the side's curve. Patches are numbered as they are after a warp. The
+  // Returns the cuts on a side of a patch, in ascending order along the side's curve. Patches are numbered as after a warp. The
   // sides are v0, v1, u0 and u1.
   const Vector<PointOnSpan> &on_side(std::size_t patch, std::size_t side) const { return on_sides_[4 * patch + side]; }
 
@@ -28,8 +28,8 @@ class LandmarkCuts {
   Vector<Vector<PointOnSpan>> on_sides_;
 };
 
-// Returns the cuts of each copy. Each side has cuts of its own, because two patches may share a curve in one state only. A copy
-// of a curve has the cuts of all sides that use it.
+// Returns the cuts of each copy of a curve. Cuts are stored by side, because two patches may share a curve in one state only. A
+// copy has the cuts of all sides that use this copy.
 Vector<Vector<PointOnSpan>> cuts_by_copy(Unfolding &unfolding, const LandmarkCuts &cuts);
 
 // Returns the spans, or their rates, with each cut span replaced by its parts.

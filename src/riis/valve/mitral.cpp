@@ -161,13 +161,14 @@ HalfValve half_valve(const ParameterValues &values, bool is_open) {
   half.anterior = free_edge(commissure, edge_point(0.5, value(anterior_length)), mirrored(commissure), arc_angle);
   half.cleft = 0;
   if (is_open) {
-    // The clefts are at a third of the way along the annulus. (The paper swaps the tips and the ends of the side scallops.)
+    // Along the annulus, a cleft is a third of the way from the posterior point to the commissure. (The paper swaps the tips and
+    // the ends of the side scallops.)
     const Vec3 cleft = edge_point(u_pm / 3, commissure_length);
     half.side_scallop =
         free_edge(commissure, edge_point(2 * u_pm / 3, value(posterior_scallop_length1)), cleft, arc_angle);
     half.middle_scallop = free_edge(cleft, edge_point(0, value(posterior_scallop_length2)), mirrored(cleft), arc_angle);
   } else {
-    // The closed leaflets meet in one edge. Each scallop takes a third of this edge's length.
+    // The closed leaflets meet in one edge. Each of the three scallops takes up a third of this edge's length.
     half.cleft = cleft_parameter(half.anterior, half.annulus[0]);
     const auto [side, rest] = split(half.anterior, half.cleft);
     half.side_scallop = side;
@@ -254,7 +255,7 @@ class Patches {
     Side side;
   };
 
-  // Returns the arc from the annulus at u to a point of the edge. Two neighbouring patches share the arc as a side.
+  // Returns the arc from the point u of the annulus to a point of the edge. This arc is a side of two neighbouring patches.
   Arc arc(double u, Vec3 on_edge) {
     const PointOnSpan where = annulus_.half().on_span(2 * u);
     const auto [on_annulus, along] = annulus_.half().with_tangent(where);
@@ -306,7 +307,7 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
 }  // namespace
 
 // The annulus has six points and tangents, and the half has points 0 to 3. For the x of the widest point, the paper prints
-// IT_distance on one side, but the annulus is symmetric only with ALPM_diameter / 2.
+// IT_distance on one side. This file uses ALPM_diameter / 2, because the annulus must be symmetric.
 std::array<Bezier, 3> half_annulus(const MitralAnnulus &annulus) {
   const double ap = annulus.AP_diameter, alpm = annulus.ALPM_diameter, position = annulus.ALPM_position_ratio,
                it = annulus.IT_distance, indent = annulus.indent_depth, anterior_height = annulus.anterior_horn_height,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The patches of a valve, in the form in which the valve passes them to the surface. Patches refer to curves by position, so
-// several patches can share a curve.
+// The patches of a valve, in the form in which the valve passes them to the surface. Patches refer to curves by their positions
+// in a list, so several patches can share a curve.
 #pragma once
 
 #include <array>
@@ -20,16 +20,15 @@ enum class Mirror { none, in_x, in_y };
 
 inline constexpr std::size_t no_patch = static_cast<std::size_t>(-1);
 
-// The placement of a patch. The patch may first be mirrored. After mirroring, the patch is turned and moved. All images of a
-// patch come from the same operations on the same points. To the last bit, a patch and its mirror image therefore meet in the
-// mirror's plane.
+// The placement of a patch. The patch may first be mirrored, and is then turned and moved. All images of a patch come from the
+// same operations on the same points. To the last bit, a patch and its mirror image therefore meet in the mirror's plane.
 struct PatchImage {
   Mirror mirror;
   Rotation rotation;
   Vec3 translation;
   std::int32_t leaflet_id;
   std::int32_t patch_id;
-  bool is_turned_over = false;  // S_u x S_v of the patch points upstream, because it comes from a mirror image
+  bool is_turned_over = false;  // S_u x S_v points upstream, because the patch was made from a mirror image
 };
 
 // Returns whether the triangles of the placed patch are turned over, because its S_u x S_v points upstream.
@@ -41,7 +40,7 @@ inline Vec3 place(const PatchImage &image, Vec3 p) {
          image.translation;
 }
 
-// Returns the image without its translation. The result places directions.
+// Returns the image without its translation. The result turns directions as the image turns points.
 inline PatchImage turn_of(const PatchImage &image) { return {image.mirror, image.rotation, {0, 0, 0}, 0, 0}; }
 
 // A curve as the side of a patch. The curve is given by its position in PatchSet::curves. The side runs along the curve from its
@@ -66,8 +65,8 @@ struct AxisLine {
 struct Patch {
   Side v0, v1, u0, u1;
   Vector<PatchImage> images;
-  // The factor of a patch of arcs, or 0. With the factor 0, the patch is the Coons patch of its sides. With another factor, the
-  // patch consists of arcs from v0 to v1 (geometry/bulge.hpp). Its sides u0 and u1 must then be arcs with the same factor.
+  // The factor of a patch of arcs, or 0 for a Coons patch. If the factor is not 0, the patch consists of arcs from v0 to v1
+  // (geometry/bulge.hpp). Its sides u0 and u1 must then be arcs with the same factor.
   double bulge = 0;
   AttachedSide attached = AttachedSide::none;
   AxisLine axis = {{0, 0, 0},
@@ -81,8 +80,8 @@ struct Patch {
 // The points that two images have in common.
 enum class SeamPlace : std::uint8_t { corner, side_v1, side_u1 };  // the corner is u = v = 1
 
-// Two images, of one patch or of two patches, that have points in common. Where they meet, both images place the same points. The
-// image `image` takes these placed points from the image `twin`, because two separate turns would round differently.
+// Two images, of one patch or of two patches, that have points in common. The image `image` takes its placed common points from
+// the image `twin`, because two separate turns would round differently.
 struct Seam {
   std::size_t patch, image, twin;
   SeamPlace place;
@@ -121,9 +120,9 @@ struct MaterialPoints {
   }
 };
 
-// The places to which the map takes points inside a warped patch. In a patch of arcs, the places belong to the middles of the
-// arcs that begin at the even shares. In another patch, the places belong to the four points with u and v of 1/3 or 2/3. The
-// points with v = 1/3 come first.
+// The places to which the map takes points inside a warped patch. In a patch of arcs, these points are the middles of the arcs
+// that begin at evenly spaced shares. In a Coons patch, they are the four points whose u and v are 1/3 or 2/3. The points with v
+// = 1/3 come first.
 struct MappedInside {
   bool of_arcs;
   std::array<Vec3, n_material> points;
@@ -134,15 +133,16 @@ struct AttachedEnd {
   std::size_t patch;
   bool is_last;
 };
-// Two ends of attached sides that are neighbours but are not joined, because they belong to different leaflets. In the order
-// around the axis of the attachment, one side ends where the next side begins. In some valves the skirt is turned at such ends
-// only after a warp. These valves store by which angles, in radians, the skirt would be turned at both ends before the warp.
+// Two ends of attached sides that are neighbours but are not joined, because they belong to different leaflets. Around the axis
+// of the attachment, the side with the end `before` comes directly before the side with the end `after`. In some valves the skirt
+// is turned at such ends only after a warp. These valves store by which angles, in radians, the skirt would be turned at both
+// ends before the warp.
 struct NeighbourEnds {
   AttachedEnd before, after;
   std::optional<std::array<double, 2>> turns_at_rest = {};
 };
 
-// The names of two states in a message: a state, and the state that it is compared with.
+// The names of two states in a message: `state` is compared with `of`.
 struct StateNames {
   const char *state, *of;
 };
@@ -158,7 +158,7 @@ struct PatchSet {
   // The list ends before the curves of a skirt, which come last and have no derivatives.
   Vector<Vector<Bezier>> rates = {};
   // Only warped patches have this list. Each curve has an entry, except the lines between the sides of a skirt. On these lines,
-  // the points at equal shares of the length are the same material anyway.
+  // the points at equal shares of the length always are the same material.
   Vector<std::optional<MaterialPoints>> material = {};
   // Only warped patches have this list. Its entries say to which places the map takes points inside each patch.
   Vector<MappedInside> mapped_inside = {};
@@ -179,7 +179,8 @@ inline Curve along(const PatchSet &set, const Side &side) {
   return side.reversed ? set.curve_of(side).reversed() : set.curve_of(side);
 }
 
-// Returns the offset O (geometry/bulge.hpp) on a side that is itself an arc. Both patches at such a side thus get the same bits.
+// Returns the offset O (geometry/bulge.hpp) on a side that is itself an arc. The two patches at such a side thus get the same
+// bits.
 inline Vec3 arc_offset(const PatchSet &set, const Side &side) { return arc_offset(set.curve_of(side).spans().front()); }
 
 }  // namespace riis

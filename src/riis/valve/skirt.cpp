@@ -15,29 +15,30 @@
 namespace riis {
 namespace {
 
-// A skirt of one length has `n_even_parts` parts on each side of a patch. The outer edge then has an error of at most a
-// thousandth of the length (tests/surface/test_skirt.c).
+// If a skirt has the same length everywhere, it has `n_even_parts` parts on each side of a patch. The outer edge then has an
+// error of at most a thousandth of the length (tests/surface/test_skirt.c).
 constexpr std::size_t n_even_parts = 8;
-// Ends of cusps that are not joined count as neighbours up to a distance of `most_between_ends` times the longest side.
+// Two ends of cusps that are not joined count as neighbours if their distance is at most `most_between_ends` times the longest
+// side.
 constexpr double most_between_ends = 0.5;
 // The line through two neighbouring ends makes an angle with the outward direction. The skirts lead along this line if the sine
 // of the angle is between these two numbers. The sine is positive if the ends have passed each other. Outside of this range, the
 // skirts use a sine that decreases to 0.
 constexpr double most_apart_in_line = -0.5, most_past_in_line = 0.98;
-// This sine also falls to 0 where the line is nearly parallel to the axis: the sine of their angle is then below
-// `least_sine_to_axis`.
+// The sine that the skirts use also falls to 0 where the line is nearly parallel to the axis. There the sine of the angle between
+// line and axis is below `least_sine_to_axis`.
 constexpr double least_sine_to_axis = 0.2;
-// A side makes an angle with the plane across the axis. If its sine is at least `least_rise`, the skirt leans as the side's
-// tangent does. Beside a flatter side it leans less, and beside a side in this plane not at all.
+// A side makes an angle with the plane across the axis. If the sine of this angle is at least `least_rise`, the skirt leans as
+// the side's tangent does. Beside a flatter side the skirt leans less, and beside a side in the plane it does not lean.
 constexpr double least_rise = 0.5;
 // In some valves the skirt is not turned at rest, although the rule for neighbouring ends would turn it. If a warp hardly changes
-// this turn, the skirt is turned only by the change. After a change of `most_turn_as_at_rest` or more, the skirt is turned by the
-// whole new turn. Between these cases, the turn changes gradually.
+// the turn by this rule, the skirt is turned only by the change. If the change is `most_turn_as_at_rest` or more, the skirt is
+// turned by the whole new turn. Between these cases, there is a gradual transition.
 constexpr double most_turn_as_at_rest = pi / 4;
-// The disc about the axis that is warped has `n_corners` corners.
+// To warp an axis, a disc about the axis is warped. The disc has `n_corners` corners.
 constexpr int n_corners = 24;
-// A turned direction is differentiated by the difference between two points, each at `direction_step` times the length from the
-// place.
+// The derivative of a turned direction is a difference between two points. Each point is `direction_step` times the side's length
+// away from the place.
 constexpr double direction_step = 1e-4;
 
 Vec3 without_placement(const PatchImage &image, Vec3 p) {
@@ -70,7 +71,7 @@ Vector<Step> steps_of_attachment(const PatchSet &set, const Vector<HeldSide> &si
     const Vector<Step> of_side = steps_of(along(set, held.side));
     for (const PatchImage &image : set.patches[held.patch].images) {
       const PatchImage turn = turn_of(image);
-      // In a mirror image, the sides run around the axis in the opposite direction. This is also so in a patch that a warp has
+      // In a mirror image, the sides run around the axis in the opposite direction. The same holds for a patch that a warp has
       // made from a mirror image.
       const double sign = points_upstream(image) ? -1 : 1;
       for (const Step &step : of_side) steps.push_back({place(image, step.at), sign * place(turn, step.by)});
@@ -87,8 +88,8 @@ AxisLine placed(const AxisLine &axis, const PatchImage &image) {
 bool are_equal(const AxisLine &a, const AxisLine &b) { return a.centre == b.centre && a.direction == b.direction; }
 
 // Returns the line to which the map takes an axis. `steps` has points of the attachment around the axis. The map warps a disc
-// about the axis. The height and the radius of the disc are the means over these points. The middle and the vector area of the
-// warped disc give the line.
+// about the axis. The disc has the mean height and the mean radius of these points. The middle and the vector area of the warped
+// disc give the line.
 AxisLine warped_axis(const AxisLine &axis, const Vector<Step> &steps, const BlendedWarp &warp) {
   double whole = 0, height = 0, radius = 0;
   for (const Step &step : steps) {
@@ -114,8 +115,8 @@ AxisLine warped_axis(const AxisLine &axis, const Vector<Step> &steps, const Blen
   return {centre, size > 0 ? (1 / size) * area : Vec3{0, 0, 0}};
 }
 
-// Returns the line through the centroid of the attachment. The line is vertical if `axis` says so. Otherwise it leads along the
-// attachment's vector area. The direction has the length 1, or 0 if the attachment encloses no area.
+// Returns the line through the centroid of the attachment. The line is vertical if `axis` is SkirtAxis::vertical. Otherwise it
+// leads along the attachment's vector area. The direction has the length 1, or 0 if the attachment encloses no area.
 AxisLine axis_of_attachment(const PatchSet &set, const Vector<HeldSide> &sides, SkirtAxis axis) {
   const Vector<Step> steps = steps_of_attachment(set, sides);
   double whole = 0;
@@ -143,7 +144,8 @@ class SkirtMaker {
       for (const PatchImage &image : patch.images) n_ids_ = std::max(n_ids_, image.patch_id + 1);
   }
 
-  // Adds the strip along a side of a patch, for these images of the patch. `lengths` has the lengths at evenly spaced shares.
+  // Adds the strip along a side of a patch, for these images of the patch. `lengths` has the skirt's lengths at evenly spaced
+  // shares of the side.
   void add(std::size_t side, std::size_t first_image, std::size_t n_images, const Vector<double> &lengths) {
     const HeldSide &held = sides_[side];
     const Patch parent = set_.patches[held.patch];
@@ -190,8 +192,9 @@ class SkirtMaker {
     return found->second;
   }
 
-  // Returns the derivative of the length at one of the shares, per step between shares. Between two shares, the length then stays
-  // between the lengths at both, so that a skirt does not overshoot at a corner of the wall (F. N. Fritsch, R. E. Carlson 1980).
+  // Returns the derivative of the length at one of the shares, per step between shares. With this derivative, the length between
+  // two shares stays between the lengths at these shares. A skirt thus does not overshoot at a corner of the wall (F. N. Fritsch,
+  // R. E. Carlson 1980).
   static double growth_at(const Vector<double> &lengths, std::size_t i) {
     const double before = i == 0 ? 0 : lengths[i] - lengths[i - 1];
     const double after = i + 1 == lengths.size() ? 0 : lengths[i + 1] - lengths[i];
@@ -202,7 +205,8 @@ class SkirtMaker {
     return std::clamp(mean, -most, most);
   }
 
-  // Each part is a cubic. At both ends, each cubic has the exact point and the exact derivative by the share of length.
+  // Each part of the curve is a cubic. At both ends, the cubic has the exact point, and the exact derivative with respect to the
+  // share of length.
   Curve outer_curve(std::size_t side, const Curve &inner, const Patch &parent, const Vector<double> &lengths) const {
     const std::size_t n = lengths.size() - 1;
     const double step = 1 / static_cast<double>(n);
@@ -266,7 +270,8 @@ class SkirtMaker {
   std::map<std::array<std::size_t, 2>, std::array<std::size_t, 2>> places_;  // key: a patch and its image
 };
 
-// An end of a held side of an image. `is_before` is true at the end that a turn around the axis meets last.
+// An end of a held side of an image. On the way around the axis, each side has a first and a last end. `is_before` is true for
+// the last end.
 struct PlacedEnd {
   AttachedEnd end;
   Vec3 point;
@@ -288,8 +293,8 @@ double angle_about(const AxisLine &axis, Vec3 from, Vec3 to) {
   return arc_tangent(dot(cross(from, to), axis.direction), dot(from, to));
 }
 
-// Returns two angles, one for each of two neighbouring ends. By its angle, the skirt at an end turns from the outward direction
-// of its own axis to direction_between.
+// Returns two angles, one for each of two neighbouring ends. Each is the angle from the outward direction of the end's own axis
+// to the direction that direction_between returns.
 std::array<double, 2> turns_between(const AxisLine &axis_before, const SideEnd &before, const AxisLine &axis_after,
                                     const SideEnd &after) {
   const Vec3 direction = direction_between(between(axis_before, axis_after), before, after);
@@ -373,7 +378,7 @@ Vec3 direction_between(const AxisLine &axis, const SideEnd &before, const SideEn
   const Vec3 out = outwards(axis, 0.5 * (before.point + after.point)), onwards = cross(axis.direction, out);
   const double apart = length(across);
   if (!(apart > 0)) return out;
-  // The skirts of both neighbours are turned towards the end that lies farther outwards.
+  // The skirts at both ends are turned towards that end which lies farther outwards.
   const double along_out = dot(across, out), past = -dot(across, onwards) / apart;
   double sine = past;
   if (past > most_past_in_line) sine = most_past_in_line * (1 - past) / (1 - most_past_in_line);
@@ -473,7 +478,7 @@ Vector<HeldSide> held_sides(const PatchSet &set) {
 
 void aim_skirt(PatchSet &set, SkirtAxis axis) {
   if (axis == SkirtAxis::none || axis == SkirtAxis::of_cusp)
-    return;  // patches have the axis of their cusp from the start
+    return;  // the patches of these valves already have the axis of their cusp
   const Vector<HeldSide> sides = held_sides(set);
   const AxisLine whole = axis_of_attachment(set, sides, axis);
   for (const HeldSide &held : sides) {
@@ -490,8 +495,8 @@ void aim_skirt(PatchSet &set, SkirtAxis axis) {
 }
 
 void aim_warped_skirt(PatchSet &set, const PatchSet &at_rest, const BlendedWarp &warp) {
-  // So that strips meet, sides with a common line at rest also have a common line after the warp. Cusps with separate lines at
-  // rest get separate lines after the warp.
+  // Sides that have the same axis at rest also get the same axis after the warp, so that their strips meet. Cusps with separate
+  // axes at rest get separate axes after the warp.
   struct Group {
     AxisLine axis;
     Vector<Step> steps;

@@ -14,22 +14,22 @@
 
 namespace riis {
 
-// The line from which a skirt leads away. The direction of a skirt is perpendicular to its line.
+// The line from which a skirt leads away. The skirt leads away at a right angle to this line.
 enum class SkirtAxis : std::uint8_t {
   none,      // the kind of valve has no skirt
-  of_cusp,   // the z axis before a patch's image is placed, which is the root's axis
+  of_cusp,   // the root's axis, which is the z axis before a patch's image is placed
   vertical,  // the line along z through the centroid of the attachment
   boundary   // the line through the centroid of the attachment, along its vector area
 };
 
 // Gives every attached patch its axis.
 void aim_skirt(PatchSet &set, SkirtAxis axis);
-// Gives every attached patch of a warped valve its axis: the line to which the map takes the axis that the patch has at rest.
-// `at_rest` has the patches before the warp, with their axes. The identity keeps all axes, and a map without scale turns the axes
-// as a placement does.
+// Gives every attached patch of a warped valve its axis. The map takes the axis of the patch at rest to this axis. `at_rest` has
+// the patches before the warp, with their axes. The identity map does not change the axes. A map without scale moves the axes as
+// a placement does.
 void aim_warped_skirt(PatchSet &set, const PatchSet &at_rest, const BlendedWarp &warp);
 
-// A side at which a patch is attached. No other patch has the attached side.
+// A side at which a patch is attached, and which no other patch has.
 struct HeldSide {
   std::size_t patch;
   Side side;
@@ -37,14 +37,14 @@ struct HeldSide {
 // Returns the held sides that have a length, in the order of the patches. The patches must have no skirt yet.
 Vector<HeldSide> held_sides(const PatchSet &set);
 
-// The lengths of a skirt whose length is not the same everywhere. Each image of each held side has a list, in the order of
-// held_sides. The list has the lengths of the skirt at evenly spaced shares of the side's length.
+// The lengths of a skirt whose length is not the same everywhere. There is one list for each image of a held side, in the order
+// of held_sides. A list has the lengths of the skirt at evenly spaced shares of the side's length.
 using SkirtLengths = Vector<Vector<double>>;
 inline constexpr std::size_t n_skirt_parts = 32;  // parts of each side with such lengths
 
 // Returns the attached ends of different leaflets that are neighbours but not joined, such as two aortic cusps at a commissure.
-// Patches are numbered as after a warp, where each image is a patch of its own. With `wants_turns`, the ends also get the turns
-// that they have before the warp. The patches must already have their axes.
+// Patches are numbered as after a warp, where each image is a patch of its own. If `wants_turns` is true, the function also
+// stores the turns of the skirt at these ends before the warp. The patches must already have their axes.
 Vector<NeighbourEnds> neighbour_ends(const PatchSet &set, bool wants_turns);
 
 // An end of a side, and the unit tangent there. The tangent may point either way along the side.
@@ -52,9 +52,9 @@ struct SideEnd {
   Vec3 point, tangent;
 };
 
-// Returns the direction in which the skirts at two neighbouring ends lead. The ends of the two skirts lie in parallel planes.
-// Each skirt stays on its own side of its plane. The inclination of the planes is the mean inclination of the two sides. The
-// direction depends continuously on the points and the tangents.
+// Returns the direction in which the skirts at two neighbouring ends lead. The skirts end in two parallel planes, and do not
+// cross them. The planes have the mean inclination of the two sides. The direction depends continuously on the points and the
+// tangents.
 Vec3 direction_between(const AxisLine &axis, const SideEnd &before, const SideEnd &after);
 
 // The direction in which a skirt leads away from its attachment. A skirt leads outwards from the axis, except near two ends that
@@ -83,8 +83,8 @@ double attachment_radius(const PatchSet &set, const Vector<HeldSide> &sides);
 // The least and the largest length of a skirt, as multiples of attachment_radius.
 inline constexpr double least_skirt = 1e-4, most_skirt = 10;
 // The least length of a skirt to a wall, as a multiple of attachment_radius. The vertices of the outer edge are evenly spaced
-// along its length, so they are not exactly beside the attachment's vertices. A thinner strip along a round attachment would go
-// through itself.
+// along its length, so they are not exactly beside the attachment's vertices. With a smaller length, the strip along a round
+// attachment would go through itself.
 inline constexpr double least_skirt_to_wall = 0.01;
 
 // Returns the unit vector from the axis through the point, perpendicular to the axis. The vector is 0 if the point is on the
@@ -92,9 +92,9 @@ inline constexpr double least_skirt_to_wall = 0.01;
 Vec3 outwards(const AxisLine &axis, Vec3 point);
 
 // Adds the patches of a skirt. If `lengths` is empty, the length is `length` everywhere. The patches continue the leaflets
-// outwards. The patches of a skirt have the leaflet_id skirt_leaflet. Their patch_id is the patch_id of the leaflet's patch plus
-// the number of the leaflets' patch ids. Fails with RIIS_INVALID_PARAMETER for an attachment without an outward direction, and
-// for a length that does not fit the attachment.
+// outwards. The patches of a skirt have the leaflet_id skirt_leaflet. The patch_id of such a patch is the patch_id of the
+// leaflet's patch beside it, plus the number of the leaflets' patch ids. Fails with RIIS_INVALID_PARAMETER for an attachment
+// without an outward direction, and for a length that does not fit the attachment.
 void add_skirt(PatchSet &set, double length, const SkirtLengths &lengths);
 
 // Returns the leaflet_id that a skirt of these patches has.

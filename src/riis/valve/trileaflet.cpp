@@ -35,10 +35,10 @@ Rule tangent_rule(const ParameterValues &values) { return {0.2 * values[root_rad
 void check_values(const ParameterValues &values);
 PatchSet make_patches(const ValveState &closed, const ValveState &open, double opening);
 
-// The defaults are in centimetres, and docs/theory/trileaflet.md lists their sources. The root follows Roman et al. 1989. The
-// heights follow Bierbach et al. 2010 and Schaefers et al. 2013. The orifice follows Bonow et al. 2006, and the expansion of the
-// commissures follows Pang et al. 2000. Root and commissures have equal radii, because their measured ratio is 1.11 in
-// Jelenc et al. 2024 and 1/1.2 in Thubrikar et al. 1981. The bending curve is chosen to fit these values.
+// The defaults of lengths are in centimetres, and docs/theory/trileaflet.md lists the sources of the defaults. The root follows
+// Roman et al. 1989. The heights follow Bierbach et al. 2010 and Schaefers et al. 2013. The orifice follows Bonow et al. 2006,
+// and the expansion of the commissures follows Pang et al. 2000. Root and commissures have equal radii, because their measured
+// ratio is 1.11 in Jelenc et al. 2024 and 1/1.2 in Thubrikar et al. 1981. The bending curve is chosen to fit these values.
 // clang-format off
 ValveKind make_kind() {
   constexpr double shortest = 1e-9, longest = 1e9;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Patches whose images are patches of their own, because a warp has no symmetry (docs/theory/warp.md, "Warped valves"). This file
-// makes the copies of curves that are needed if each patch has one image.
+// Patches with one image each: every image becomes a separate patch, because a warp has no symmetry (docs/theory/warp.md, "Warped
+// valves"). This file makes the copies of curves that these patches need.
 #pragma once
 
 #include <cstddef>

@@ -128,8 +128,7 @@ void check_states(const ValveState &valve, const ValveState &other, const char *
          " patches, the valve ", from.curves.size(), " and ", from.patches.size(),
          ": both must have as many curves and patches");
   for (std::size_t i = 0; i < from.curves.size(); ++i) {
-    // A straight line is stored as a quadratic, so its degree is 2. A curve may thus be a line in one state and a quadratic in
-    // the other.
+    // A straight line is stored as a curve of degree 2. A curve may thus be a line in one state and a quadratic in the other.
     const int degree = from.curves[i].spans().front().degree, other_degree = to.curves[i].spans().front().degree;
     if (degree != other_degree)
       fail(RIIS_INVALID_PARAMETER, "curve ", i, " is cubic in ", other_degree == 3 ? name : "the valve",

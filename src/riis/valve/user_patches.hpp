@@ -19,7 +19,7 @@ PatchSet patches_from_arrays(const riis_patches &arrays);
 
 const ValveKind &patches_valve_kind();
 
-// The patches of a valve in arrays, as callers read them.
+// The patches of a valve, in arrays that callers read.
 // The arrays have the layout of riis_valve_patches.
 struct PatchArrays {
   std::vector<std::int64_t> first_span;
@@ -29,7 +29,7 @@ struct PatchArrays {
 
 // Every image becomes a separate patch. If a patch points upstream, its u is reversed, so that S_u x S_v points downstream.
 PatchArrays arrays_of(const PatchSet &set);
-// Returns pointers to the arrays, which are valid as long as the arrays.
+// Returns pointers to the arrays. The pointers are valid as long as the arrays exist.
 riis_valve_patches view_of(const PatchArrays &arrays);
 
 }  // namespace riis

@@ -24,8 +24,8 @@ std::string_view without_leaflet(std::string_view name) {
   return dot == std::string_view::npos ? name : name.substr(dot + 1);
 }
 
-// Returns the parameter that the user may have meant, or "" if none is near. The result has a leaflet's name if the given name
-// has one.
+// Returns the parameter that the user may have meant, or "" if none is near. The result begins with a leaflet's name only if the
+// given name does.
 std::string_view nearest_parameter(const ValveKind &kind, std::string_view name) {
   const bool names_leaflet = name.find('.') != std::string_view::npos;
   NearestName nearest(name);
@@ -56,7 +56,7 @@ bool is_of_bump(std::string_view name) { return name.substr(0, 5) == "bump_"; }
 
 bool is_of_a_leaflet(const ParameterSpec &spec) { return spec.name.find('.') != std::string::npos; }
 
-// Says whether a name means a parameter, and how the value under this name follows from the parameter's value.
+// Says whether a name means a parameter. If so, `factor` times the parameter's value is the value under this name.
 struct Naming {
   bool names_it = false;
   bool is_whole = false;  // the name means no other parameter
@@ -76,9 +76,9 @@ Naming naming(const ParameterSpec &spec, std::string_view name) {
   return by_own.names_it || !spec.other.name ? by_own : names(spec.other.name, spec.other.factor);
 }
 
-// Calls action(position, naming) for all parameters that a name means. A parameter's whole name means only this parameter.
-// Any other name of a parameter means the parameter of each leaflet. The function allocates nothing, because a solver sets the
-// opening in each time step.
+// Calls action(position, naming) for all parameters that a name means. A whole name, such as "right.leaflet_angle", means one
+// parameter. A name without the leaflet's name means this parameter of every leaflet. The function allocates nothing, because a
+// solver sets the opening in each time step.
 template <class Action>
 void for_each_meant(const ValveKind &kind, std::string_view name, const Action &action) {
   const auto &specs = kind.parameters;
@@ -106,8 +106,8 @@ void check_range(const ParameterSpec &spec, std::string_view name, double factor
          factor * spec.minimum, " to ", factor * spec.maximum);
 }
 
-// Checks values that follow from rules. Such a value may be out of range if the sizes in its rule are near the ends of their own
-// ranges.
+// Checks values that follow from rules. Such a value may be out of its range if the rule uses sizes that are near the ends of
+// their ranges.
 void check_derived(const ValveKind &kind, const ValveState &state) {
   for (std::size_t i = 0; i < kind.parameters.size(); ++i) {
     const ParameterSpec &spec = kind.parameters[i];
@@ -246,7 +246,7 @@ void Valve::set_open_state(const Valve &open) {
     fail(RIIS_INVALID_PARAMETER, "the open state is of the kind ", open.kind_->name, ", the valve of the kind ",
          kind_->name, ": both must be of one kind");
   if (kind_->check_states) kind_->check_states(state_, open.state_, "the open state");
-  open_ = ValveState(open.state_);  // copied first, because member-by-member assignment could fail half way
+  open_ = ValveState(open.state_);  // copied first, because assigning one member after another could fail half way
 }
 
 void Valve::set_warp(const WarpMap *closed, const WarpMap *open) {

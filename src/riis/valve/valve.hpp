@@ -28,15 +28,15 @@ inline Vec3 vector_of(const std::array<double, 3> &values) { return {values[0], 
 struct ParameterRule {
   const char *text = nullptr;  // such as "0.5 leaflet_height", or null without a rule
   std::array<double, 3> (*value)(const ParameterValues &values) = nullptr;
-  std::size_t same_as = 0;  // without the function, the value is that of the parameter at this position
+  std::size_t same_as = 0;  // without a function, the value is that of the parameter at this position
 
   std::array<double, 3> value_from(const ParameterValues &values) const {
     return value ? value(values) : values[same_as];
   }
 };
 
-// A second name for a parameter. The value under this name is the parameter's value times a factor, a power of 2, so that nothing
-// is rounded.
+// A second name for a parameter. The value under this name is the parameter's value times a factor. The factor is a power of 2,
+// so that nothing is rounded.
 struct OtherName {
   const char *name;
   double factor;
@@ -49,12 +49,12 @@ struct ParameterSpec {
   int n_values;  // 1 or 3
   std::array<double, 3> default_values;
   double minimum, maximum;
-  ParameterRule rule = {};         // for default values, the rule gives the default to the last bit
+  ParameterRule rule = {};         // from default values, the rule computes exactly the default, to the last bit
   OtherName other = {nullptr, 0};  // the other name without the leaflet's name
 };
 
-// A name that a user may expect, and why the kind has no parameter of this name. A name without a leaflet also stands for the
-// name with any leaflet.
+// A name that a user may expect, and why the kind has no parameter of this name. A name without a leaflet's name also stands for
+// this name with any leaflet's name before it.
 struct AbsentName {
   const char *name, *reason;
 };
@@ -74,18 +74,18 @@ struct ValveKind {
   bool opens_by_itself;  // one set of parameters defines both the closed and the open state
   // Refuses values that do not fit together. NULL if the kind has nothing to check.
   void (*check_values)(const ParameterValues &values);
-  // Makes the patches at an opening from 0, the closed state, to 1, the open state. Both states have been checked. The two states
-  // are the same object if the valve was given no open state.
+  // Makes the patches at an opening from 0, the closed state, to 1, the open state. Both states have been checked. If the valve
+  // has no separate open state, both arguments are the same object.
   PatchSet (*make_patches)(const ValveState &closed, const ValveState &open, double opening);
-  // Refuses another state whose curves or patches are not built like the valve's. The message calls this state `name`, such as
+  // Refuses another state if its curves or patches are not built like the valve's. The message calls this state `name`, such as
   // "the open state". NULL if all states of the kind are built alike.
   void (*check_states)(const ValveState &valve, const ValveState &other, const char *name);
   // True if leaflets meet only where their triangles have common vertices, for example at commissures. Otherwise leaflets may
   // touch anywhere, and their triangles may penetrate each other by as much as the triangles' error.
   bool has_exact_contacts = false;
   // True if the orifice is seen along the valve's z axis. Otherwise the orifice is seen along the vector area of the edges that
-  // are farthest from its middle. This vector area would be oblique in valves whose cusps differ and whose open edges reach
-  // beyond the attachment.
+  // are farthest from the orifice's middle. This vector area would be oblique in valves whose cusps differ and whose open edges
+  // reach beyond the attachment.
   bool is_seen_along_z = false;
   // The leaflet_id of a wall that hinges reach into, or -1.
   std::int32_t housing = -1;
@@ -100,8 +100,9 @@ struct ValveKind {
 // Adds the parameter "skirt_length" to a kind.
 ValveKind with_skirt(ValveKind kind, SkirtAxis axis);
 
-// The kinds of valves that are defined by parameters. Most kinds are in files with their names. The kinds with two to four
-// coapting cusps are in valve/coapting.cpp. The kinds with coapting leaflets on an annulus are in valve/atrioventricular.cpp.
+// The kinds of valves that are defined by parameters. Most kinds are in a file with the name of the kind. The kinds with two to
+// four coapting cusps are in valve/coapting.cpp. The kinds with coapting leaflets on an annulus are in
+// valve/atrioventricular.cpp.
 const ValveKind &aortic_valve_kind();
 const ValveKind &bicuspid_valve_kind();
 const ValveKind &bileaflet_valve_kind();
@@ -129,15 +130,16 @@ class Valve {
   void get(std::string_view name, std::int64_t n_values, double *out) const;
   // Returns the least and the largest value of a parameter. The name must mean only one parameter.
   std::array<double, 2> range_of(std::string_view name) const;
-  // Returns a parameter to its default or to its rule.
+  // Removes the value that the caller set. The parameter has its default again, or the value from its rule.
   void unset(std::string_view name);
   bool is_set(std::string_view name) const;
 
   // Uses the other valve's own state as the open state. The other valve must be of the same kind.
   void set_open_state(const Valve &open);
 
-  // Lets a map move the valve's curves at every opening: `closed` at opening 0, `open` at opening 1, and a blend of both between
-  // them. The maps are copied. If `open` is null, `closed` serves for all openings. If both are null, the valve has no warp.
+  // Lets a map move the valve's curves at every opening: the map `closed` at opening 0, the map `open` at opening 1, and a blend
+  // of both maps at openings between 0 and 1. The maps are copied. If `open` is null, the map `closed` is used at all openings.
+  // If both are null, the valve has no warp.
   void set_warp(const WarpMap *closed, const WarpMap *open);
   bool is_warped() const { return warp_.has_value(); }
 
@@ -165,7 +167,7 @@ class Valve {
   // Returns whether all parameters except the opening have the kind's defaults.
   bool has_default_shape() const;
   // Returns a digest of the shape and of a warp's landmarks, but not of the opening or the landmarks' targets. The digest is
-  // never 0. Two different shapes practically never have the same digest.
+  // never 0. It is very improbable that two different shapes have the same digest.
   std::uint64_t shape_digest() const;
 
   // Makes the patches at the current opening.
@@ -173,10 +175,11 @@ class Valve {
   // Makes the patches of `before`, an earlier state of this valve. `before` must be of the same kind and build. `known` has the
   // patches of that state, or is null if they have not been made yet.
   PatchSet make_patches_before(const Valve &before, const PatchSet *known) const;
-  // Returns a number that every change of the valve changes. Copies have the same number. Valves with the same number have the
-  // same patches, to the last bit. The number is not 0.
+  // Returns a number that is different after every change of the valve. Copies have the same number. Valves with the same number
+  // have the same patches, to the last bit. The number is not 0.
   std::uint64_t revision() const { return revision_; }
-  // Fails if this valve cannot be a state of another valve, which is of the given kind and has a warp if `is_warped`.
+  // Fails if this valve cannot be a state of another valve. The other valve is of the given kind, and has a warp if `is_warped`
+  // is true.
   void check_is_state_of(const ValveKind &kind, bool is_warped, const StateNames &names) const;
   // Makes the patches without a search for folds. A message of failure begins with the state's name.
   PatchSet make_patches_unsearched(const char *name) const;
@@ -193,8 +196,8 @@ class Valve {
   void check_open_values() const;
   static std::uint64_t next_revision();
 
-  // The cuts of a shape at its landmarks. The cuts are kept, because they do not change while the valve opens or the targets
-  // move.
+  // The cuts of a shape at its landmarks. The cuts are stored, because they do not change when the valve opens or the landmarks'
+  // targets move.
   struct KnownCuts {
     std::uint64_t shape_digest;
     LandmarkCuts cuts;
@@ -203,7 +206,7 @@ class Valve {
     WarpMap closed;
     std::optional<WarpMap> open;
     mutable std::shared_ptr<const KnownCuts> known =
-        {};  // changes atomically, because several threads may read a valve
+        {};  // changes atomically, because several threads may read a valve at the same time
   };
 
   // The digest of the last shape whose values were checked, or 0. It changes atomically, because several threads may read a

@@ -14,13 +14,14 @@
 namespace riis {
 namespace {
 
-// Sources count as planar if they are nearly in a plane: the rms distance from it is below `thinnest_share` of their largest rms
-// extent.
+// Sources count as planar if they are nearly in a plane: their rms distance from the plane is below `thinnest_share` times their
+// largest rms extent.
 constexpr double thinnest_share = 0.05;
-// Sources also count as planar if the noise would change the stretch across the plane by more than `largest_stretch_error`.
+// Sources also count as planar in another case: noise would change the stretch across the plane by more than
+// `largest_stretch_error`.
 constexpr double largest_stretch_error = 0.1;
-// The share of the noise that the residuals should have. The share is below 1, because the map follows a part of the noise. The
-// attachments of random patients were met best with shares from 0.5 to 0.7 (docs/theory/warp.md, "Equations").
+// The residuals should be the share `residual_share` of the noise. The share is below 1, because the map fits a part of the
+// noise. The attachments of random patients were met best with shares from 0.5 to 0.7 (docs/theory/warp.md, "Equations").
 constexpr double residual_share = 0.6;
 constexpr double line_share = 1e-6, same_place_share = 1e-6;
 
@@ -136,7 +137,7 @@ WarpLandmarks::WarpLandmarks(const Vector<Vec3> &sources, double noise, const ch
   const double root_n = std::sqrt(static_cast<double>(n));
   const double widest = std::sqrt(values[0]) / root_n, middle = std::sqrt(values[1]) / root_n,
                thinnest = std::sqrt(values[2]) / root_n;
-  // The nearest pair is checked first: landmarks in one place also lie on a line, but need another message.
+  // The nearest pair is checked first, because landmarks in one place also lie on a line, but get another message.
   Vector<std::size_t> nearest_to;
   for (std::size_t i = 0; i < n; ++i) {
     double least = std::numeric_limits<double>::infinity();
@@ -149,7 +150,7 @@ WarpLandmarks::WarpLandmarks(const Vector<Vec3> &sources, double noise, const ch
       fail(RIIS_INVALID_ARGUMENT, name, ": landmarks ", std::min(i, nearest), " and ", std::max(i, nearest),
            " are in one place, (", sources_[i].x, ", ", sources_[i].y, ", ", sources_[i].z, ")");
     nearest_to.push_back(nearest);
-    // If each of two landmarks is the other's nearest, the place between them is taken only once.
+    // If two landmarks are each other's nearest landmarks, the place between them is taken only once.
     if (nearest > i || nearest_to[nearest] != i)
       probes_.push_back({0.5 * (sources_[i] + sources_[nearest]), static_cast<std::int64_t>(i)});
   }
@@ -291,7 +292,7 @@ double WarpLandmarks::solve(double lambda) {
   return square;
 }
 
-// Returns the lambda at which the residuals' sum of squares is a given share of its expected value. The noise makes this value 3
+// Returns the lambda at which the residuals' sum of squares is a given share of its expected value. The expected value is 3
 // noise^2 for each free landmark. The sum of squares grows with lambda, so at most one lambda gives the wanted share. Returns
 // infinity if even the affine map has a smaller sum.
 double WarpLandmarks::smoothing_for_noise() {
@@ -338,8 +339,8 @@ void WarpLandmarks::fit(const Vector<Vec3> &targets, WarpMap &map, WarpQuality &
   for (std::size_t i = 0; i < n; ++i) displacement_[i] = (1 / size_) * (targets[i] - sources_[i]);
   std::array<Vec3, 4> terms{};  // the terms of the map's polynomial
   if (is_planar_) {
-    // Within the plane, the landmarks give a linear map by least squares. It takes the direction across the plane to the normal
-    // of the mapped plane, stretched by the mean stretch within the plane.
+    // Within the plane, the landmarks give a linear map by least squares. The map takes the direction across the plane to the
+    // normal of the mapped plane. It stretches this direction by the mean stretch within the plane.
     Vec3 slopes[2] = {axis_[0], axis_[1]};
     for (std::size_t k = 0; k < 2; ++k)
       for (std::size_t i = 0; i < n; ++i) slopes[k] = slopes[k] + least_squares_[(k + 1) * n + i] * displacement_[i];
@@ -388,7 +389,7 @@ void WarpLandmarks::fit(const Vector<Vec3> &targets, WarpMap &map, WarpQuality &
   map.linear_y = axis_[0].y * terms[1] + axis_[1].y * terms[2] + axis_[2].y * terms[3];
   map.linear_z = axis_[0].z * terms[1] + axis_[1].z * terms[2] + axis_[2].z * terms[3];
 
-  // A target is missed by lambda times the weight of its landmark. Without weights, the map is affine.
+  // The map misses a target by lambda times the weight of the landmark. Without weights, the map is affine.
   quality.rms_residual = quality.largest_residual = 0, quality.largest_landmark = 0;
   for (std::size_t i = 0; i < n; ++i) {
     const Vec3 weight{map.weight_x[i], map.weight_y[i], map.weight_z[i]};

@@ -34,8 +34,8 @@ class WarpMap {
   double size = 1;
   Vec3 shift{0, 0, 0};
   Vec3 linear_x{0, 0, 0}, linear_y{0, 0, 0}, linear_z{0, 0, 0};  // the columns of `linear`
-  // The coordinates of sources and weights lie in arrays of their own, so that the processor handles eight at a time. Sources
-  // with the weight 0 make the number of sources a multiple of eight.
+  // Each coordinate of the sources and of the weights has a separate array, so that the processor handles eight at a time.
+  // Sources with the weight 0 make the number of sources a multiple of eight.
   Vector<double> source_x, source_y, source_z, weight_x, weight_y, weight_z;
   std::size_t n_sources = 0;
 
@@ -53,7 +53,7 @@ class BlendedWarp {
 
   Vec3 value(Vec3 x) const;
   MapAt at(Vec3 x) const;
-  // Returns the map's derivative by the opening.
+  // Returns the map's derivative with respect to the opening.
   Vec3 rate(Vec3 x) const;
   bool changes_with_opening() const { return &closed_ != &open_; }
 
@@ -72,18 +72,19 @@ struct WarpQuality {
   std::int64_t least_landmark;
 };
 
-// Landmarks at rest. Their equations are reduced to a tridiagonal matrix once. A map to new targets then takes only as many
-// operations as a few products of a matrix and a vector.
+// Landmarks at rest. The landmarks' equations are reduced to a tridiagonal matrix once. To find the map to new targets then costs
+// only as much as a few products of a matrix and a vector.
 class WarpLandmarks {
  public:
   // `noise` is the standard deviation of each coordinate of the targets. It is at least 0. Fails with RIIS_INVALID_ARGUMENT for
-  // too few landmarks, two landmarks in one place, and landmarks on a line. The message calls the array `name`.
+  // too few landmarks, for two landmarks in one place, and for landmarks that all lie on one line. The message calls the array
+  // `name`.
   WarpLandmarks(const Vector<Vec3> &sources, double noise, const char *name);
 
   std::size_t size() const { return sources_.size(); }
   const Vector<Vec3> &sources() const { return sources_; }
-  // True if the landmarks are too near to a plane to determine an affine map. The map then stretches the direction across the
-  // plane as the landmarks stretch the plane.
+  // True if the landmarks are too near to a plane to determine an affine map. The map then stretches space across the plane as
+  // much as the landmarks stretch it within the plane.
   bool is_planar() const { return is_planar_; }
 
   // Returns an (n, n) matrix. Its product with the displacements gives the weights of a map that meets its targets. The product
@@ -109,7 +110,7 @@ class WarpLandmarks {
   std::size_t n_free_ = 0;            // the number of landmarks minus n_terms_
   Vector<Vec3> scaled_;               // (source - centre) / size
   Vector<double> basis_;              // (n_free_, n): U, columns orthogonal to the polynomials
-  Vector<double> least_squares_;      // (n_terms_, n): gives the polynomial nearest to values at landmarks
+  Vector<double> least_squares_;      // (n_terms_, n): gives the polynomial that fits values at the landmarks best
   Vector<double> of_kernel_;          // (n_terms_, n): the same for a sum of |r|^3, from the sum's weights
   Vector<double> diagonal_, beside_;  // diagonals of the tridiagonal matrix U^T |r|^3 U
   // The places half way from each landmark to the nearest other landmark. A map that folds between landmarks changes most at
@@ -124,22 +125,23 @@ class WarpLandmarks {
   Vector<double> pivot_;
 };
 
-// A warp moves the curves of a valve's patches (docs/theory/warp.md). Every image of a patch first becomes a patch of its own.
+// A warp moves the curves of a valve's patches (docs/theory/warp.md). Every image of a patch first becomes a separate patch.
 
-// Returns the patches with every image as a patch of its own. The patches keep their order and their labels u and v. Patches that
+// Returns the patches, with every image as a separate patch. The patches keep their order and their labels u and v. Patches that
 // met before still share their curves. Patches that already have one image each keep the numbers of their curves.
 PatchSet without_images(const PatchSet &set);
 
-// Returns the same patches with warped curves. Curves are cut at landmarks first. Each warped part has the warped ends and the
-// directions of the warped end tangents. The lengths of these tangents are fitted by least squares, to bring the warped part as
-// near as possible to the warped points. Arcs are bent anew between warped curves. With `check`, fails with
-// RIIS_INVALID_PARAMETER for a warp that folds at a patch or turns a part of the patch over. The message names the place and the
-// value.
+// Returns the same patches with warped curves. Curves are cut at landmarks first. Each part of a curve becomes a cubic between
+// its warped ends, in the directions of its warped end tangents. The lengths of these tangents are fitted by least squares, to
+// bring the cubic as near as possible to the part's warped points. Arcs are bent anew between warped curves. If `check` is
+// FoldCheck::yes, fails with RIIS_INVALID_PARAMETER for a warp that folds at a patch or turns a part of the patch over. The
+// message names the place and the value.
 enum class FoldCheck { no, yes };
 PatchSet warped(const PatchSet &set, const BlendedWarp &warp, const LandmarkCuts &cuts,
                 FoldCheck check = FoldCheck::yes);
 
-// Writes the points of the warped curve and the shares of its length. `points` states which points.
+// `points` states places on the warped curve. For each place, writes the point there, and the share of the curve's length up to
+// this point.
 void locate_on_curve(const Curve &curve, MaterialPoints &points);
 
 }  // namespace riis

@@ -17,18 +17,18 @@
 namespace riis {
 namespace {
 
-// The warped points of a curve are taken at `n_curve_steps` even steps of its parameter.
+// The parameter of a curve is divided into `n_curve_steps` equal steps. The points at the ends of these steps are warped.
 constexpr int n_curve_steps = 6;
-// In addition to the warp's stretch at the tangent, a tangent's length may change by a factor from `least_factor` to
+// The warp stretches a tangent. The length of the stretched tangent may also be multiplied by a factor from `least_factor` to
 // `most_factor`.
 constexpr double least_factor = 0.2, most_factor = 5, most_of_missing = 0.5;
 // A patch is searched for folds on a grid of `n_fold_cells` by `n_fold_cells` cells.
 constexpr std::size_t n_fold_cells = 3;
-// A cell is a sliver if the sine of the angle between its diagonals is below `sliver_sine`. A sliver is hardly wider than a line,
-// so it has no clear normal. Half-open coapting leaflets have slivers beside the attachment. The chords of a curve in a sliver do
-// not show the direction of the surface. Slivers are therefore not checked. In 20,000 states of valves with rough warps, cells
-// with a sine up to 0.067 turned over although no triangle did. Where triangles turned over and no wider cell did, the triangles
-// had at most 0.6 mm^2. One cell of the default valve has the sine 0.041 at the opening 0.9.
+// A cell is a sliver if the sine of the angle between its diagonals is below `sliver_sine`. A sliver is so narrow that it has no
+// clear normal. Half-open coapting leaflets have slivers beside the attachment. The chords of a curve in a sliver do not show the
+// direction of the surface. Slivers are therefore not checked. In 20,000 states of valves with rough warps, cells with a sine up
+// to 0.067 turned over although no triangle did. Where triangles turned over and no wider cell did, the triangles had at most 0.6
+// mm^2. One cell of the default valve has the sine 0.041 at the opening 0.9.
 constexpr double sliver_sine = 0.07;
 
 Bezier raised_to_cubic(const Bezier &span) {
@@ -51,8 +51,8 @@ struct EndTangent {
   double factor;  // 1 if the curve itself has a tangent there, else 0
 };
 
-// Returns the direction of a curve at the first of these control points. The direction leads from this end to the first control
-// point that differs from it.
+// Returns the direction of a curve at the first of these control points. The direction leads from the curve's first control point
+// to the next control point that differs from it.
 EndTangent end_tangent(const std::array<Vec3, 4> &control, const MapAt &at) {
   const double size =
       distance(control[0], control[1]) + distance(control[1], control[2]) + distance(control[2], control[3]);
@@ -98,8 +98,8 @@ Bezier warped_span(const Bezier &given, const MapAt &first, const MapAt &last, c
   return Bezier::cubic(first.value, first.value + of_a * a.warped, last.value + of_b * b.warped, last.value);
 }
 
-// Returns the cubic through the rates of the warped points at 0, 1/3, 2/3 and 1. The map's derivative is known at the ends, and
-// is taken as linear between them. Rates only decide where a curve needs more vertices.
+// Returns the cubic through the rates of the warped points at 0, 1/3, 2/3 and 1. The map's derivative is known at the ends.
+// Between the ends, it is assumed to be linear, because rates only decide where a curve needs more vertices.
 Bezier warped_rate(const Bezier &curve, const Bezier &rate, const MapAt &first, const MapAt &last,
                    const BlendedWarp &warp) {
   if (rate.is_point() && rate.control[0] == Vec3{0, 0, 0} && !warp.changes_with_opening()) return rate;
@@ -113,7 +113,7 @@ Bezier warped_rate(const Bezier &curve, const Bezier &rate, const MapAt &first, 
                        (1.0 / 6) * (18 * q[2] - 5 * q[3] - 9 * q[1] + 2 * q[0]), q[3]);
 }
 
-// The map at ends of curves. Several curves end at the same place, so the last places are remembered.
+// The map at ends of curves. Several curves end at the same place, so the results for the latest places are stored.
 class MapAtEnds {
  public:
   explicit MapAtEnds(const BlendedWarp &warp) : warp_(warp) {}
@@ -140,8 +140,8 @@ class MapAtEnds {
   std::size_t next_ = 0;
 };
 
-// The material points of a curve before any image is placed. The weights are those of a mapped span's points, for the polynomial
-// through these points.
+// The material points of a curve before any image is placed. The weights belong to the points of a mapped span, and give the
+// polynomial through these points.
 struct MaterialOfCurve {
   explicit MaterialOfCurve(const Curve &curve) {
     const CurvePoints points(curve, false, material_shares());
@@ -194,8 +194,8 @@ struct MaterialOfCurve {
   }
 };
 
-// Estimates the length of a span between two near parameters by Gauss's rule of 3 points. Both states use this rule, so that a
-// point that does not slide has a slide of exactly 0.
+// Estimates the length of a span between two near parameters by Gauss's rule of 3 points. The rule is the same for both states,
+// so that the computed slide is exactly 0 for a point that does not slide.
 double length_near(const Bezier &span, double from, double to) {
   const double middle = 0.5 * (from + to), reach = 0.5 * (to - from) * 0.77459666924148337704;
   return (to - from) / 18 *
@@ -222,7 +222,7 @@ void bend_arcs(PatchSet &set) {
   }
 }
 
-// Points of the patches of a set at even shares of their sides. `at` gives the places of the even shares on a curve.
+// Points of the patches of a set at evenly spaced shares of their sides. `at` gives the places of these shares on a curve.
 template <class At>
 class EvenPoints {
  public:
@@ -291,7 +291,8 @@ class LabelGrid {
 // Points of a mapped patch on the same grid.
 using MappedGrid = std::array<Vec3, (n_fold_cells + 1) * (n_fold_cells + 1)>;
 
-// The normal of a cell, as long as twice the cell's area. Also says whether the cell is too narrow to have a meaningful normal.
+// The normal of a cell. The normal's length is twice the cell's area. Also says whether the cell is too narrow to have a
+// meaningful normal.
 struct CellNormal {
   // `at` gives the points of the grid. The cell begins at point (i, j).
   template <class At>
@@ -349,8 +350,8 @@ void map_outer_points(const PatchSet &made, const Patch &patch, const LabelGrid 
     }
 }
 
-// Fails if a part of the warped patch is turned over relative to the mapped patch. A cell is not checked if it is a sliver in any
-// of three forms: before the warp, after the warp, or as its mapped corners span it.
+// Fails if a part of the warped patch is turned over relative to the mapped patch. A cell is not checked if it is a sliver before
+// the warp, after the warp, or between its mapped corners.
 void check_turns(const LabelGrid &before, const PatchImage &image, const LabelGrid &now, const MappedGrid &mapped) {
   const auto at_mapped = [&](std::size_t i, std::size_t j) -> const Vec3 & {
     return mapped[j * (n_fold_cells + 1) + i];
@@ -432,7 +433,8 @@ PatchSet warped(const PatchSet &set, const BlendedWarp &warp, const LandmarkCuts
   bend_arcs(made);
   for (std::size_t i = 0; i < material.size(); ++i) locate_on_curve(made.curves[i], *material[i]);
   made.material = std::move(material);
-  // Only kinds without rates have arcs. The arcs themselves do not show it, because an arc may be straight at an opening.
+  // Only kinds without rates have arcs. The arcs' factors do not show whether there are arcs, because an arc may be straight at
+  // one opening.
   const bool has_arcs = set.rates.empty();
   const auto at_rest = [&](std::size_t curve) -> const std::array<PointOnSpan, n_material> & {
     return of_curves[curve]->on_curve;

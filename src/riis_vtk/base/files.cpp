@@ -114,7 +114,7 @@ std::string ending_of(const std::string &path) {
 
 namespace {
 
-// The first words of a pointer of Git LFS, which is a small text file.
+// The beginning of a pointer file of Git LFS. A pointer file is a small text file in place of a large file.
 constexpr std::string_view lfs_pointer = "version https://git-lfs.github.com/spec/";
 constexpr off_t largest_lfs_pointer = 1024;
 

@@ -71,7 +71,7 @@ bool read_number(std::string_view text, Number &number) {
 // Functions that visit an XML file element by element (xml_elements.cpp). No tree of elements is built. A hostile file could nest
 // its elements so deeply that the destruction of a tree would overflow the stack.
 
-// In the list, names and values alternate, and NULL ends the list.
+// The attributes of an element, as a list in which names and values alternate. NULL ends the list.
 using XmlAttributes = const char **;
 std::optional<std::string> value_of(XmlAttributes attributes, const char *name);
 
@@ -103,9 +103,9 @@ class MappedFile {
   void *bytes_;
 };
 
-// A file that is either complete or does not exist. The file is written to temporary(), a path in the same folder. commit() moves
-// it to its final path. The new file gets the permissions of the file that it replaces. Without commit(), the destructor removes
-// the temporary file, and nothing changes at the final path.
+// A file that appears at its path only when it is complete. The file is written to temporary(), a path in the same folder.
+// commit() moves it to its final path. The new file gets the permissions of the file that it replaces. Without commit(), the
+// destructor removes the temporary file, and nothing changes at the final path.
 class ReplacingFile {
  public:
   // Makes the temporary file. Fails if the path cannot be written to. Possible reasons are a missing folder or permission, a path
@@ -118,8 +118,8 @@ class ReplacingFile {
   const std::string &temporary() const { return temporary_; }
   // Writes content from memory to the temporary file.
   void write(const unsigned char *bytes, std::int64_t n_bytes);
-  // Moves the file to its final path. Fails if the temporary file does not end with `closing`, the last bytes of its format. On a
-  // full disk the temporary file is too short, and not every writer notices this.
+  // Moves the file to its final path. Fails if the temporary file does not end with `closing`, the bytes with which every file of
+  // its format ends. On a full disk the temporary file is too short, and not every writer notices this.
   void commit(const std::string &closing);
 
  private:

@@ -15,7 +15,7 @@
 namespace riis::vtk {
 namespace {
 
-// The largest length of a path in a message. With this limit, a message of the core has room for the reason.
+// The largest length of a path in a message. With this limit, the core's message buffer also has room for the reason.
 constexpr std::size_t longest_path = 250;
 
 // Returns the part of VTK's message that helps a user. The message is "ERROR: In FILE, line N\nvtkClass (0xADDRESS):

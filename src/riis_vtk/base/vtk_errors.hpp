@@ -71,8 +71,8 @@ auto naming(const std::string &path, const Work &work) {
 }
 // Throws an exception if `status` is an error of the core. The exception has the core's message.
 void check_core(riis_status status);
-// Accepts the size of a struct only if it is a multiple of 8 from first_size to size_here. The limits are the sizes of the struct
-// in its first release and in this release.
+// Checks the size of a struct. The size must be a multiple of 8, and at least first_size, the struct's size in its first release.
+// It must be at most size_here, the struct's size in this release.
 void check_struct_size(std::int64_t size, std::int64_t first_size, std::int64_t size_here, const char *name);
 
 template <class T>
@@ -81,7 +81,7 @@ T *require(T *pointer, const char *argument) {
   return pointer;
 }
 
-// Runs the body of a destroy function.
+// Does the work of a public function that destroys an object.
 template <class Object>
 void destroy(Object **object) {
   if (!object) return;
@@ -90,8 +90,8 @@ void destroy(Object **object) {
 }
 
 // While an object of this type lives, it takes the place of VTK's output window in the whole process. The object also silences
-// VTK's log on stderr, which would repeat every error. VTK does not tell the level of this log, but only the highest level of all
-// its logs. The destructor therefore sets the log on stderr to this highest level.
+// VTK's log on stderr, which would repeat every error. VTK has no function for the level of this log, but only for the highest
+// level of all its logs. The destructor therefore sets the log on stderr to this highest level.
 class CaughtOutput {
  public:
   CaughtOutput();
@@ -99,9 +99,9 @@ class CaughtOutput {
   CaughtOutput(const CaughtOutput &) = delete;
   CaughtOutput &operator=(const CaughtOutput &) = delete;
 
-  // If VTK reported an error, fails with RIIS_FILE_ERROR for the path. The message is the first error since this object was made,
-  // as one line without VTK's source positions. The first error is the cause of all later errors, which come from higher layers
-  // of VTK.
+  // If VTK reported an error, fails with RIIS_FILE_ERROR for the path. The message has the first error since this object was
+  // made, as one line without VTK's source positions. The first error is the cause of all later errors, which come from higher
+  // layers of VTK.
   void check(const std::string &path) const;
 
  private:
@@ -130,7 +130,7 @@ class NumericLocale {
   NumericLocale &operator=(const NumericLocale &) = delete;
 
  private:
-  std::string callers_;  // the process's locale before
+  std::string callers_;  // the process's locale before this object was made
   locale_t points_;
   locale_t threads_;
 };
@@ -138,7 +138,7 @@ class NumericLocale {
 // Stores the message of the current exception, and returns its status.
 riis_status record_current_exception() noexcept;
 
-// Runs the body of a public function, and passes the caught output to the body.
+// Runs the body of a public function, and passes VTK's caught output to this body.
 template <class Body>
 riis_status guarded(Body &&body) noexcept {
   const FloatEnvironment environment;

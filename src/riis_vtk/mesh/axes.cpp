@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Meshes whose nodes are given by the axes of a rectilinear grid. Points and cells are made only if a caller needs them.
+// Meshes whose nodes are given by the axes of a rectilinear grid. Points and cells of such a mesh are made only if a caller needs
+// them.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -28,7 +29,8 @@ double median_edge_of(const GridAxes &axes) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double step = view(axes.of[axis])[at[axis] + 1] - view(axes.of[axis])[at[axis]];
       const double length = std::sqrt(step * step);
-      // A cell has four edges along each axis. The median does not change if each edge is counted four times.
+      // A cell has four edges along each axis. Only one of them is counted, because counting all four would not change the
+      // median.
       if (length > 0 && std::isfinite(length)) lengths.push_back(length);
     }
   }

@@ -2,8 +2,8 @@
 // Centres of cells, and pairs of cells that share a face, for solvers whose unknowns are at the centres of cells. The centres are
 // those of OpenFOAM (primitiveMeshFaceCentresAndAreas.C, primitiveMeshCellCentresAndVols.C). A face is cut into triangles whose
 // common corner is the mean of the face's nodes. A cell is cut into pyramids whose common apex is the mean of its faces' centres.
-// If a cell is not star-shaped, some of its pyramids have negative volumes in OpenFOAM. In this file, the volumes of all pyramids
-// count as positive.
+// If a cell is not star-shaped, some of its pyramids have negative volumes in OpenFOAM. This file takes the volumes of all
+// pyramids as positive.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -20,8 +20,8 @@ namespace riis::vtk {
 
 using Corners = std::vector<vtkIdType>;
 
-// The faces of a grid's cells as polygons of corners. For a type whose cells have different faces, VTK lists the faces of each
-// cell.
+// The faces of a grid's cells as polygons of corners. If cells of one type can have different faces, as polyhedra can, this class
+// reads each cell's faces from VTK.
 class CellPolygons {
  public:
   explicit CellPolygons(vtkUnstructuredGrid *grid) : grid_(grid) {}
@@ -70,7 +70,7 @@ class CellPolygons {
     return generic_;
   }
 
-  // Appends the corners of a polygon, which are its first points. A polygon has as many corners as edges.
+  // Appends the corners of a polygon. The corners come first in the list of its points, and there are as many corners as edges.
   void add_corners(vtkCell *polygon) {
     for (int i = 0; i < polygon->GetNumberOfEdges(); ++i) corners_.push_back(polygon->GetPointIds()->GetId(i));
   }

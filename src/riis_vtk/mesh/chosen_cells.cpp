@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Domains of a mesh, such as the fluid and the wall. A domain consists of the cells with one value in a cell array. A caller
-// keeps only the cells of certain domains, or finds the domains that touch each other.
+// Domains of a mesh, such as the fluid and the wall. A domain consists of the cells that have the same value in a cell array.
+// This file keeps only the cells of certain domains, or finds the domains that touch each other.
 #include <riis/riis_vtk.h>
 
 #include <algorithm>
@@ -91,7 +91,7 @@ std::set<double> numbers_of(const Where &where, const std::vector<RegionName> &n
   return numbers;
 }
 
-// Returns some values of volume cells as text.
+// Returns as text the first values that volume cells have in these arrays.
 std::string values_text(vtkUnstructuredGrid *grid, const std::vector<vtkDataArray *> &arrays) {
   constexpr std::size_t most_listed = 10;
   std::set<double> values;
@@ -143,9 +143,9 @@ bool may_tell_domains(const std::string &array_name) {
 
 constexpr std::size_t most_regions = 16;
 
-// Returns the values of volume cells. There must be few values, all whole numbers, and cells with different values must touch.
-// Two cells touch if they have the same type and a common node. If one of these conditions does not hold, returns no values. The
-// types are compared because Exodus needs a block for each type, so the blocks of one domain may have different values.
+// Returns the values that volume cells have in an array, if they may number domains: the values are few whole numbers, and some
+// cells with different values touch. Otherwise returns no values. Two cells touch if they have the same type and a common node.
+// The types are compared because Exodus needs a block for each type, so the blocks of one domain may have different values.
 std::vector<double> touching_values(vtkUnstructuredGrid *grid, vtkDataArray *array) {
   std::set<double> values;
   // For each node, the value and the type of its first cell.

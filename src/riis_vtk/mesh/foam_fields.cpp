@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Writes cell arrays as fields of OpenFOAM into the folder of a time. The fields are of the types volScalarField and
-// volVectorField. The fields are text. Each number has the fewest digits that give the same double. On a patch, the field has the
-// values of the cells beside the patch. If OpenFOAM prescribes the type of a patch, such as empty or cyclic, the field also has
-// this type.
+// volVectorField. They are written as text. Each number has the fewest digits from which the same double is read back. On a
+// patch, the field has the values of the cells beside the patch. If OpenFOAM prescribes the type of a patch, such as empty or
+// cyclic, the field also has this type.
 #include <riis/riis_vtk.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The mesh handle contains a grid.
+// The mesh handle, which contains a grid, and functions on grids.
 // The input is a grid whose cells have been checked. The results are the edges of the mesh's cells, the typical length of these
 // edges, and the linear volume cells. The volume cells are plain arrays for riis_adjacency_create_from_cells.
 #pragma once
@@ -34,7 +34,7 @@ struct RegionName {
   std::string name;
 };
 
-// The values of a cell array that tells apart the domains of a mesh. A mesh may have no such array.
+// The cell array whose values number the domains of a mesh, and these values. A mesh may have no such array.
 struct Regions {
   std::string array = {};
   std::vector<double> values = {};
@@ -54,7 +54,8 @@ struct riis_vtk_mesh {
   std::unique_ptr<const riis::vtk::CellCenters> centers = {};
   std::vector<riis::vtk::RegionName> region_names = {};  // names of gmsh's physical groups of volumes
   riis::vtk::Regions regions = {};                       // as riis_vtk_mesh_find_regions found them
-  // The ids of nodes and cells in the whole mesh, if only some cells were kept. The lists are empty if all cells were kept.
+  // If only some cells were kept: the ids that the kept nodes and cells have in the whole mesh. The lists are empty if all cells
+  // were kept.
   std::vector<std::int64_t> whole_node_ids = {}, whole_cell_ids = {};
 
   std::int64_t n_nodes() const { return centers ? n_cells() : axes ? axes->n_nodes() : data->GetNumberOfPoints(); }
@@ -70,15 +71,15 @@ namespace riis::vtk {
 
 // Does the same as median_edge_of, for a mesh given by axes.
 double median_edge_of(const GridAxes &axes);
-// Returns the adjacency of the grid's nodes.
+// Returns the adjacency of the nodes of a grid that is given by axes.
 riis_adjacency *adjacency_of(const GridAxes &axes, std::int32_t n_threads);
 // Sets is_outside to 0 for each point within the given distance of the axes' box.
 void find_outside(const GridAxes &axes, std::int64_t n_points, const double *xyz, double distance,
                   std::uint8_t *is_outside);
-// Writes the arrays to a .vtr file with axes. For an image, writes them to a .vti file.
+// Writes the arrays to a .vtr file with axes. If the axes are those of an image, writes a .vti file instead.
 void write_axes(const std::string &path, const riis_vtk_mesh &mesh, const CaughtOutput &caught);
 
-// Converts the points of the grid to double precision. A grid without points gets an empty list of points.
+// Converts the points of the grid to double precision. If the grid has no list of points, it gets an empty list.
 void make_points_double(vtkUnstructuredGrid *grid);
 
 // The properties that all cells of a VTK type have in common. A node is given by its position in the list of the cell's nodes.
@@ -97,8 +98,8 @@ const CellShape &shape_of(int type);
 
 struct VolumeCounts {
   std::int64_t n_volumes = 0;
-  std::int64_t n_linear = 0;   // the volume cells that volume_cells_of returns
-  std::int64_t n_unknown = 0;  // the volume cells whose edges are not known
+  std::int64_t n_linear = 0;   // the number of volume cells that volume_cells_of returns
+  std::int64_t n_unknown = 0;  // the number of volume cells whose edges are not known
 };
 // `ghosts` has a value for each cell, and may be NULL. A cell that `ghosts` marks is a copy of another piece's cell, and does not
 // count.
@@ -119,17 +120,19 @@ struct VolumeEdges {
 };
 VolumeEdges volume_edges_of(vtkUnstructuredGrid *grid);
 
-// Chooses the edges that are longer than a given length, and whose bounding box meets the box from lower to upper.
+// Chooses edges. An edge is chosen if it is longer than a given length, and if its bounding box meets the box from lower to
+// upper.
 struct LongEdges {
   LongEdges(double longer_than, const double *box_lower, const double *box_upper)
       : least_square(longer_than * (1 - 1e-9) * (longer_than * (1 - 1e-9))), lower(box_lower), upper(box_upper) {}
-  // The length is checked before the overlap of the boxes, because few edges of a fine mesh are long.
+  // Returns whether the edge from a to b is chosen. The length is checked before the overlap of the boxes, because few edges of a
+  // fine mesh are long.
   bool has(const double *a, const double *b) const;
 
   double least_square;
   const double *lower, *upper;
 };
-// An array xyz(3, n) has the grid's points.
+// Returns the chosen edges of the grid. xyz(3, n) has the grid's points.
 VolumeEdges long_edges_of(vtkUnstructuredGrid *grid, const double *xyz, const LongEdges &wanted);
 
 // Returns the median of the lengths, or 0 if there are no lengths.

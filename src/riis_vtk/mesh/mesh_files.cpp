@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Volume meshes of riis_vtk.h. Reads a file into a grid with points in double precision, and makes an adjacency from the grid's
-// cells. Stores marks in the grid's point arrays, and writes the grid to a .vtu file.
+// The functions of riis_vtk.h for volume meshes. Reads a file into a grid with points in double precision, and makes an adjacency
+// from the grid's cells. Stores marks in the grid's point arrays, and writes the grid to a .vtu file.
 #include <riis/riis_vtk.h>
 
 #include <algorithm>
@@ -29,8 +29,8 @@
 
 namespace riis::vtk {
 
-// Removes the reader's note from the grid and returns it. For a file of VTK, the note may say that the points have single
-// precision.
+// Removes the reader's note from the grid and returns it. For a file in a format of VTK, the note may say that the points have
+// single precision.
 std::string take_note(vtkUnstructuredGrid *grid) {
   std::string note;
   if (auto *const array = vtkStringArray::SafeDownCast(grid->GetFieldData()->GetAbstractArray(note_array))) {
@@ -72,8 +72,8 @@ void check_adjacency(riis_status status, const std::string &structure) {
   fail(status, text.rfind(structure, 0) == 0 ? text.substr(structure.size()) : text);
 }
 
-// Makes an adjacency of nodes from edges. The core makes the adjacency of cells from the faces between cells. Here the nodes are
-// passed as cells, and the edges as faces.
+// Makes an adjacency of nodes from edges. The core has a function that makes the adjacency of cells from the faces between cells.
+// Here this function gets the nodes as if they were cells, and the edges as if they were faces.
 riis_adjacency *adjacency_of_edges(std::int64_t n_nodes, const std::vector<std::int64_t> &edges,
                                    std::int32_t n_threads) {
   riis_mesh_faces faces;
@@ -173,7 +173,7 @@ struct Within {
   const std::int64_t *node_id = nullptr;
 };
 
-// Adds an array with `values` at the nodes within the limit. At all other nodes, the value is `elsewhere`.
+// Adds an array. At the nodes within the limit, it has the given values. At all other nodes, the value is `elsewhere`.
 template <class Array, class Value>
 void add_field(riis_vtk_mesh *mesh, const std::string &name, const Within &within, int n_components,
                const Value *values, Value elsewhere) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parts of volume meshes of riis_vtk.h. A part of a mesh is a mesh of the cells around certain nodes of the whole mesh.
+// The functions of riis_vtk.h for parts of volume meshes. A part is itself a mesh. It consists of the cells around certain nodes
+// of the whole mesh.
 #include <algorithm>
 #include <memory>
 
@@ -79,8 +80,8 @@ void copy_data(vtkDataSetAttributes *from, const std::vector<vtkIdType> &ids, co
   to->AddArray(array);
 }
 
-// Adds a cell whose corners get new numbers. The stream of a polyhedron's faces begins with the number of faces. The number is
-// followed by the size and the nodes of each face.
+// Adds a cell whose corners get new numbers. The stream of a polyhedron's faces begins with the number of faces. After this
+// number, each face follows with its size and its nodes.
 void add_cell(vtkUnstructuredGrid *grid, vtkIdType cell, const std::vector<vtkIdType> &new_id, vtkIdList *nodes,
               vtkUnstructuredGrid *part) {
   const int type = grid->GetCellType(cell);

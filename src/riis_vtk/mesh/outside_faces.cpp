@@ -78,7 +78,7 @@ class LoneFaces {
     return view(entries_).size() - 1;
   }
 
-  std::vector<std::int64_t> first_;  // for each node, the faces with this node as their lowest corner
+  std::vector<std::int64_t> first_;  // for each node, the first of the faces whose lowest corner is this node
   std::vector<Entry> entries_;
   std::int64_t free_ = -1;
 };

@@ -23,13 +23,13 @@ int largest_dimension(vtkUnstructuredGrid *grid);
 struct Outside {
   vtkSmartPointer<vtkPolyData> faces;  // has only the points that the faces use
   std::vector<vtkIdType> cell_id;      // for each face, its cell
-  bool of_volumes = false;             // if true, corners run anticlockwise seen from outside
+  bool of_volumes = false;             // if true, the corners of a face run anticlockwise, seen from outside
 };
 
 // Returns the faces that belong to exactly one of the wanted volumes. In a grid without volumes, each flat cell is a face. The
 // faces of cells of higher order become straight between their corners.
-//   wanted       one entry for each cell; NULL for all cells
-//   face_wanted  one entry for each cell: only the faces of these cells are kept; NULL for all cells
+//   wanted       for each cell, whether it is wanted; NULL if all cells are wanted
+//   face_wanted  for each cell, whether its faces are kept; NULL if all faces are kept
 Outside outside_of(vtkUnstructuredGrid *grid, const std::vector<std::uint8_t> *wanted,
                    const std::vector<std::uint8_t> *face_wanted);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Meshes in pieces of riis_vtk.h. Reads and writes the list of pieces in a .pvtu file, and reads a piece. Tells which nodes of a
-// piece other pieces may also have.
+// The functions of riis_vtk.h for meshes in pieces. Reads and writes the list of pieces in a .pvtu file, and reads a piece. Tells
+// which nodes of a piece other pieces may also have.
 #include <riis/riis_vtk.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@
 
 namespace riis::vtk {
 
-// An array that every piece has.
+// An array that the list declares for every piece.
 struct Declared {
   std::string name, type;  // the type's name in XML
   int n_components = 1;
@@ -118,10 +118,10 @@ std::unique_ptr<riis_vtk_pieces> read_pieces(const std::string &path, const Caug
   });
   check_declared(path, made->point_arrays);
   check_declared(path, made->cell_arrays);
-  // In files of a function, dolfinx writes an array with a number of each node, which is valid on all ranks. These files are
-  // refused, because the last bits of a shared node's coordinates differ between ranks. A file that states the order of bytes was
-  // written by VTK. Such a file is accepted, because VTK's filters number the nodes of each piece separately, so that the numbers
-  // have another meaning.
+  // In the files of a function, dolfinx writes an array that numbers the nodes across all ranks. These files are refused, because
+  // the last bits of a shared node's coordinates differ between ranks. A file that states the order of bytes was written by VTK.
+  // Such a file is accepted, because VTK's filters number the nodes of each piece separately, so that the numbers have another
+  // meaning.
   made->has_ids_of_dolfinx = !has_byte_order && std::any_of(made->point_arrays.begin(), made->point_arrays.end(),
                                                             [](const Declared &a) { return a.name == ids_of_dolfinx; });
   made->path = path;
@@ -232,9 +232,9 @@ vtkUnsignedCharArray *ghosts_of(vtkDataSetAttributes *data, const char *kind) {
 }
 
 // Finds the nodes that other pieces may also have. A face of two cells in one piece lies inside the piece. For each node, the
-// hashes of its faces are combined by exclusive or. A face inside the piece is combined twice, so it leaves no trace. The result
-// tells, without a list of faces, whether all faces of a node are inside. For each node, the answer is wrong with a probability
-// of 2^-64.
+// hashes of its faces are combined by exclusive or. The hash of a face inside the piece is combined twice, so it cancels out. The
+// result tells, without a list of faces, whether all faces of a node are inside. For each node, the answer is wrong with a
+// probability of 2^-64.
 class NodeRoles {
  public:
   explicit NodeRoles(vtkUnstructuredGrid *grid)

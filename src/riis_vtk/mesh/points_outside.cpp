@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the points that lie outside a mesh. First, the points inside each cell are found. For the remaining points, the faces of
-// nearby cells become a surface. The core computes the points' distances from the surface.
+// Finds the points that lie outside a mesh. First, the points inside each cell are found. For the remaining points, this file
+// makes a surface from the faces of nearby cells. The core computes the distances of these points from the surface.
 #include <riis/riis_vtk.h>
 
 #include <algorithm>
@@ -25,7 +25,8 @@ double volume_of(const Vector3 &a, const Vector3 &b, const Vector3 &c, const Vec
   return dot(b - a, cross(c - a, d - a));
 }
 
-// Up to rounding, points on the boundary count as inside.
+// Returns whether p is inside the tetrahedron with the corners a, b, c and d. Up to rounding, points on the boundary count as
+// inside.
 bool contains(const Vector3 &a, const Vector3 &b, const Vector3 &c, const Vector3 &d, const Vector3 &p) {
   const double whole = volume_of(a, b, c, d), sign = whole < 0 ? -1 : 1, least = -1e-9 * std::fabs(whole);
   return whole != 0 && sign * volume_of(p, b, c, d) >= least && sign * volume_of(a, p, c, d) >= least &&
@@ -99,9 +100,9 @@ class PointGrid {
   std::vector<std::int64_t> starts_, order_;
 };
 
-// Cuts the volume cells of a mesh into tetrahedra, and their faces into triangles. A cell is cut around its middle. A face with
-// more than three corners is cut around the middle of the face. Two neighbouring cells therefore cut their common face in the
-// same way.
+// Cuts the volume cells of a mesh into tetrahedra, and their faces into triangles. The cell's middle is a corner of all its
+// tetrahedra. If a face has more than three corners, the face's middle is a corner of all its triangles. Two neighbouring cells
+// therefore cut their common face in the same way.
 class SolidCells {
  public:
   explicit SolidCells(vtkUnstructuredGrid *grid)

@@ -202,8 +202,8 @@ bool find_orders(int type, vtkIdType n_nodes, const double *given, Orders &order
 }
 
 // The edges of cells of all types. A cell with straight sides has its sides as edges. The nodes of a cell of higher order divide
-// it into linear cells, whose edges count as the edges of the cell. If a face has no node in its middle, edges join the middles
-// of neighbouring sides.
+// the cell into linear cells. The edges of these linear cells count as the edges of the cell. If a face has no node in its
+// middle, edges join the middles of neighbouring sides.
 class CellEdges {
  public:
   explicit CellEdges(vtkUnstructuredGrid *grid) : grid_(grid), degrees_(grid->GetCellData()->GetHigherOrderDegrees()) {
@@ -236,8 +236,8 @@ class CellEdges {
     return is_lattice(type) ? lattice_of(type, cell, n) : shape_of(type).edges;
   }
 
-  // Lists the edges of a polyhedron. The stream of a polyhedron's faces begins with the number of faces. The number is followed
-  // by the size and the nodes of each face.
+  // Lists the edges of a polyhedron. The stream of a polyhedron's faces begins with the number of faces. After this number, each
+  // face follows with its size and its nodes.
   void list_polyhedron(vtkIdType cell) {
     edges_.clear();
     grid_->GetFaceStream(cell, faces_);

@@ -37,8 +37,8 @@ vtkSmartPointer<vtkActor> actor_of(vtkPolyData *data) {
 
 namespace {
 
-// Returns cells that share no points. Each point has the colour of its cell. Mesa's softpipe, which is in the program's archive,
-// ignores the colours of cells but draws the colours of points.
+// Returns copies of the cells that share no points, so that each point can have the colour of its cell. Mesa's softpipe, which is
+// in the program's archive, ignores the colours of cells but draws the colours of points.
 vtkSmartPointer<vtkPolyData> with_colours_of_points(vtkPolyData *cells) {
   auto apart = vtkSmartPointer<vtkPolyData>::New();
   vtkDataArray *colours = cells->GetCellData()->GetScalars();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures of riis_vtk.h. Draws a surface and a marked mesh, as seen by one camera, into .png files. The struct with the caller's
-// options may have the size of any release. The caller's options are converted to the struct of this release, and then checked.
-// If a check fails, the message names the field and its value.
+// The functions of riis_vtk.h for pictures. Draws a surface and a marked mesh, as seen by one camera, into .png files. The struct
+// with the caller's options may have the size of any release. The caller's options are converted to the struct of this release,
+// and then checked. If a check fails, the message names the field and its value.
 #include <riis/riis_vtk.h>
 
 #include <cmath>
@@ -116,7 +116,7 @@ void check_rotation(const riis_vtk_picture_options &options) {
   }
 }
 
-// Checks the fields that determine the looks of a picture. `mesh` may be NULL.
+// Checks the fields that determine the appearance of a picture. `mesh` may be NULL.
 void check_style(const riis_vtk_picture_options &options, const riis_vtk_mesh *mesh) {
   for (std::size_t k = 0; k < 3; ++k) {
     const double part = options.background[k];

@@ -43,7 +43,8 @@
 namespace riis::vtk {
 namespace {
 
-// The colours of matplotlib's map viridis, at equal distances. People with any kind of colour vision see its order.
+// The colours of matplotlib's map viridis, at equal distances. People with any kind of colour vision see the order of these
+// colours.
 constexpr unsigned char viridis[][3] = {{68, 1, 84},    {71, 44, 122}, {59, 81, 139},  {44, 113, 142}, {33, 144, 141},
                                         {39, 173, 129}, {92, 200, 99}, {170, 220, 50}, {253, 231, 37}};
 
@@ -151,7 +152,7 @@ Vector middle_of(const std::map<int, AreaMoment> &leaflets) {
   return whole.centre();
 }
 
-// Returns the lines whose two ends are inside the grid. A leaflet that reaches into the wall meets no flow there.
+// Returns the lines whose two ends are inside the grid. Outside of the grid, for example in the wall, a leaflet meets no flow.
 vtkSmartPointer<vtkPolyData> lines_inside(vtkPolyData *lines, vtkUnstructuredGrid *grid) {
   vtkNew<vtkProbeFilter> probe;
   probe->SetInputData(lines);
@@ -233,7 +234,7 @@ Axes axes_through_two_leaflets(vtkPolyData *surface, const Axes &valve) {
   const std::map<int, AreaMoment> leaflets = moments_of_leaflets(surface);
   const Vector middle = middle_of(leaflets);
   std::vector<Axes> tried;
-  std::vector<double> distances;  // of the plane from the second nearest centre, or from the only centre
+  std::vector<double> distances;  // for each plane, from the second nearest centre or from the only centre
   for (int degrees = 0; degrees < 180; degrees += 15) {
     tried.push_back(turned_about_z(valve, degrees));
     const View view(RIIS_VTK_VIEW_VALVE_LONG, tried.back());
@@ -247,8 +248,8 @@ Axes axes_through_two_leaflets(vtkPolyData *surface, const Axes &valve) {
     std::sort(from_centres.begin(), from_centres.end());
     distances.push_back(from_centres[std::min<std::size_t>(1, from_centres.size() - 1)]);
   }
-  // Several planes are nearly as good as the best, for example three planes of a valve with three cusps. The first of these is
-  // taken, so that the view stays the same while the valve opens.
+  // Several planes are nearly as good as the best, for example three planes of a valve with three cusps. The first of these
+  // planes is taken, so that the view stays the same while the valve opens.
   const auto [least, most] = std::minmax_element(distances.begin(), distances.end());
   const double good = *least + 0.2 * (*most - *least);
   const auto first =

@@ -21,8 +21,8 @@ namespace riis::vtk {
 // A velocity at the nodes of a mesh.
 struct Flow {
   vtkSmartPointer<vtkUnstructuredGrid> grid;  // its only point array is the velocity
-  std::string unit;                           // of the velocity; "" if the file does not tell
-  std::string time;                           // the folder of a time of OpenFOAM; otherwise ""
+  std::string unit;                           // the unit of the velocity; "" if the file states none
+  std::string time;                           // the folder of a time of OpenFOAM; "" for other files
 };
 
 // Finds the velocity by the name of a point array or cell array with three components. If the mesh was read from a time of

@@ -81,7 +81,8 @@ std::vector<std::uint8_t> marked_nodes(vtkUnstructuredGrid *grid) {
   return nodes;
 }
 
-// Returns one value for each cell of the grid. Cells whose dimension is below the largest in the grid count as not marked.
+// Returns for each cell of the grid whether the cell is wholly marked, partly marked or not marked. Cells whose dimension is
+// below the largest in the grid count as not marked.
 std::vector<std::uint8_t> marked_parts(vtkUnstructuredGrid *grid, const std::vector<std::uint8_t> &marked) {
   const int dimension = largest_dimension(grid);
   std::vector<std::uint8_t> parts(static_cast<std::size_t>(grid->GetNumberOfCells()), not_marked);

@@ -148,8 +148,8 @@ void add_scale_bar(vtkRenderer *renderer, const Layout &layout, double x, double
   add_fitting_text(renderer, text.str(), after, y, right - after, layout.letter(), ink);
 }
 
-// Adds arrows for x, y and z. An arrow is as long as its axis appears in the view. If an axis points towards the eye, its name
-// stands at the origin of the arrows.
+// Adds arrows for x, y and z. The length of an arrow shows how long its axis appears in the view. If an axis points towards the
+// eye, its name stands at the origin of the arrows.
 void add_axes(vtkRenderer *renderer, const Layout &layout, double x, double y, double length, const View &view,
               const Colour &ink) {
   const char *const names[3] = {"x", "y", "z"};
@@ -224,8 +224,8 @@ void add_speed_bar(vtkRenderer *renderer, const Layout &layout, double x, double
   add_fitting_text(renderer, upper_end, end + gap, y, right - end - gap, layout.letter(), ink);
 }
 
-// Draws all texts of a picture in a layer behind its panels. The number at the scale bar is followed by `unit`. With has_plural,
-// the unit ends in an s if the number is not 1.
+// Draws all texts of a picture in a layer behind its panels. At the scale bar, `unit` follows the number. If has_plural is true,
+// the unit gets an s after every number except 1.
 vtkSmartPointer<vtkRenderer> texts_of_picture(const Layout &layout, const std::vector<PanelTexts> &columns,
                                               const View &view, const Sight &sight, const std::string &unit,
                                               bool has_plural, const Colour &ink) {
@@ -405,7 +405,7 @@ Scene::Scene(vtkUnstructuredGrid *grid, const riis_vtk_picture_options &options,
   }
   if (wall) {
     around_ = grid ? static_cast<vtkPointSet *>(grid) : wall.Get();
-    // Without captions, no key would explain the dashes, so the shell has none.
+    // Without captions, no key would explain the dashes, so the shell has no dashes.
     shell_.emplace(wall, style_.shell_grey, style_.line, layout_.line_width(),
                    style_.captions == RIIS_VTK_CAPTIONS_ALL);
   }
@@ -531,7 +531,7 @@ vtkSmartPointer<vtkImageData> Scene::three_views(std::int32_t first, const std::
   const auto whole = vtkSmartPointer<vtkImageData>::New();
   whole->SetDimensions(width, height, 1);
   whole->AllocateScalars(VTK_UNSIGNED_CHAR, style_.is_transparent ? 4 : 3);
-  for (int k = 0; k < 3; ++k)  // for a width that is not a multiple of the number of views
+  for (int k = 0; k < 3; ++k)  // fills pixels beside the views if the width is no multiple of n_views
     whole->GetPointData()->GetScalars()->FillComponent(
         k, style_.is_transparent ? 0 : std::round(255 * style_.background[k]));
   if (style_.is_transparent) whole->GetPointData()->GetScalars()->FillComponent(3, 0);

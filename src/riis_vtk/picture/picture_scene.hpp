@@ -124,8 +124,8 @@ struct KeyEntry {
 
 struct PanelTexts {
   std::vector<std::string> caption = {};  // one entry for each line, at most two
-  std::vector<KeyEntry> key = {};         // as many as fit are shown
-  std::string upper_end = {};             // of the bar of speeds, with its unit; "" if there is no bar
+  std::vector<KeyEntry> key = {};         // only the entries that fit are shown
+  std::string upper_end = {};             // the speed at the end of the bar, with its unit; "" if there is no bar
 };
 
 // The leaking edges, which are drawn in red. If `edges` is NULL, the texts do not mention leaks.
@@ -134,7 +134,7 @@ struct Leaks {
   const std::int64_t *edges = nullptr;
 };
 
-// The options that determine the looks of a picture.
+// The options that determine the appearance of a picture.
 struct Style {
   explicit Style(const riis_vtk_picture_options &options);
   Colour background;
@@ -161,7 +161,7 @@ class Scene {
  private:
   // Returns the view of the shown surface.
   View view_of(std::int32_t of);
-  // The half height of a panel is never below `least`.
+  // Returns the part of space that a panel shows. The half height of a panel is never below `least`.
   Sight sight(const View &view, const std::optional<Bounds> &seen, const Layout &layout, double least = 0) const;
   // Draws one view. A transparent picture has a fourth channel for the opacity.
   vtkSmartPointer<vtkImageData> shot(const View &view, const Sight &sight, const Layout &layout,
@@ -174,7 +174,7 @@ class Scene {
 
   Style style_;
   Axes axes_;                      // of the valve
-  std::optional<Axes> long_axes_;  // of RIIS_VTK_VIEW_VALVE_LONG, which is the same in all frames of a movie
+  std::optional<Axes> long_axes_;  // for RIIS_VTK_VIEW_VALVE_LONG; they are the same in all frames of a movie
   Layout layout_;                  // the layout of a picture with one view
   std::string unit_;               // "" if the caller gave none
   std::vector<std::string> leaflet_names_;

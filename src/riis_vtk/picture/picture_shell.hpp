@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The inputs are the faces of a wall. The result is a translucent shell with lighting, which is open at the wall's flat ends.
-// Lines show its rims.
+// The inputs are the faces of a wall. The result is a translucent shell with lighting. The shell is open at the wall's flat ends,
+// and lines show its rims.
 #pragma once
 
 #include <vtkSmartPointer.h>
@@ -21,8 +21,8 @@ class Shell {
   // `line` is the colour of the rims, and `pixels` is their width. `has_dashes` tells whether dashes show where the shell is cut.
   Shell(vtkPolyData *faces, double grey, const Colour &line, double pixels, bool has_dashes);
   void add_to(vtkRenderer *renderer) const;
-  // Turns the shell around the valve to a view. The shell is more opaque where it is seen at a grazing angle. If the shell
-  // extends beyond the panel, it is cut at the panel's side.
+  // Turns the shell to a view. The shell is more opaque where it is seen at a grazing angle. If the shell extends beyond the
+  // panel, it is cut at the panel's side.
   void look(const View &view, const Sight &sight);
 
  private:

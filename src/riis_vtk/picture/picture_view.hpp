@@ -66,9 +66,10 @@ struct Sight {
   bool is_cut() const { return cut_below[0] || cut_below[1] || cut_above[0] || cut_above[1]; }
 };
 
-// Returns the part of space to show, the sight. The sight always contains the surface. If the mesh is not much larger than the
-// surface along an axis, the sight contains the whole mesh along this axis. Pictures of a valve that moves in a mesh thus show
-// the same part of space, and can be compared. Along any other axis, the sight contains only the surroundings of the surface.
+// Returns the sight, which is the part of space that the panel shows. The sight always contains the surface. If the mesh is not
+// much larger than the surface along an axis, the sight contains the whole mesh along this axis. Pictures of a valve that moves
+// in a mesh thus show the same part of space, and can be compared. Along any other axis, the sight contains only the surroundings
+// of the surface.
 //   mesh    NULL if there is none
 //   aspect  the panel's width divided by its height
 //   least   the least half height of the panel, so that several views can have one scale

@@ -37,7 +37,7 @@ struct Block {
 using Grids = std::vector<vtkSmartPointer<vtkUnstructuredGrid>>;
 
 // Copies the arrays that all blocks have with the same type and number of components. `place` gives the position of each value in
-// the new array. If several blocks have a value for a position, the first block decides.
+// the new array. If several blocks have a value for one position, the value of the first of these blocks is taken.
 template <class DataOf, class Place>
 void join_arrays(const std::vector<Block> &blocks, vtkIdType n, const DataOf &data_of, const Place &place,
                  vtkDataSetAttributes *to) {
@@ -230,8 +230,8 @@ vtkSmartPointer<vtkUnstructuredGrid> read_exodus(const std::string &path, const 
   vtkNew<vtkExodusIIReader> reader;
   if (!reader->CanReadFile(path.c_str())) fail_file(path, "is not an Exodus file, or it is damaged or truncated");
   reader->SetFileName(path.c_str());
-  // Each block gets all points of the file. Therefore the blocks have the node numbers of the file, and shared nodes stay one
-  // node.
+  // Each block gets all points of the file. In every block, the nodes thus have their numbers in the file. A node that blocks
+  // share stays one node.
   reader->SetSqueezePoints(false);
   reader->SetApplyDisplacements(0);
   reader->UpdateInformation();

@@ -23,7 +23,7 @@ namespace {
 
 struct ElementType {
   int gmsh_type, n_nodes, vtk_type;
-  std::vector<int> order;  // gmsh's position of each of VTK's nodes, if the orders differ
+  std::vector<int> order;  // for each node in VTK's order, its position in gmsh's order; empty if both are equal
 };
 
 const ElementType *find_type(std::int64_t gmsh_type) {
@@ -363,7 +363,7 @@ class GmshFile {
       for (std::int64_t i = 0; i < n[dimension]; ++i) {
         const std::int64_t entity = in_.integer(int_bytes);
         if (are_parts) {
-          read_integers(2);  // the whole entity
+          read_integers(2);  // skips the dimension and the tag of the whole entity
           read_integers(in_.count(size_bytes, 2, "partitions of an entity"));
         }
         for (int k = 0; k < (dimension == 0 ? 3 : 6); ++k) in_.real(real_bytes);
@@ -423,8 +423,8 @@ class GmshFile {
     further_[k][element] = group;
   }
 
-  // In version 2, an element with several physical groups is listed once for each group, each time with another number. The
-  // reader keeps the first of an element's copies. Returns the number of copies that are left out. Equal elements within one
+  // In version 2, an element with several physical groups is listed once for each group, each time with another number. Of such
+  // copies of an element, the reader keeps the first. Returns the number of copies that are left out. Equal elements within one
   // group are all kept.
   std::int64_t drop_copies() {
     const bool are_grouped =
@@ -493,7 +493,7 @@ class GmshFile {
   static constexpr std::size_t most_groups = 16;  // further groups of an element
   Groups physical_;
   std::vector<Groups> further_;
-  std::vector<std::string> names_;  // numbers and names of groups of volumes, in turn
+  std::vector<std::string> names_;  // the numbers and the names of groups of volumes alternate
 };
 
 }  // namespace

@@ -106,8 +106,8 @@ void check_cell_sizes(const std::string &path, vtkUnstructuredGrid *grid) {
   }
 }
 
-// Checks the faces of a polyhedron. In VTK's array of faces, the part of a cell begins with the number of faces. The number is
-// followed by the size and the points of each face.
+// Checks the faces of a polyhedron. In VTK's array of faces, the part of a cell begins with the number of faces. After this
+// number, each face follows with its size and its points.
 void check_polyhedron(const std::string &path, vtkIdType cell_id, vtkIdType location, vtkIdTypeArray *faces,
                       vtkIdType n_points) {
   const vtkIdType n_values = faces->GetNumberOfValues();
@@ -135,8 +135,8 @@ void check_polyhedra(const std::string &path, vtkUnstructuredGrid *grid) {
   }
 }
 
-// Also reads the faces of polyhedra in the layout of VTK 9.4 and later. Older releases of VTK ignore the new layout. In the new
-// layout, each polyhedron refers to faces in a common list, and each face refers to its corners.
+// A reader that also reads the faces of polyhedra in the layout of VTK 9.4 and later. Older releases of VTK ignore the new
+// layout. In the new layout, each polyhedron refers to faces in a common list, and each face refers to its corners.
 class GridReader : public WatchedReader<vtkXMLUnstructuredGridReader> {
  public:
   static GridReader *New() { VTK_STANDARD_NEW_BODY(GridReader); }

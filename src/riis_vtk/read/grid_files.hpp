@@ -19,7 +19,8 @@ class vtkXMLDataParser;
 
 namespace riis::vtk {
 
-// Reads an unstructured grid from a file. All formats of docs/formats.md are allowed. Only a piece of a mesh may have no points.
+// Reads an unstructured grid from a file. All formats of docs/formats.md are allowed. A grid without points is accepted only if
+// it is a piece of a mesh.
 enum class Points { required, may_be_missing };
 vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::string &path, const CaughtOutput &caught,
                                                Points points = Points::required);
@@ -33,7 +34,7 @@ void check_grid(const std::string &path, vtkUnstructuredGrid *grid);
 // Reads polydata with at least one point from an XML file .vtp. The polydata may have only polygons and strips as cells.
 vtkSmartPointer<vtkPolyData> read_polydata(const std::string &path, const CaughtOutput &caught);
 
-// Reads a legacy .vtk file with polydata or a grid. The data is checked as by read_polydata and read_grid.
+// Reads a legacy .vtk file with polydata or a grid. The data is checked as read_polydata and read_grid check it.
 vtkSmartPointer<vtkPointSet> read_legacy_surface(const std::string &path, const CaughtOutput &caught);
 
 // The numbers of nodes of a structured grid along its axes.
@@ -50,15 +51,15 @@ struct Lattice {
 // Fails if the grid has no points, or more points than a mesh may have.
 void check_lattice(const std::string &path, const Lattice &lattice);
 
-// Returns the content of a legacy .vtk file. Fails for other kinds of data, and for an incomplete file. VTK's legacy reader
-// believes every count in a file. VTK's legacy reader takes a truncated file for a smaller mesh, and ends the process on some
-// files. Therefore the sections are checked here before VTK reads them.
+// Returns the content of a legacy .vtk file. Fails for a kind of data that is not allowed, and for an incomplete file. VTK's
+// legacy reader believes every count in a file. VTK's legacy reader takes a truncated file for a smaller mesh, and ends the
+// process on some files. Therefore the sections are checked here before VTK reads them.
 enum class LegacyKind { unstructured_grid, polydata, structured_points, rectilinear_grid, structured_grid };
 enum class LegacyKinds { grid, grid_or_polydata };
 struct LegacyContent {
   LegacyKind kind;
   std::int64_t n_cells;
-  // The file's bytes with VTK's names of types. The text is empty unless meshio has written other names.
+  // The file's bytes, with meshio's names of types replaced by VTK's names. The text is empty if the file has no names of meshio.
   std::string rewritten;
 };
 LegacyContent check_legacy(const std::string &path, LegacyKinds allowed);
@@ -108,7 +109,7 @@ class XmlSizes {
   const std::string &path_;
   MappedFile file_;
   std::string_view bytes_;
-  // The size of an element that was checked: its number of bytes, or the number of numbers in its text.
+  // The size of an element that was checked: how many bytes it has, or how many numbers its text has.
   struct Held {
     std::uint64_t n = 0;
     bool is_text = false;

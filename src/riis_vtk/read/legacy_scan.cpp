@@ -36,7 +36,7 @@ int size_of_type(std::string_view type) {
   return is_in({"string", "utf8_string"}) ? 0 : -1;
 }
 
-// Maps names of types that meshio writes, but VTK does not know, to VTK's names.
+// Returns VTK's names for the types whose names in files of meshio are unknown to VTK.
 const std::map<std::string, std::string> &vtk_names() {
   static const std::map<std::string, std::string> names = {
       {"vtktypeint8", "signed_char"},    {"vtktypeint16", "short"},           {"vtktypeint32", "int"},
@@ -168,7 +168,7 @@ class Scan {
   }
   std::string next() { return lower_case(next_as_it_is()); }
 
-  // Returns the next word as the name that VTK has for this type.
+  // Reads the name of a type, and returns VTK's name for this type.
   std::string next_type() {
     const std::string_view text = next_as_it_is();
     const std::string name = lower_case(text);
@@ -486,8 +486,7 @@ class Scan {
     if (n_left != 0) refuse("has ", name, " with ", n_left, " numbers too many");
   }
 
-  // Returns the values of an array. The word before the values was the type of the array. The values begin on the next line of
-  // the file.
+  // Returns the values of an array. The type of the array has just been read. The values begin on the next line of the file.
   std::string_view values_behind_line() const {
     std::string_view values = rest_;
     take_line(values);
@@ -605,7 +604,7 @@ class Scan {
 
   const std::string &path_;
   std::string_view bytes_, rest_;
-  std::vector<std::string_view> meshio_types_;  // where the file has them
+  std::vector<std::string_view> meshio_types_;  // names of types that meshio wrote, at their places in the file
   std::int64_t version_ = 0;                    // major version
   bool binary_ = false;
   LegacyKind kind_ = LegacyKind::unstructured_grid;
@@ -615,8 +614,8 @@ class Scan {
   std::int64_t n_cells_ = -1;                    // -1 if not known yet
   std::int64_t n_types_ = -1;
   std::int64_t n_points_ = 0;
-  // Views of the arrays of cells. Each view begins at its array. Files up to version 4 have no offsets: a cell is its number of
-  // corners, followed by its corners.
+  // Views of the arrays of cells. Each view begins at its array. Files up to version 4 have no offsets. In such files, each cell
+  // begins with its number of corners, and the corners follow.
   std::string_view types_, offsets_, corners_;
   std::string type_of_offsets_ = "int", type_of_corners_ = "int";
   std::int64_t n_corners_ = 0;

@@ -26,7 +26,8 @@ class ObjFile {
   vtkSmartPointer<vtkUnstructuredGrid> read() {
     in_.skip(bytes_.size() - without_byte_order_mark(bytes_).size());
     while (!in_.rest().empty()) {
-      // `rest` is a copy, so `in_` still stands at the first line of the statement, which error messages name.
+      // Error messages name the line at which `in_` stands. Only the copy `rest` moves on, so `in_` still stands at the
+      // statement's first line.
       std::string_view rest = in_.rest();
       read_statement(statement(rest));
       in_.skip(in_.rest().size() - rest.size());
@@ -36,8 +37,8 @@ class ObjFile {
   }
 
  private:
-  // Removes one statement from the text and returns it. A backslash at the end of a line joins the next line to it, except in a
-  // comment.
+  // Removes one statement from the text and returns it. If a line ends in a backslash, the next line belongs to the same
+  // statement, except in a comment.
   std::string_view statement(std::string_view &text) {
     joined_.clear();
     for (;;) {

@@ -473,7 +473,7 @@ void add_cells(const std::string &path, const Faces &faces, PlainGrid &mesh) {
   }
 }
 
-// Reads the mesh of a folder. Returns whether its numbers have single precision.
+// Reads the mesh of a folder. Returns whether the numbers in its files have single precision.
 bool read_folder(const Folders &folders, PlainGrid &mesh) {
   FoamFile points(folders.points, "points");
   points.read_points(mesh.xyz);
@@ -484,8 +484,8 @@ bool read_folder(const Folders &folders, PlainGrid &mesh) {
 
 // ---- Decomposed cases ----
 
-// Returns the ids in the whole mesh of the nodes or the cells of all parts. Fails if the ids are not exactly the numbers from 0
-// to the largest id.
+// Returns the ids that the nodes or the cells of the parts have in the whole mesh, in one list for each part. Fails if the ids
+// are not exactly the numbers from 0 to the largest id.
 std::vector<Ids> read_addresses(const std::vector<fs::path> &folders, const char *name, const Ids &sizes) {
   std::vector<Ids> all;
   std::int64_t n_claimed = 0, most = -1;

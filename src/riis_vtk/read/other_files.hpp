@@ -20,7 +20,8 @@
 
 namespace riis::vtk {
 
-// The field array of a grid whose numbers have single precision in the file. riis_vtk_mesh_get_notes reads it.
+// The name of a field array with a note, which a reader adds if the numbers in the file have single precision.
+// riis_vtk_mesh_get_notes returns this note.
 inline constexpr const char *note_array = "riis_note";
 // The cell array with the first physical group of each cell, as gmsh gives it. Arrays with this name and an added _2, _3 and so
 // on have further groups, or 0.
@@ -140,7 +141,7 @@ struct XmlElement {
 // Returns the outermost element. Fails if the file is truncated or is not XML. Elements may be nested at most 64 deep.
 XmlElement parse_xml(const std::string &path, std::string_view bytes);
 
-// Returns the text, in which the five predefined entities are replaced.
+// Returns the text with the five predefined entities replaced by their characters.
 std::string plain_text(std::string_view text);
 
 // Reads datasets of HDF5 files. Only hdf5_file.cpp includes HDF5's headers, and riis_vtk can be built without HDF5. A damaged

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads Stanford's .ply files, as text or binary. Vertices and polygons are read, and single numbers of each face become cell
-// arrays. Other elements and lists are skipped.
+// Reads Stanford's .ply files, as text or binary. Vertices and polygons are read. A property of the faces becomes a cell array if
+// it is a single number for each face. Other elements and lists are skipped.
 #include <algorithm>
 #include <set>
 #include <vector>

@@ -104,7 +104,7 @@ Sizes sizes_of(DataSet *data) {
   return {sizes[0], sizes[1], sizes[2]};
 }
 
-// Returns the axes if each axis has at least two nodes and strictly ascends.
+// Returns the axes if each axis is finite, strictly ascends and has at least two nodes. Otherwise returns NULL.
 std::unique_ptr<const GridAxes> usable(GridAxes axes) {
   for (const std::vector<double> &axis : axes.of) {
     const bool ascends =

@@ -36,7 +36,7 @@ struct GridAxes {
 // Adds the cells of a structured grid, which has n nodes along each axis, to a grid of points.
 void add_structured_cells(vtkUnstructuredGrid *grid, const std::array<std::int64_t, 3> &n);
 
-// Gives a data set all arrays of another data set: the arrays on points, on cells and on the whole.
+// Gives a data set all arrays of another data set: the arrays of its points and cells, and its field arrays.
 void share_arrays(vtkDataSet *from, vtkDataSet *to);
 
 // Returns whether the file has a structured grid. Looks at the file's ending, and in a legacy file at the header.

@@ -152,8 +152,9 @@ class WatchedReader : public Reader {
                                       // polyhedra
 };
 
-// Explains why a file could not be read. VTK 9.1 crashes when it writes its message about an unreadable array. The first reader
-// therefore ran without VTK's messages. A second reader skips the arrays, and reports all other faults.
+// Explains why a file could not be read. VTK 9.1 crashes when it writes its message about an unreadable array. The file was
+// therefore first read without VTK's messages. This function reads it again without the arrays, so that VTK reports all other
+// faults.
 template <class Watched>
 [[noreturn]] void explain_failure(const std::string &path, const CaughtOutput &caught) {
   vtkNew<Watched> reader;

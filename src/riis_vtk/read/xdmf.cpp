@@ -154,7 +154,7 @@ class XdmfFile {
     return *item;
   }
 
-  // FEniCS writes the attribute as NumberType, and meshio writes it as DataType.
+  // FEniCS names this attribute NumberType, and meshio names it DataType.
   static std::string type_of(const XmlElement &item) {
     return lower_case(item.attribute("NumberType").empty() ? item.attribute("DataType") : item.attribute("NumberType"));
   }
@@ -360,7 +360,7 @@ class XdmfFile {
   }
 
   // Reads cells of several types. Each cell consists of the number of its type, followed by its nodes. If a type has no fixed
-  // number of nodes, the number precedes the nodes.
+  // number of nodes, the number of nodes comes before the nodes.
   void read_mixed(const std::vector<std::int64_t> &values, std::int64_t base) {
     std::int64_t at = 0;
     const std::int64_t end = view(values).size();
@@ -485,7 +485,7 @@ class XdmfWriter {
     const std::int64_t n_cells = grid_->GetNumberOfCells();
     std::vector<std::int64_t> values;
     bool is_mixed = false;
-    std::int64_t without_number = -1;  // a cell that a mixed list cannot have
+    std::int64_t without_number = -1;  // the first cell that a mixed list cannot contain
     for (std::int64_t cell = 0; cell < n_cells; ++cell) {
       const int type = grid_->GetCellType(cell);
       const Topology *const of_cell = topology_of(grid_, cell);

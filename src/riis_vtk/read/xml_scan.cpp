@@ -174,8 +174,8 @@ void XmlSizes::refuse(vtkXMLDataElement *element, const Parts &...parts) const {
   fail_file(path_, "is damaged: array ", name ? std::string(name).substr(0, 40) : "without a name", " ", parts...);
 }
 
-// Finds the data in the same way as VTK. If an element has an offset, its data is appended, and its attribute "format" does not
-// count.
+// Finds the data in the same way as VTK. If an element has an offset, its data is appended, and its attribute "format" is
+// ignored.
 XmlSizes::ArrayData XmlSizes::data_of(vtkXMLDataParser *parser, vtkXMLDataElement *element) const {
   const std::size_t size = bytes_.size();
   if (element->GetAttribute("offset")) {

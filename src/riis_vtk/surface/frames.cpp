@@ -185,7 +185,7 @@ void check_places(const std::string &path, const std::vector<double> &xyz, const
 
 // Appends a frame. frames.times must already have the times of all frames.
 void add_frame(Frames &frames, const std::vector<double> &xyz) {
-  // The memory for all frames is reserved at once. An array that grows by doubling may need twice its memory.
+  // The memory for all frames is reserved at once. An array that grows by doubling may need twice as much memory.
   if (frames.xyz.empty()) frames.xyz.reserve(xyz.size() * frames.times.size());
   frames.xyz.insert(frames.xyz.end(), xyz.begin(), xyz.end());
 }
@@ -250,7 +250,7 @@ Frames frames_of_text(const std::string &path, double time_step, const LeafletAr
   const std::int64_t n_frames = in.integer(8), n_nodes = in.integer(8);
   if (n_frames < 1 || n_frames > most_frames)
     in.refuse("there are ", n_frames, " frames; 1 to ", most_frames, " are read");
-  constexpr int least_bytes = 5;  // three numbers take at least this
+  constexpr int least_bytes = 5;  // three numbers take at least this many
   in.check_count(n_nodes, least_bytes * n_frames, "nodes in each frame");
   const std::string face_path = face_file_of(path);
   const vtkSmartPointer<vtkPointSet> data = read_surface_data(face_path, caught);

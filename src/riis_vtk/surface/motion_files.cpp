@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The motion of a surface, as in riis_vtk.h. Reads the frames of a surface from files, into arrays for the core's keyframes. Also
-// reads ParaView's lists of files in time.
+// The functions of riis_vtk.h for motions of surfaces. Reads the frames of a surface from files, into arrays for the core's
+// keyframes. Also reads ParaView's lists of files in time.
 #include <riis/riis_vtk.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ struct riis_vtk_motion {
 namespace riis::vtk {
 namespace {
 
-// A DataSet element, whose texts are as in the file.
+// The attributes of a DataSet element, as texts that are not yet checked.
 struct NamedDataSet {
   std::optional<std::string> file, timestep;
 };

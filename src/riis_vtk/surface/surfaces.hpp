@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads a surface from a file or takes a surface from the core, and makes a data set of this surface. Makes plain arrays for the
-// core from the data set, with a leaflet id for each face. Also finds pieces of faces that are connected.
+// core from the data set, with a leaflet id for each face. Also finds the connected pieces of a surface's faces.
 #pragma once
 
 #include <cmath>

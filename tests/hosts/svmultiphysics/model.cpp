@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes steps of an invented svMultiPhysics with valves, for examples/svmultiphysics/uris_riis.cpp and uris_check.cpp. The
-// functions of the solver that these files call are rewritten here.
+// Runs time steps of a small model of svMultiPhysics with valves, for examples/svmultiphysics/uris_riis.cpp and uris_check.cpp.
+// The functions of the solver that these files call are rewritten here.
 //   model CASE   beat     a valve with a box, a scaffold, a ramp of the half thickness and a solid beside the fluid
 //                two      two valves, of which one is scaled and has no velocities
 //                remesh   a beat with other nodes from step 9 on
@@ -23,7 +23,7 @@ void sv_factors(const ComMod &com_mod, const mshType &mesh, const fsType &space,
 void uris_compute_expanded_bbox(const Array<double> &x, const int nsd, const double expansion, Vector<double> &low,
                                 Vector<double> &high);
 
-// A node belongs to the fluid if one of its elements does.
+// A node belongs to the fluid if at least one of its elements belongs to the fluid.
 void uris_build_fluid_node_mask(ComMod &com_mod) {
   com_mod.urisFluidNodeMask.resize(com_mod.tnNo, false);
   for (const mshType &mesh : com_mod.msh) {
@@ -187,7 +187,7 @@ Array<double> flaps(double angle, bool box, double scale) {
       }
     }
   }
-  // The middle of each triangle of the box is that of the first triangle of the first flap.
+  // All triangles of the box have the same middle as the first triangle of the first flap.
   const int corners[3] = {0, n_quads + 2, n_quads + 1};
   const double wide[3] = {1.25, -1.25, 0}, thin[3] = {0.125, 0.125, -0.25};
   for (int axis = 0; box && axis < 3; ++axis) {
@@ -269,7 +269,7 @@ void add_scaffold(urisType &uris) {
   uris.scaffold_flag = true;
 }
 
-// Does the solver's work at its start and after it has made a new mesh.
+// Does what the solver does at its start and after each new mesh.
 void initialize(ComMod &com_mod) {
   for (urisType &uris : com_mod.uris) {
     uris.sdf.resize(com_mod.tnNo);
@@ -309,7 +309,7 @@ void run(const std::string &name) {
   const fsType spaces[2] = {make_space(4), make_space(5)};
   for (com_mod.cTS = 1; com_mod.cTS <= 17; ++com_mod.cTS) {
     if (name == "remesh" && com_mod.cTS == 9) {
-      make_mesh(com_mod, 6, 2);  // the same number of nodes, so that no length shows the change
+      make_mesh(com_mod, 6, 2);  // the same number of nodes, so that no array's length shows the change
       initialize(com_mod);
     }
     if (com_mod.cTS == 3 || com_mod.cTS == 11) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stands for svMultiPhysics's uris.h and the classes behind it. This header only has the members that examples/svmultiphysics
-// uses, with the solver's names. model.cpp defines the functions.
+// Takes the place of svMultiPhysics's uris.h and of the classes that it uses. This header has only the members that
+// examples/svmultiphysics uses, with the solver's names. model.cpp defines the functions.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ class Vector {
   }
   void resize(int size) { values_.assign(size, T{}); }
   int size() const { return static_cast<int>(values_.size()); }
-  T *data() const { return const_cast<T *>(values_.data()); }  // the solver's data() also forgets const
+  T *data() const { return const_cast<T *>(values_.data()); }  // the solver's data() also removes const
   T &operator()(int i) { return values_.at(i); }
   const T &operator()(int i) const { return values_.at(i); }
   Vector operator-(const Vector &other) const {
