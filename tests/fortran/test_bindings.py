@@ -130,7 +130,8 @@ class Fields(Planted):
                       "    integer(c_int32_t) :: last\n  end type riis_mark_options\n", self.text(MODULE))
 
     def test_the_order_is_that_of_the_header(self):
-        self.plant(HEADER, "  int64_t n_curves;          /* the number", "  int64_t planted;\n  int64_t n_curves;          /* the number")
+        field = "  int64_t n_curves;          /* the number"
+        self.plant(HEADER, field, "  int64_t planted;\n" + field)
         self.writes()
         self.assertIn(":: struct_size\n    integer(c_int64_t) :: planted\n    integer(c_int64_t) :: n_curves\n",
                       self.text(MODULE))
