@@ -200,7 +200,7 @@ TEST(contradictions_are_refused) {
    * residual is then near the horn. */
   REFUSED(
       "the axis of the fitted valve is at |degrees to the annulus' normal; it must be at most 20; the horns' heights "
-      "make the valve lean: landmark 16 (anterior_horn) is |above and landmark |the annulus' sides|look for a misplaced horn",
+      "make the valve lean: landmark 16 (anterior_horn) is |above and landmark |the annulus' sides|misplaced horn",
       m.xyz[16][2] += 25);
   REFUSED(
       "the horns' heights make the valve lean: landmark 16 (anterior_horn) is |above and landmark 17 (posterior_horn) "
