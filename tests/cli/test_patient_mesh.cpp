@@ -191,8 +191,8 @@ void expect_files(const std::string &folder, const PatientMesh &mesh, double uni
   }
 }
 
-// Makes meshes in random vessels by the gmsh in PATH.
-void random_meshes(random_source &random, const std::string &folder) {
+// Makes meshes in random vessels by the gmsh in PATH. Without gmsh nothing calls this function.
+[[maybe_unused]] void random_meshes(random_source &random, const std::string &folder) {
   const int n = trials(2, 30);
   for (int trial = 0; trial < n; ++trial) {
     here = "mesh " + std::to_string(trial);
