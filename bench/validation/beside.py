@@ -71,8 +71,7 @@ def beside(valve, opening, runs, kept):
 def mean_of_meshes(run, runs, walls):
     """Returns the areas of this case in all meshes with two edges in eps. Also returns words on their range, if there are several
     meshes. In a narrow valve, one mesh says little, because few cells lie between the leaflets."""
-    areas = [one.area for one in runs
-             if (one.eps, one.offset) == (run.eps, run.offset) and abs(one.eps / one.size - 2) < 1e-6]
+    areas = [one.area for one in runs if one.has_two_edges and (one.eps, one.offset) == (run.eps, run.offset)]
     if len(areas) < 2:
         return areas, ""
     off = 100 * (numpy.array(areas) / walls - 1)

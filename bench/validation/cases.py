@@ -40,8 +40,9 @@ class Run:
         self.eps = 0.0 if self.fitted else float(words[0])
         self.size = float(words[0 if self.fitted else 1])
         self.far = float(words[1]) if self.fitted and len(words) > 1 else 0.13
-        # Tells whether the band has two edges in eps, and the mesh has no other options.
-        self.usual = kind == "riis" and abs(self.eps / self.size - 2) < 1e-6 and len(words) < 6
+        # Tells whether the band has two edges in eps. A usual mesh also has no other options.
+        self.has_two_edges = kind == "riis" and abs(self.eps / self.size - 2) < 1e-6
+        self.usual = self.has_two_edges and len(words) < 6
         self.resistance = float(words[3]) if kind == "riis" else None
         self.offset = float(words[4]) if kind == "riis" and len(words) > 4 else None
         mesh = self.name

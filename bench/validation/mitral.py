@@ -15,7 +15,10 @@ ANTERIOR_RATIO, AP, ALPM, ALPM_POSITION, IT, INDENT = 0.41, 3.0, 4.0, 0.55, 2.5,
 ANTERIOR_HORN, POSTERIOR_HORN, ANTERIOR, COMMISSURE, SCALLOP = 0.8, 0.6, 2.12, 0.8, 1.35
 EDGE_ARC, INWARD, ARC = np.radians([120, 75, 20])
 TRIANGLE = 0.1
-COMMISSURE_AT = 0.5 - ANTERIOR_RATIO / 2
+# Places on half the annulus, as fractions of its length from the posterior point: the cleft, the commissure, and the end of the
+# triangle at the commissure.
+AT_COMMISSURE = 1 - ANTERIOR_RATIO
+AT_CLEFT, AFTER_TRIANGLE = AT_COMMISSURE / 3, AT_COMMISSURE + 2 * TRIANGLE
 SHRUNK = 0.98  # the size of the inflow tube, relative to the annulus
 INFLOW, OUTFLOW, CHAMBER = 1.5, 3.4, 2.6  # lengths before and behind the annulus, and the radius of the chamber
 N = 12  # steps of u and of v between the points of a patch
@@ -87,9 +90,8 @@ def edges(opening):
         x, y, _ = annulus.tangent(np.array(at))
         return np.array([-y, x, 0]) / np.hypot(x, y)
 
-    at, cleft = 2 * COMMISSURE_AT, 2 * COMMISSURE_AT / 3  # in shares of half the annulus
     # closed: both leaflets share one edge in the plane z = 0
-    end = (closed(at) + COMMISSURE * inward(closed, at)) * [1, 1, 0]
+    end = (closed(AT_COMMISSURE) + COMMISSURE * inward(closed, AT_COMMISSURE)) * [1, 1, 0]
     shared = edge(end, mirrored(end), (closed(1) + ANTERIOR * inward(closed, 1)) * [1, 1, 0])
     whole = Curve([shared])
     parameter = np.interp([1 / 3, 2 / 3], whole.share, np.linspace(0, 1, len(whole.share)))
@@ -98,8 +100,8 @@ def edges(opening):
     def hanging(share, length):
         return flat(share) + length * (np.cos(INWARD) * inward(flat, share) - np.sin(INWARD) * np.array([0, 0, 1]))
 
-    commissure, tip = hanging(at, COMMISSURE), hanging(cleft, COMMISSURE)
-    open_edges = (edge(commissure, tip, hanging(2 * cleft, SCALLOP)), edge(tip, mirrored(tip), hanging(0, SCALLOP)),
+    commissure, tip = hanging(AT_COMMISSURE, COMMISSURE), hanging(AT_CLEFT, COMMISSURE)
+    open_edges = (edge(commissure, tip, hanging(2 * AT_CLEFT, SCALLOP)), edge(tip, mirrored(tip), hanging(0, SCALLOP)),
                   edge(commissure, mirrored(commissure), hanging(1, ANTERIOR)))
     side, middle, anterior = ((1 - opening) * a + opening * b for a, b in zip((*thirds, shared), open_edges))
     return part(middle, 0.5, 0), part(side, 1, 0), part(anterior, 0, 0.5)
@@ -110,9 +112,9 @@ def patches(opening):
     triangle at the commissure is one point."""
     annulus = Curve(annulus_cubics(opening))
     middle, side, anterior = (Curve([cubic]) for cubic in edges(opening))
-    at, cleft, behind = 2 * COMMISSURE_AT, 2 * COMMISSURE_AT / 3, 2 * (COMMISSURE_AT + TRIANGLE)
     found = []
-    for first, last, free in ((0, cleft, middle), (cleft, at, side), (at, behind, None), (behind, 1, anterior)):
+    for first, last, free in ((0, AT_CLEFT, middle), (AT_CLEFT, AT_COMMISSURE, side), (AT_COMMISSURE, AFTER_TRIANGLE, None),
+                              (AFTER_TRIANGLE, 1, anterior)):
         share = np.linspace(0, 1, N + 1)
         u = first + (last - first) * share
         base, along = annulus(u), annulus.tangent(u)

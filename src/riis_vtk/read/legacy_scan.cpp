@@ -36,7 +36,7 @@ int size_of_type(std::string_view type) {
   return is_in({"string", "utf8_string"}) ? 0 : -1;
 }
 
-// Returns VTK's names for the types whose names in files of meshio are unknown to VTK.
+// meshio writes names of types that VTK does not know. Returns VTK's name for each of them.
 const std::map<std::string, std::string> &vtk_names() {
   static const std::map<std::string, std::string> names = {
       {"vtktypeint8", "signed_char"},    {"vtktypeint16", "short"},           {"vtktypeint32", "int"},
